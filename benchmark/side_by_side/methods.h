@@ -1,0 +1,117 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef HLSCM_BENCHMARK_SIDE_BY_SIDE_METHODS_H
+#define HLSCM_BENCHMARK_SIDE_BY_SIDE_METHODS_H
+
+#include "cgal_peers.h"
+#include "library_methods.h"
+
+#include <CGAL/Surface_mesh_parameterization/Distortion_measures.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace side_by_side {
+
+// Which energy a method minimises.
+enum class Energy { EXACT, CGAL_LSCM };
+
+struct Method
+{
+  std::string name;
+  Energy energy;
+  bool is_direct; // its result is the minimum that the others with this energy are compared with
+  std::function<Measurement(Surface_mesh&, const Pins&, Uv_map)> run;
+};
+
+namespace internal {
+
+inline Method library_method(const std::string& name, const SMP::HLSCM_options& options)
+{
+  return {name, Energy::EXACT, options.method == SMP::Conformal_method::DIRECT,
+          [options](Surface_mesh& mesh, const Pins& pins, Uv_map uvmap) {
+            return run_library(mesh, pins, uvmap, options);
+          }};
+}
+
+inline SMP::HLSCM_options options_of(SMP::Conformal_method method, double tolerance)
+{
+  SMP::HLSCM_options options;
+  options.method = method;
+  options.tolerance = tolerance;
+  if(method == SMP::Conformal_method::CASCADIC)
+    options.level_ratio = 0; // the paper's
+  return options;
+}
+
+inline SMP::HLSCM_options options_of(SMP::Monogrid_preconditioner preconditioner)
+{
+  SMP::HLSCM_options options = options_of(SMP::Conformal_method::LSCM, 1e-2);
+  options.preconditioner = preconditioner;
+  return options;
+}
+
+inline SMP::HLSCM_options options_of(SMP::Decimation_engine engine)
+{
+  SMP::HLSCM_options options = options_of(SMP::Conformal_method::HLSCM, 1e-4);
+  options.engine = engine;
+  return options;
+}
+
+} // namespace internal
+
+// All methods, the direct ones first: the others are measured against them.
+inline std::vector<Method> all_methods()
+{
+  using namespace internal;
+  using SMP::Conformal_method;
+  return {
+      library_method("direct", options_of(Conformal_method::DIRECT, 1e-2)),
+      {"cgal_lscm_cholmod", Energy::CGAL_LSCM, true, run_cgal_lscm_cholmod},
+      {"cgal_lscm_default", Energy::CGAL_LSCM, true, run_cgal_lscm<CGAL::Default>},
+      {"cgal_lscm_cg", Energy::CGAL_LSCM, false, run_cgal_lscm_cg},
+      library_method("lscm_jacobi", options_of(SMP::Monogrid_preconditioner::JACOBI)),
+      library_method("lscm_sgs", options_of(SMP::Monogrid_preconditioner::SYMMETRIC_GAUSS_SEIDEL)),
+      library_method("cascadic", options_of(Conformal_method::CASCADIC, 1e-2)),
+      library_method("hlscm_1e-2", options_of(Conformal_method::HLSCM, 1e-2)),
+      library_method("hlscm_1e-4", options_of(Conformal_method::HLSCM, 1e-4)),
+      library_method("hlscm_flat", options_of(SMP::Decimation_engine::FLAT)),
+      library_method("hlscm_flat_strict", options_of(SMP::Decimation_engine::FLAT_STRICT)),
+      library_method("hlscm_cgal_engine", options_of(SMP::Decimation_engine::CGAL)),
+  };
+}
+
+// The method of a name; null if there is none.
+inline const Method* find_method(const std::vector<Method>& methods, const std::string& name)
+{
+  for(const Method& method : methods)
+    if(method.name == name)
+      return &method;
+  return nullptr;
+}
+
+// Runs a method on a chart, in this process, and measures its result: both energies with the same
+// pins, and the triangles that are flipped. The peak memory is that of reading and running.
+inline Measurement run_method(const Method& method, const std::string& chart_path)
+{
+  Surface_mesh mesh = charts::make_surface_mesh(charts::read_chart(chart_path));
+  const double mesh_memory = peak_memory_mb();
+  auto uvmap = mesh.add_property_map<Vertex, Kernel::Point_2>("v:uv").first;
+  Measurement measurement = method.run(mesh, far_border_pins(mesh), uvmap);
+  const SMP::Distortion_measures distortion = SMP::measure_distortion(mesh, uvmap);
+  measurement.numbers.insert({{"faces", double(mesh.number_of_faces())},
+                              {"vertices", double(mesh.number_of_vertices())},
+                              {"mesh_memory_mb", mesh_memory},
+                              {"energy", distortion.conformal_energy},
+                              {"energy_cgal", cgal_lscm_energy(mesh, uvmap)},
+                              {"flips", double(distortion.flipped_faces)},
+                              {"quasi_conformal_99", distortion.quasi_conformal_99},
+                              {"area_scale_range", distortion.area_scale_range}});
+  return measurement;
+}
+
+} // namespace side_by_side
+
+#endif // HLSCM_BENCHMARK_SIDE_BY_SIDE_METHODS_H

@@ -1,0 +1,100 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "Interruption.h"
+
+#include "Program_error.h"
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <mutex>
+#include <thread>
+
+#include <unistd.h>
+
+namespace hlscm {
+namespace Interruption {
+namespace {
+
+constexpr std::chrono::milliseconds time_to_stop_by_itself(500);
+
+std::atomic<bool> requested(false);
+
+// Never destroyed: the waiting thread may outlive main().
+struct Clean_up
+{
+  std::mutex mutex;
+  std::function<void()> action;
+};
+
+Clean_up& clean_up()
+{
+  static Clean_up* instance = new Clean_up;
+  return *instance;
+}
+
+// nohup and non-interactive shells start background jobs with SIGINT ignored; that wish is kept.
+bool is_ignored(int signal)
+{
+  struct sigaction action;
+  return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+void wait_for_signal(sigset_t signals)
+{
+  int signal = 0;
+  if(sigwait(&signals, &signal) != 0) {
+    return;
+  }
+  requested = true;
+  std::this_thread::sleep_for(time_to_stop_by_itself);
+
+  std::lock_guard<std::mutex> lock(clean_up().mutex);
+  if(clean_up().action) {
+    clean_up().action();
+  }
+  const char message[] = "\r\033[Khlscm: cancelled\n";
+  const std::size_t skip = isatty(STDERR_FILENO) ? 0 : 4; // the code that erases a progress bar
+  [[maybe_unused]] const auto written =
+      write(STDERR_FILENO, message + skip, sizeof message - 1 - skip);
+  _exit(1);
+}
+
+} // namespace
+
+void install()
+{
+  sigset_t signals;
+  sigemptyset(&signals);
+  for(int signal : {SIGINT, SIGTERM}) {
+    if(!is_ignored(signal)) {
+      sigaddset(&signals, signal);
+    }
+  }
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::signal(SIGXFSZ, SIG_IGN); // a limit on file sizes is an error of writing, not the end
+  clean_up();
+  std::thread(wait_for_signal, signals).detach();
+}
+
+bool is_requested()
+{
+  return requested;
+}
+
+void check()
+{
+  if(requested) {
+    throw Cancelled();
+  }
+}
+
+void set_clean_up(std::function<void()> action)
+{
+  std::lock_guard<std::mutex> lock(clean_up().mutex);
+  clean_up().action = std::move(action);
+}
+
+} // namespace Interruption
+} // namespace hlscm

@@ -1,0 +1,34 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef HLSCM_PROGRAM_INTERRUPTION_H
+#define HLSCM_PROGRAM_INTERRUPTION_H
+
+#include <functional>
+
+namespace hlscm {
+
+/// Ctrl-C (SIGINT) and SIGTERM.
+///
+/// A thread of its own waits for the signal. It raises a flag that all loops of the program and the
+/// progress callback of the library poll; a stage that does not poll within half a second (a sparse
+/// factorization, say) is abandoned: the thread runs the clean-up and ends the process.
+namespace Interruption {
+
+/// Starts to listen; to be called once, before any other thread exists.
+void install();
+
+/// Whether the user asked to stop.
+bool is_requested();
+
+/// Throws `Cancelled` if the user asked to stop.
+void check();
+
+/// Sets what must happen before the process is ended from outside the main thread; empty for
+/// nothing.
+void set_clean_up(std::function<void()> clean_up);
+
+} // namespace Interruption
+} // namespace hlscm
+
+#endif // HLSCM_PROGRAM_INTERRUPTION_H

@@ -1,0 +1,71 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef HLSCM_PROGRAM_OUTPUT_FILES_H
+#define HLSCM_PROGRAM_OUTPUT_FILES_H
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hlscm {
+
+/// A file that is being written under a temporary name beside its final one.
+class Output_file
+{
+public:
+  /// Creates the temporary file; throws `Program_error` if that is impossible.
+  explicit Output_file(const std::filesystem::path& target);
+  ~Output_file();
+  Output_file(const Output_file&) = delete;
+  Output_file& operator=(const Output_file&) = delete;
+
+  void put(std::string_view bytes);
+  void put(double number); ///< the shortest text that reads back as the same number
+  void put(std::size_t number);
+  void close();
+
+private:
+  friend class Output_files;
+  [[noreturn]] void fail() const;
+
+  std::filesystem::path m_name;   // as the user wrote it, for messages
+  std::filesystem::path m_target; // with symbolic links resolved
+  std::filesystem::path m_temporary;
+  std::FILE* m_stream = nullptr;
+};
+
+/// All files that a run leaves behind: they appear under their names together, by `commit()`, or
+/// not at all. What was there before stays untouched until then.
+class Output_files
+{
+public:
+  Output_files();
+  ~Output_files();
+  Output_files(const Output_files&) = delete;
+  Output_files& operator=(const Output_files&) = delete;
+
+  /// Creates a folder and the missing ones above it.
+  void create_folder(const std::filesystem::path& folder);
+
+  /// Starts a file; valid as long as this object.
+  Output_file& create(const std::filesystem::path& target);
+
+  /// Gives all files their final names.
+  void commit();
+
+private:
+  void discard();
+
+  std::mutex m_mutex; // between commit() and the clean-up of an interruption
+  std::vector<std::unique_ptr<Output_file>> m_files;
+  std::vector<std::filesystem::path> m_created_folders; // outermost first
+};
+
+} // namespace hlscm
+
+#endif // HLSCM_PROGRAM_OUTPUT_FILES_H

@@ -1,0 +1,241 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "Program_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+namespace hlscm {
+
+namespace SMP = CGAL::Surface_mesh_parameterization;
+
+namespace {
+
+constexpr int usage_error = 2;
+
+template <typename Value>
+using Names = std::vector<std::pair<std::string, Value>>;
+
+template <typename Value>
+void add_choice(CLI::App& app, const std::string& name, const Names<Value>& names, Value& value,
+                const std::string& help)
+{
+  std::string all;
+  for(const auto& entry : names) {
+    all += (all.empty() ? "" : "|") + entry.first;
+  }
+  const auto choose = [names, all, &value](const std::string& text) {
+    for(const auto& entry : names) {
+      if(text == entry.first) {
+        value = entry.second;
+        return;
+      }
+    }
+    throw CLI::ValidationError("\"" + text + "\" is none of " + all);
+  };
+  app.add_option_function<std::string>(name, choose, help)->type_name(all);
+}
+
+// Reads "a,b,c" as numbers; empty if it is anything else.
+std::vector<double> numbers(const std::string& text)
+{
+  std::vector<double> values;
+  const char* end = text.data() + text.size();
+  for(const char* p = text.data(); p <= end; ++p) {
+    double value = 0;
+    const std::from_chars_result result = std::from_chars(p, end, value);
+    if(result.ec != std::errc() || !std::isfinite(value) ||
+       (result.ptr != end && *result.ptr != ',')) {
+      return {};
+    }
+    values.push_back(value);
+    p = result.ptr;
+  }
+  return values;
+}
+
+bool is_count(double value)
+{
+  return value >= 0 && value <= 1e9 && value == std::floor(value);
+}
+
+Pin to_pin(const std::string& text)
+{
+  const std::size_t equals = text.find('=');
+  const auto index = numbers(text.substr(0, equals));
+  const auto uv =
+      equals == std::string::npos ? std::vector<double>() : numbers(text.substr(equals + 1));
+  if(index.size() != 1 || index[0] < 0 || index[0] > 1e15 || index[0] != std::floor(index[0]) ||
+     uv.size() != 2)
+  {
+    throw CLI::ValidationError("--pin", "\"" + text + "\" is not INDEX=U,V");
+  }
+  return {std::size_t(index[0]), uv[0], uv[1]};
+}
+
+void set_schedule(const std::string& text, SMP::HLSCM_options& options)
+{
+  const auto m = numbers(text);
+  if(m.size() != 3 || !is_count(m[0]) || !is_count(m[1]) || !is_count(m[2]) || m[0] + m[1] < 1 ||
+     m[2] < 1)
+  {
+    throw CLI::ValidationError("--schedule", "\"" + text +
+                                                 "\" is not M1,M2,MC with M1 + M2 >= 1 "
+                                                 "and MC >= 1");
+  }
+  using Count = decltype(options.schedule.pre_smoothing);
+  options.schedule.pre_smoothing = Count(m[0]);
+  options.schedule.post_smoothing = Count(m[1]);
+  options.schedule.coarse_visits = Count(m[2]);
+}
+
+CLI::Option* add_number(CLI::App& app, const std::string& name, double low, double high,
+                        double& value, const std::string& help)
+{
+  const auto check = [low, high](const std::string& text) -> std::string {
+    const auto number = numbers(text);
+    return number.size() == 1 && number[0] > low && number[0] <= high
+               ? ""
+               : "\"" + text + "\" is not a number above " + CLI::detail::to_string(low) +
+                     " and at most " + CLI::detail::to_string(high);
+  };
+  return app.add_option(name, value, help)->check(CLI::Validator(check, ""))->type_name("NUMBER");
+}
+
+void add_solver_options(CLI::App& app, SMP::HLSCM_options& o)
+{
+  add_choice<SMP::Conformal_method>(
+      app, "--method",
+      {{"hlscm", SMP::Conformal_method::HLSCM},
+       {"cascadic", SMP::Conformal_method::CASCADIC},
+       {"lscm", SMP::Conformal_method::LSCM},
+       {"direct", SMP::Conformal_method::DIRECT}},
+      o.method,
+      "hlscm: multigrid (default); cascadic: coarse to fine once, as in the paper of "
+      "Ray and Levy; lscm: conjugate gradient on the finest level alone; direct: sparse "
+      "Cholesky of the whole");
+  add_choice<SMP::Conformal_weights>(
+      app, "--weights",
+      {{"exact", SMP::Conformal_weights::EXACT}, {"cgal", SMP::Conformal_weights::CGAL_LSCM}},
+      o.weights, "the conformal energy (default), or the energy of CGAL's LSCM_parameterizer_3");
+  add_number(app, "--tolerance", 0, 1, o.tolerance,
+             "stop when (E - Emin) / E is below it (default 0.01)");
+  app.add_option_function<std::string>(
+         "--schedule", [&o](const std::string& text) { set_schedule(text, o); },
+         "sweeps before, sweeps after, and visits of each coarser level")
+      ->type_name("M1,M2,MC");
+  add_number(app, "--ratio", 1, 1000, o.level_ratio,
+             "vertices of a level over those of the next coarser one (default 4, cascadic 10)");
+  app.add_option("--coarsest", o.coarsest_size, "vertices of the coarsest level (default 2000)")
+      ->check(CLI::Range(std::size_t(3), std::size_t(1000000000), "N"));
+  app.add_option("--iterations", o.maximal_iterations,
+                 "give up after that many on the finest level (default 500, lscm 100000)")
+      ->check(CLI::Range(std::size_t(1), std::size_t(1000000000), "N"));
+  add_number(app, "--angular-defect", 0, 360, o.angular_defect_bound,
+             "keep vertices that are more pointed than that many degrees (default 70)");
+  add_choice<SMP::Decimation_engine>(
+      app, "--engine",
+      {{"flat", SMP::Decimation_engine::FLAT},
+       {"flat-strict", SMP::Decimation_engine::FLAT_STRICT},
+       {"cgal", SMP::Decimation_engine::CGAL}},
+      o.engine,
+      "what builds the hierarchy: our engine in batches (default), our engine with a "
+      "priority queue, or CGAL's edge_collapse");
+  add_choice<SMP::Prolongation_rule>(
+      app, "--prolongation",
+      {{"walk", SMP::Prolongation_rule::WALK}, {"vsplit", SMP::Prolongation_rule::VSPLIT}},
+      o.prolongation,
+      "from level to level: a walk to the nearest triangle (default), or one "
+      "vertex split at a time as in the paper");
+}
+
+void add_info(CLI::App& app, Program_options& o)
+{
+  CLI::App* info = app.add_subcommand("info", "Say what a mesh is and what can be done with it");
+  info->add_option("IN", o.input, "a mesh: .off, .obj, .ply or .stl")->required();
+  info->add_flag("--json", o.prints_json, "print JSON instead of text");
+  info->callback([&o] { o.command = Command::INFO; });
+}
+
+void add_parameterize(CLI::App& app, Program_options& o)
+{
+  CLI::App* run =
+      app.add_subcommand("parameterize", "Map a disk-like surface to the plane, conformally");
+  run->add_option("IN", o.input, "a triangle mesh with a border: .off, .obj, .ply or .stl")
+      ->required();
+  run->add_option("-o,--output", o.output,
+                  "the mesh with texture coordinates: .obj, or .ply (binary)")
+      ->required()
+      ->type_name("OUT");
+  const auto add_pin = [&o](const std::vector<std::string>& texts) {
+    for(const std::string& text : texts) {
+      o.pins.push_back(to_pin(text));
+    }
+  };
+  run->add_option_function<std::vector<std::string>>(
+         "--pin", add_pin,
+         "fix a vertex (its place in IN, from 0) at a point; none, or at least two. Without pins "
+         "two far border vertices are taken and the map is scaled and moved into the unit square")
+      ->type_name("INDEX=U,V")
+      ->allow_extra_args(false);
+  add_solver_options(*run, o.library);
+  run->add_option("--report", o.report, "what was done and measured, as JSON")
+      ->type_name("FILE.json");
+  run->add_option("--pictures", o.pictures,
+                  "a folder for domain.png, isolines.png, checker.png and levels.png")
+      ->type_name("DIR");
+  run->add_flag("--quiet", o.is_quiet, "print errors only");
+  run->callback([&o] { o.command = Command::PARAMETERIZE; });
+}
+
+std::string extension_of(const std::string& file)
+{
+  return CLI::detail::to_lower(std::filesystem::path(file).extension().string());
+}
+
+void check(const Program_options& o)
+{
+  if(o.command == Command::INFO) {
+    return;
+  }
+  if(extension_of(o.output) != ".obj" && extension_of(o.output) != ".ply") {
+    throw CLI::ValidationError("--output", "\"" + o.output + "\" ends neither in .obj nor in .ply");
+  }
+  if(o.pins.size() == 1) {
+    throw CLI::ValidationError("--pin", "one pin does not fix a map, give at least two or none");
+  }
+  if(o.report == o.output) {
+    throw CLI::ValidationError("--report", "the report and the output are the same file");
+  }
+}
+
+} // namespace
+
+Parsed_command_line parse_command_line(int argc, char** argv)
+{
+  Program_options options;
+  CLI::App app("Hierarchical least squares conformal maps of triangle meshes.\n"
+               "Exit codes: 0 done, 1 bad input or no convergence, 2 wrong usage.",
+               "hlscm");
+  app.set_version_flag("--version", "hlscm " HLSCM_VERSION);
+  app.require_subcommand(1);
+  add_info(app, options);
+  add_parameterize(app, options);
+  try {
+    app.parse(argc, argv);
+    check(options);
+  } catch(const CLI::Success& e) { // help or version
+    return {std::nullopt, app.exit(e)};
+  } catch(const CLI::Error& e) {
+    std::fprintf(stderr, "hlscm: usage: %s; see hlscm --help\n", e.what());
+    return {std::nullopt, usage_error};
+  }
+  return {options, 0};
+}
+
+} // namespace hlscm

@@ -1,0 +1,26 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef HLSCM_PROGRAM_SURFACE_PICTURE_H
+#define HLSCM_PROGRAM_SURFACE_PICTURE_H
+
+#include "Drawn_surface.h"
+#include "Progress_bar.h"
+#include "View.h"
+
+namespace hlscm {
+
+/// What is drawn on a surface:
+/// - lines of equal u (red) and of equal v (blue) at multiples of a power of two, which is the
+/// larger
+///   the larger the map makes its surroundings, so that lines are seen everywhere;
+/// - squares of one size in parameter space, which show how the size of areas changes.
+enum class Pattern { ISOLINES, CHECKERBOARD };
+
+/// Draws the shaded surface, which shall lie in [-1, 1]^3.
+void draw_surface(Canvas& canvas, const View& view, const Drawn_surface& surface, Pattern pattern,
+                  Progress_bar& progress);
+
+} // namespace hlscm
+
+#endif // HLSCM_PROGRAM_SURFACE_PICTURE_H

@@ -1,0 +1,48 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The command-line program: `hlscm info IN` says what a mesh is, `hlscm parameterize IN -o OUT`
+// maps it to the plane.
+
+#include "Commands.h"
+#include "Interruption.h"
+#include "Program_error.h"
+
+#include <cstdio>
+#include <new>
+
+namespace {
+
+int run(const hlscm::Program_options& options)
+{
+  return options.command == hlscm::Command::INFO ? hlscm::run_info(options)
+                                                 : hlscm::run_parameterize(options);
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  const hlscm::Parsed_command_line command_line = hlscm::parse_command_line(argc, argv);
+  if(!command_line.options) {
+    return command_line.exit_code;
+  }
+  hlscm::Interruption::install();
+  const char* input = command_line.options->input.c_str();
+  try {
+    return run(*command_line.options);
+  } catch(const hlscm::Cancelled&) {
+    std::fprintf(stderr, "hlscm: cancelled\n");
+  } catch(const hlscm::Program_error& e) {
+    std::fprintf(stderr, "hlscm: error: %s\n", e.what());
+  } catch(const std::bad_alloc&) {
+    std::fprintf(stderr,
+                 "hlscm: error: %s: not enough memory, close other programs or split the mesh\n",
+                 input);
+  } catch(const std::exception& e) {
+    std::fprintf(stderr,
+                 "hlscm: error: %s: unexpected failure (%s), please report it with the mesh\n",
+                 input, e.what());
+  }
+  return 1;
+}

@@ -1,0 +1,199 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MULTIGRID_HERMITIAN_MATRIX_H
+#define CGAL_MULTIGRID_HERMITIAN_MATRIX_H
+
+#include <CGAL/Multigrid/vector_operations.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace CGAL {
+namespace Multigrid {
+
+/*!
+\ingroup PkgHLSCMMultigrid
+
+One row of a Hermitian matrix while it is being built: the real diagonal entry and the entries
+beside it.
+*/
+struct Matrix_row
+{
+  /// An entry beside the diagonal.
+  struct Entry
+  {
+    std::uint32_t column; ///< its column
+    double re;            ///< its real part
+    double im;            ///< its imaginary part
+  };
+
+  double diagonal = 0.;       ///< the diagonal entry
+  std::vector<Entry> entries; ///< those beside it, in any order, each column once
+};
+
+/*!
+\ingroup PkgHLSCMMultigrid
+
+The sparsity pattern that matrices of one level share: rows in slices of eight, whose entries are
+stored column-wise (sliced ELLPACK), rows of near equal length side by side. Slices with an imaginary
+part anywhere are marked.
+*/
+struct Sliced_pattern
+{
+  static constexpr std::size_t slice_rows = 8;
+  static constexpr std::size_t sorting_window = 256; // rows that are sorted by length together
+
+  std::size_t rows = 0;
+  std::vector<std::uint32_t> row_of_slot;  // padded with row 0, whose slot is never written
+  std::vector<std::uint32_t> slice_begin;  // in units of slice_rows entries; one more than slices
+  std::vector<std::uint32_t> imaginary;    // begin of the imaginary parts, or `none`
+  std::vector<std::uint32_t> column;
+
+  static constexpr std::uint32_t none = std::uint32_t(-1);
+  std::size_t slices() const { return imaginary.size(); }
+};
+
+/*!
+\ingroup PkgHLSCMMultigrid
+
+The class `Hermitian_matrix` is a sparse Hermitian matrix with a real diagonal, most of whose entries
+are real, such as that of a conformal energy. The values are stored as `Real`.
+*/
+template <class Real>
+class Hermitian_matrix
+{
+public:
+  typedef std::complex<Real> Complex;
+
+  std::size_t size() const { return m_pattern == nullptr ? 0 : m_pattern->rows; }
+  const std::vector<Real>& diagonal() const { return m_diagonal; }
+  const Sliced_pattern& pattern() const { return *m_pattern; }
+
+  /// Calls `use(i, s)` for every row i with \f$ s = \sum_{j \ne i} H_{ij} x_j \f$; rows come in the
+  /// order of the slices.
+  template <class Use>
+  void for_each_row_sum(const Complex_vector<Real>& x, const Use& use) const;
+
+  /// Sets `y` to \f$ H x \f$.
+  void multiply(const Complex_vector<Real>& x, Complex_vector<Real>& y) const
+  {
+    for_each_row_sum(x, [&](std::size_t i, Complex s) { y[i] = m_diagonal[i] * x[i] + s; });
+  }
+
+  /// Calls `use(j, H_ij)` for the entries of row `i` beside the diagonal, stored zeros left out.
+  /// The rows' slots must have been indexed by `slot_of_row()`.
+  template <class Use>
+  void for_each_entry(std::size_t slot, const Use& use) const;
+
+  /// Returns for each row its slot.
+  std::vector<std::uint32_t> slot_of_row() const;
+
+  template <class Other> friend class Hermitian_matrix;
+  friend class Matrix_builder;
+
+  /// Constructs a matrix of the same entries in another precision; the pattern is shared.
+  template <class Other>
+  void assign(const Hermitian_matrix<Other>& other)
+  {
+    m_pattern = other.m_pattern;
+    m_diagonal.assign(other.m_diagonal.begin(), other.m_diagonal.end());
+    m_re.assign(other.m_re.begin(), other.m_re.end());
+    m_im.assign(other.m_im.begin(), other.m_im.end());
+  }
+
+private:
+  std::shared_ptr<const Sliced_pattern> m_pattern;
+  std::vector<Real> m_diagonal, m_re, m_im;
+};
+
+namespace internal {
+
+constexpr int slice_rows = int(Sliced_pattern::slice_rows);
+
+// The sums of one slice: eight rows at once, entry by entry.
+template <class Real>
+inline void sum_slice(const std::uint32_t* column, const Real* re, std::size_t width, const Real* x,
+                      Real* sum_re, Real* sum_im)
+{
+  for(int r = 0; r < slice_rows; ++r)
+    sum_re[r] = sum_im[r] = Real(0);
+  for(std::size_t k = 0; k < width; ++k)
+    for(int r = 0; r < slice_rows; ++r) {
+      const Real* z = x + 2 * std::size_t(column[k * slice_rows + r]);
+      sum_re[r] += re[k * slice_rows + r] * z[0];
+      sum_im[r] += re[k * slice_rows + r] * z[1];
+    }
+}
+
+// What imaginary parts add to the sums.
+template <class Real>
+inline void add_imaginary(const std::uint32_t* column, const Real* im, std::size_t width,
+                          const Real* x, Real* sum_re, Real* sum_im)
+{
+  for(std::size_t k = 0; k < width; ++k)
+    for(int r = 0; r < slice_rows; ++r) {
+      const Real* z = x + 2 * std::size_t(column[k * slice_rows + r]);
+      sum_re[r] -= im[k * slice_rows + r] * z[1];
+      sum_im[r] += im[k * slice_rows + r] * z[0];
+    }
+}
+
+} // namespace internal
+
+template <class Real>
+template <class Use>
+void Hermitian_matrix<Real>::for_each_row_sum(const Complex_vector<Real>& x, const Use& use) const
+{
+  const Sliced_pattern& p = *m_pattern;
+  const Real* xp = reinterpret_cast<const Real*>(x.data());
+  for(std::size_t s = 0; s < p.slices(); ++s) {
+    const std::size_t begin = std::size_t(p.slice_begin[s]) * internal::slice_rows;
+    const std::size_t width = p.slice_begin[s + 1] - p.slice_begin[s];
+    Real re[internal::slice_rows], im[internal::slice_rows];
+    internal::sum_slice(p.column.data() + begin, m_re.data() + begin, width, xp, re, im);
+    if(p.imaginary[s] != Sliced_pattern::none)
+      internal::add_imaginary(p.column.data() + begin,
+                              m_im.data() + std::size_t(p.imaginary[s]) * internal::slice_rows,
+                              width, xp, re, im);
+    const std::size_t slot = s * internal::slice_rows;
+    const std::size_t count = (std::min)(p.rows - slot, std::size_t(internal::slice_rows));
+    for(std::size_t r = 0; r < count; ++r)
+      use(std::size_t(p.row_of_slot[slot + r]), Complex(re[r], im[r]));
+  }
+}
+
+template <class Real>
+template <class Use>
+void Hermitian_matrix<Real>::for_each_entry(std::size_t slot, const Use& use) const
+{
+  const Sliced_pattern& p = *m_pattern;
+  const std::size_t s = slot / internal::slice_rows, r = slot % internal::slice_rows;
+  for(std::size_t k = p.slice_begin[s]; k < p.slice_begin[s + 1]; ++k) {
+    const std::size_t at = k * internal::slice_rows + r;
+    const std::size_t im = p.imaginary[s] == Sliced_pattern::none
+                         ? 0 : (p.imaginary[s] + k - p.slice_begin[s]) * internal::slice_rows + r;
+    const Complex value(m_re[at], p.imaginary[s] == Sliced_pattern::none ? Real(0) : m_im[im]);
+    if(value != Complex(0))
+      use(p.column[at], value);
+  }
+}
+
+template <class Real>
+std::vector<std::uint32_t> Hermitian_matrix<Real>::slot_of_row() const
+{
+  std::vector<std::uint32_t> slot(size());
+  for(std::uint32_t s = 0; s < size(); ++s)
+    slot[m_pattern->row_of_slot[s]] = s;
+  return slot;
+}
+
+} // namespace Multigrid
+} // namespace CGAL
+
+#endif // CGAL_MULTIGRID_HERMITIAN_MATRIX_H

@@ -1,0 +1,233 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MULTIGRID_MULTIGRID_LEVELS_H
+#define CGAL_MULTIGRID_MULTIGRID_LEVELS_H
+
+#include <CGAL/Multigrid/Chebyshev_smoother.h>
+#include <CGAL/Multigrid/cycle.h>
+
+#include <CGAL/assertions.h>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Multigrid {
+
+/*!
+\ingroup PkgHLSCMMultigrid
+
+The class `Multigrid_levels` holds the matrices of a hierarchy and the vectors of a cycle, in single
+precision: a cycle is a preconditioner, which need not be exact.
+
+\tparam Transfer a model of `MultigridTransfer`
+\tparam CoarsestSolver a model of `MultigridCoarsestSolver`
+
+\cgalModels{MultigridLevels}
+*/
+template <class Transfer, class CoarsestSolver>
+class Multigrid_levels
+{
+public:
+  typedef std::complex<float> Complex;
+  typedef Complex_vector<float> Vector;
+  typedef Hermitian_matrix<float> Matrix;
+
+  /// Adds a level that is finer than those before it. Level 0 has no transfer.
+  void add_level(Matrix matrix, std::vector<float> inverse_diagonal, const Transfer* from_coarser)
+  {
+    Level level;
+    level.matrix = std::move(matrix);
+    level.inverse_diagonal = std::move(inverse_diagonal);
+    level.from_coarser = from_coarser;
+    m_levels.push_back(std::move(level));
+  }
+
+  /// Returns the number of levels.
+  std::size_t number_of_levels() const { return m_levels.size(); }
+
+  /// Returns the matrix of a level.
+  const Matrix& matrix(std::size_t level) const { return m_levels[level].matrix; }
+
+  /// Returns the solver of level 0.
+  CoarsestSolver& coarsest_solver() { return m_coarsest; }
+
+  /// Sets `x` to the result of one cycle of `schedule` on the right-hand side `r` of `level`, from
+  /// 0. The right-hand side is scaled to norm 1 meanwhile, so that single precision can hold it.
+  template <class Real>
+  void precondition(const Schedule& schedule, std::size_t l, const Complex_vector<Real>& r,
+                    Complex_vector<Real>& x)
+  {
+    Level& level = m_levels[l];
+    const double norm = std::sqrt(squared_norm(r));
+    const Real down = norm > 0. ? Real(1. / norm) : Real(0), up = Real(norm);
+    level.f.resize(r.size());
+    for(std::size_t i = 0; i < r.size(); ++i)
+      level.f[i] = Complex(float(r[i].real() * down), float(r[i].imag() * down));
+    start_at_zero(l);
+    cycle(*this, schedule, l);
+    materialize(level);
+    x.resize(r.size());
+    for(std::size_t i = 0; i < r.size(); ++i)
+      x[i] = std::complex<Real>(Real(level.u[i].real()) * up, Real(level.u[i].imag()) * up);
+  }
+
+  /// \name The operations of a cycle
+  /// @{
+  void smooth(std::size_t level, unsigned int steps);
+  void restrict_residual(std::size_t level);
+  void correct(std::size_t level);
+  void solve_coarsest();
+  template <class Coarse_cycle>
+  void accelerate(std::size_t level, unsigned int steps, const Coarse_cycle& coarse_cycle);
+  /// @}
+
+private:
+  struct Level
+  {
+    Matrix matrix;
+    std::vector<float> inverse_diagonal;
+    const Transfer* from_coarser = nullptr;
+    Vector u, f;                   // the system of the moment
+    Vector r, z;                   // residual f - H u, and the step of the smoother
+    bool is_zero = true;           // u is 0, whatever is stored
+    bool has_residual = false;     // r is f - H u
+    bool has_step = false;         // r - H z is f - H u
+    Vector x, v;                   // of the accelerator
+    std::vector<Vector> p, q;      // earlier directions and H times them
+  };
+
+  void start_at_zero(std::size_t l)
+  {
+    m_levels[l].is_zero = true;
+    forget_residual(m_levels[l]);
+  }
+
+  static void forget_residual(Level& level) { level.has_residual = level.has_step = false; }
+
+  void materialize(Level& level)
+  {
+    if(level.is_zero)
+      level.u.assign(level.f.size(), Complex(0));
+    level.is_zero = false;
+  }
+
+  void update_residual(Level& level);
+
+  std::vector<Level> m_levels;
+  CoarsestSolver m_coarsest;
+};
+
+template <class Transfer, class CoarsestSolver>
+void Multigrid_levels<Transfer, CoarsestSolver>::update_residual(Level& level)
+{
+  if(level.has_residual)
+    return;
+  const Vector* product = &level.u;
+  if(level.has_step)
+    product = &level.z;
+  else
+    level.r = level.f;
+  if(!level.is_zero)
+    level.matrix.for_each_row_sum(*product, [&](std::size_t i, Complex s) {
+      level.r[i] -= level.matrix.diagonal()[i] * (*product)[i] + s;
+    });
+  level.has_residual = true;
+}
+
+template <class Transfer, class CoarsestSolver>
+void Multigrid_levels<Transfer, CoarsestSolver>::smooth(std::size_t l, unsigned int steps)
+{
+  if(steps == 0)
+    return;
+  Level& level = m_levels[l];
+  update_residual(level);
+  materialize(level);
+  chebyshev_steps(level.matrix, level.inverse_diagonal, steps, level.u, level.r, level.z);
+  level.has_residual = false;
+  level.has_step = true; // its product waits until the residual is asked for
+}
+
+template <class Transfer, class CoarsestSolver>
+void Multigrid_levels<Transfer, CoarsestSolver>::restrict_residual(std::size_t l)
+{
+  Level& level = m_levels[l];
+  Level& coarse = m_levels[l - 1];
+  update_residual(level);
+  level.from_coarser->restrict_in_place(level.r, coarse.f);
+  forget_residual(level);
+  start_at_zero(l - 1);
+}
+
+template <class Transfer, class CoarsestSolver>
+void Multigrid_levels<Transfer, CoarsestSolver>::correct(std::size_t l)
+{
+  Level& level = m_levels[l];
+  materialize(m_levels[l - 1]);
+  materialize(level);
+  level.from_coarser->prolongate(m_levels[l - 1].u, level.z);
+  for(std::size_t i = 0; i < level.u.size(); ++i)
+    level.u[i] += level.z[i];
+  forget_residual(level);
+}
+
+template <class Transfer, class CoarsestSolver>
+void Multigrid_levels<Transfer, CoarsestSolver>::solve_coarsest()
+{
+  Level& level = m_levels[0];
+  level.u.resize(level.f.size());
+  m_coarsest.solve(level.f, level.u);
+  level.is_zero = false;
+  forget_residual(level);
+}
+
+// Steps of the flexible conjugate gradient method, preconditioned by the cycle: each direction is
+// made H-orthogonal to the earlier ones. A step that has reduced the residual to a quarter is the
+// last (Notay and Vassilevski 2008, section 3).
+template <class Transfer, class CoarsestSolver>
+template <class Coarse_cycle>
+void Multigrid_levels<Transfer, CoarsestSolver>::
+accelerate(std::size_t l, unsigned int steps, const Coarse_cycle& coarse_cycle)
+{
+  Level& level = m_levels[l];
+  level.x.assign(level.f.size(), Complex(0));
+  level.p.resize(steps);
+  level.q.resize(steps);
+  const double enough = 0.0625 * squared_norm(level.f); // a quarter, squared
+  for(unsigned int step = 0; step < steps; ++step) {
+    start_at_zero(l);
+    coarse_cycle();
+    materialize(level);
+    Vector& p = level.p[step];
+    Vector& q = level.q[step];
+    p.swap(level.u);
+    level.u.resize(p.size());
+    q.resize(p.size());
+    level.matrix.multiply(p, q);
+    for(unsigned int j = 0; j < step; ++j) {
+      const Complex c(-inner_product(level.q[j], p) / inner_product(level.p[j], level.q[j]).real());
+      add_scaled(c, level.p[j], p);
+      add_scaled(c, level.q[j], q);
+    }
+    const double curvature = inner_product(p, q).real();
+    if(!(curvature > 0.))
+      break;
+    const Complex alpha(inner_product(p, level.f) / curvature);
+    add_scaled(alpha, p, level.x);
+    if(step + 1 == steps)
+      break;
+    add_scaled(-alpha, q, level.f);
+    if(squared_norm(level.f) <= enough)
+      break;
+  }
+  level.u.swap(level.x);
+  level.is_zero = false;
+  forget_residual(level);
+}
+
+} // namespace Multigrid
+} // namespace CGAL
+
+#endif // CGAL_MULTIGRID_MULTIGRID_LEVELS_H

@@ -1,0 +1,314 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_FLAT_COLLAPSE_ENGINE_H
+#define CGAL_SURFACE_MESH_MULTIRESOLUTION_FLAT_COLLAPSE_ENGINE_H
+
+#include <CGAL/Surface_mesh_multiresolution/Flat_collapse_policies.h>
+#include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_multiresolution {
+
+/// \ingroup PkgHLSCMMultiresolution
+/// The order in which the flat engine takes the collapses.
+enum class Collapse_order
+{
+  BATCHED, ///< passes over the cheapest part in memory order: as good for a hierarchy, faster
+  STRICT   ///< always the cheapest collapse of all (Ray and Lévy 2003, algorithm 2)
+};
+
+/// \ingroup PkgHLSCMMultiresolution
+/// The options of `Flat_collapse_engine`.
+struct Flat_collapse_options
+{
+  std::size_t target_vertices = 2000; ///< where to stop
+  Collapse_order order = Collapse_order::BATCHED; ///< which collapse comes next
+  /// The part of the vertices, the cheapest, that a pass of the batched order may remove.
+  double pass_fraction = 0.5;
+  /// Told the part done in [0, 1] from time to time; returning false stops early.
+  std::function<bool(double)> progress;
+};
+
+/*!
+\ingroup PkgHLSCMMultiresolution
+
+The class `Flat_collapse_engine` decimates an `Indexed_triangle_mesh` by halfedge collapses and
+records them as a `Progressive_mesh`. It runs the same cost and filter policies as CGAL's
+`edge_collapse()`, on flat 32-bit arrays.
+
+A vertex is removed only if topology allows it: the mesh stays a manifold with the same Euler
+characteristic and the same border components. A border vertex leaves only along the border; locked
+vertices and vertices of more than 14 neighbours never leave. The result depends on the input alone.
+
+\tparam Cost a model of `GetCost`
+\tparam Filter a model of `PlacementFilter`
+
+Expected linear time in the number of vertices (batched), O(n log n) (strict); 85 bytes a vertex.
+*/
+template <class Cost = Hierarchy_collapse_cost<>, class Filter = Hierarchy_collapse_filter>
+class Flat_collapse_engine
+{
+public:
+  /// Constructs the engine on a mesh whose vertices should be in spatial order and whose mean edge
+  /// length should be near 1 (`sort_spatially()`, `normalize()`). The mesh must live as long as
+  /// the engine.
+  ///
+  /// \param is_locked for each vertex whether it must stay; empty for none
+  Flat_collapse_engine(const Indexed_triangle_mesh& mesh, internal::Vertex_rings rings,
+                       const std::vector<bool>& is_locked,
+                       const Cost& cost = hierarchy_collapse_cost(),
+                       const Filter& filter = hierarchy_collapse_filter());
+
+  /// Collapses until the target is reached or nothing more can be collapsed.
+  Progressive_mesh run(const Flat_collapse_options& options);
+
+  /// Returns the number of costs computed so far, one a vertex and its ring.
+  std::size_t number_of_evaluations() const { return m_evaluations; }
+
+private:
+  typedef Surface_mesh_simplification::internal::Vertex_star Vertex_star;
+  typedef Surface_mesh_simplification::internal::Optional<Indexed_triangle_mesh::Point_3>
+    Optional_point;
+
+  static constexpr float no_cost = (std::numeric_limits<float>::infinity)();
+
+  struct State // of a vertex
+  {
+    std::uint8_t is_gone : 1, is_locked : 1, is_stale : 1;
+  };
+
+  bool load_star(Vertex_index v);
+  void evaluate(Vertex_index v, bool check_topology);
+  bool try_collapse(Vertex_index v, Progressive_mesh& pm);
+  float pass_threshold(const std::vector<Vertex_index>& alive, std::size_t wanted,
+                       double fraction) const;
+  void run_batched(const Flat_collapse_options& options, Progressive_mesh& pm);
+  void run_strict(const Flat_collapse_options& options, Progressive_mesh& pm);
+
+  const Indexed_triangle_mesh& m_mesh;
+  internal::Vertex_rings m_rings;
+  Cost m_cost;
+  Filter m_filter;
+  Flat_collapse_profile m_profile;
+  Vertex_star m_star;
+  std::vector<float> m_best_cost;
+  std::vector<std::uint8_t> m_best_target; // position in the ring
+  std::vector<State> m_state;
+  std::size_t m_evaluations = 0;
+};
+
+template <class Cost, class Filter>
+Flat_collapse_engine<Cost, Filter>::
+Flat_collapse_engine(const Indexed_triangle_mesh& mesh, internal::Vertex_rings rings,
+                     const std::vector<bool>& is_locked, const Cost& cost, const Filter& filter)
+  : m_mesh(mesh), m_rings(std::move(rings)), m_cost(cost), m_filter(filter)
+  , m_profile(Flat_surface(m_mesh, m_rings))
+  , m_best_cost(mesh.points.size(), no_cost)
+  , m_best_target(mesh.points.size(), 0)
+  , m_state(mesh.points.size())
+{
+  for(std::size_t v = 0; v < mesh.points.size(); ++v)
+    m_state[v] = {0, std::uint8_t(!is_locked.empty() && is_locked[v]), 1};
+  if constexpr(Surface_mesh_simplification::internal::Needs_update<Cost>::value)
+    m_cost.initialize(m_profile.surface_mesh(), m_profile.vertex_point_map(),
+                      m_profile.geom_traits());
+}
+
+template <class Cost, class Filter>
+bool Flat_collapse_engine<Cost, Filter>::load_star(Vertex_index v)
+{
+  const std::uint32_t d = m_rings.degree(v);
+  if(m_state[v].is_locked || d > std::uint32_t(Vertex_star::max_degree))
+    return false;
+  const Vertex_index* r = m_rings.ring(v);
+  const auto& p = m_mesh.points[v];
+  m_star.reset(int(d), m_rings.is_border(v));
+  for(std::uint32_t i = 0; i < d; ++i) {
+    const auto& q = m_mesh.points[r[i]];
+    m_star.set_ring_point(int(i), float(q.x() - p.x()), float(q.y() - p.y()),
+                          float(q.z() - p.z()));
+  }
+  m_star.prepare();
+  auto& collapse = m_profile.collapse();
+  collapse.is_valid = true;
+  collapse.is_border = m_rings.is_border(v);
+  collapse.removed_degree = int(d);
+  collapse.angle_sum = m_star.angle_sum();
+  collapse.min_squared_quality = m_star.min_squared_quality();
+  return true;
+}
+
+// Finds the cheapest target that the policies allow; the smaller vertex index on a tie.
+template <class Cost, class Filter>
+void Flat_collapse_engine<Cost, Filter>::evaluate(Vertex_index v, bool check_topology)
+{
+  m_best_cost[v] = no_cost;
+  m_state[v].is_stale = 0;
+  ++m_evaluations;
+  if(!load_star(v))
+    return;
+  const Vertex_index* r = m_rings.ring(v);
+  const std::uint32_t d = m_rings.degree(v);
+  const std::uint32_t step = m_rings.is_border(v) ? d - 1 : 1; // the two ends only
+  for(std::uint32_t k = 0; k < d; k += step) {
+    m_profile.set(v, k);
+    auto& collapse = m_profile.collapse();
+    collapse.kept_degree = int(m_rings.degree(r[k]));
+    collapse.measure = m_star.measure(int(k));
+    const Optional_point placement = m_filter(m_profile, Optional_point(m_profile.p1()));
+    if(!placement)
+      continue;
+    const auto cost = m_cost(m_profile, placement);
+    if(!cost || !(float(*cost) <= m_best_cost[v]) || float(*cost) == no_cost)
+      continue;
+    if(float(*cost) == m_best_cost[v] && r[k] > r[m_best_target[v]])
+      continue;
+    if(check_topology && !m_rings.is_collapse_valid(v, k))
+      continue;
+    m_best_cost[v] = float(*cost);
+    m_best_target[v] = std::uint8_t(k);
+  }
+}
+
+// Collapses v into its best target, or into the next best that topology allows if that costs the
+// same; otherwise v keeps its new cost and stays.
+template <class Cost, class Filter>
+bool Flat_collapse_engine<Cost, Filter>::try_collapse(Vertex_index v, Progressive_mesh& pm)
+{
+  if(!m_rings.is_collapse_valid(v, m_best_target[v])) {
+    evaluate(v, true);
+    return false;
+  }
+  const std::uint32_t k = m_best_target[v];
+  const Vertex_index* r = m_rings.ring(v);
+  if constexpr(Surface_mesh_simplification::internal::Needs_update<Cost>::value) {
+    load_star(v);
+    m_profile.set(v, k);
+    m_profile.collapse().measure = m_star.measure(int(k));
+    m_cost.update_before_collapse(m_profile, Optional_point(m_profile.p1()));
+  }
+  pm.collapses.push_back({v, r[k]});
+  m_rings.collapse(v, k);
+  m_state[v].is_gone = 1;
+  for(std::uint32_t i = 0; i < m_rings.degree(v); ++i)
+    m_state[r[i]].is_stale = 1;
+  return true;
+}
+
+// The cost that the cheapest `fraction` of the vertices, but not many more than `wanted`, have.
+template <class Cost, class Filter>
+float Flat_collapse_engine<Cost, Filter>::
+pass_threshold(const std::vector<Vertex_index>& alive, std::size_t wanted, double fraction) const
+{
+  std::vector<float> costs;
+  costs.reserve(alive.size());
+  for(const Vertex_index v : alive)
+    if(m_best_cost[v] < no_cost)
+      costs.push_back(m_best_cost[v]);
+  if(costs.empty())
+    return no_cost;
+  // About two in three of those below the threshold are collapsed: the others have become dearer.
+  const double part = (std::min)(fraction * double(costs.size()), 1.6 * double(wanted));
+  const std::size_t rank = (std::min)(costs.size() - 1, std::size_t(part));
+  std::nth_element(costs.begin(), costs.begin() + rank, costs.end());
+  return costs[rank];
+}
+
+template <class Cost, class Filter>
+void Flat_collapse_engine<Cost, Filter>::
+run_batched(const Flat_collapse_options& options, Progressive_mesh& pm)
+{
+  const std::size_t n = m_mesh.points.size();
+  std::vector<Vertex_index> alive(n);
+  for(Vertex_index v = 0; v < n; ++v)
+    alive[v] = v;
+  while(alive.size() > options.target_vertices) {
+    for(const Vertex_index v : alive)
+      if(m_state[v].is_stale)
+        evaluate(v, false);
+    const std::size_t wanted = alive.size() - options.target_vertices;
+    const float threshold = pass_threshold(alive, wanted, options.pass_fraction);
+    if(threshold == no_cost)
+      break;
+    const std::size_t before = pm.collapses.size();
+    for(const Vertex_index v : alive) {
+      if(!(m_best_cost[v] <= threshold))
+        continue;
+      if(m_state[v].is_stale)
+        evaluate(v, false);
+      if(m_best_cost[v] <= threshold && try_collapse(v, pm)
+         && pm.collapses.size() - before == wanted)
+        break;
+    }
+    const std::size_t done = pm.collapses.size() - before;
+    if(done > 0)
+      pm.batch_ends.push_back(pm.collapses.size());
+    alive.erase(std::remove_if(alive.begin(), alive.end(),
+                               [this](Vertex_index v) { return m_state[v].is_gone != 0; }),
+                alive.end());
+    const double part = double(n - alive.size()) / double(n - options.target_vertices);
+    if((options.progress && !options.progress((std::min)(1., part))) || 500 * done < alive.size())
+      break;
+  }
+}
+
+template <class Cost, class Filter>
+void Flat_collapse_engine<Cost, Filter>::
+run_strict(const Flat_collapse_options& options, Progressive_mesh& pm)
+{
+  typedef std::pair<float, Vertex_index> Entry; // smallest cost first, then smallest index
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
+  const auto enqueue = [&](Vertex_index v) {
+    evaluate(v, true);
+    if(m_best_cost[v] < no_cost)
+      queue.push({m_best_cost[v], v});
+  };
+  const std::size_t n = m_mesh.points.size();
+  for(Vertex_index v = 0; v < n; ++v)
+    enqueue(v);
+  while(!queue.empty() && n - pm.collapses.size() > options.target_vertices) {
+    const auto [cost, v] = queue.top();
+    queue.pop();
+    if(m_state[v].is_gone || cost != m_best_cost[v]) // an entry that a later one replaced
+      continue;
+    const Vertex_index* r = m_rings.ring(v);
+    const std::uint32_t d = m_rings.degree(v);
+    if(!try_collapse(v, pm)) {
+      if(m_best_cost[v] < no_cost)
+        queue.push({m_best_cost[v], v});
+      continue;
+    }
+    m_best_cost[v] = no_cost;
+    for(std::uint32_t i = 0; i < d; ++i)
+      enqueue(r[i]);
+    if(options.progress && pm.collapses.size() % 16384 == 0
+       && !options.progress(double(pm.collapses.size()) / double(n - options.target_vertices)))
+      break;
+  }
+}
+
+template <class Cost, class Filter>
+Progressive_mesh Flat_collapse_engine<Cost, Filter>::run(const Flat_collapse_options& options)
+{
+  Progressive_mesh pm;
+  pm.number_of_vertices = m_mesh.points.size();
+  pm.triangles = m_mesh.triangles;
+  if(options.order == Collapse_order::STRICT)
+    run_strict(options, pm);
+  else
+    run_batched(options, pm);
+  return pm;
+}
+
+} // namespace Surface_mesh_multiresolution
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_MULTIRESOLUTION_FLAT_COLLAPSE_ENGINE_H

@@ -1,0 +1,54 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_FLAT_COLLAPSE_POLICIES_H
+#define CGAL_SURFACE_MESH_MULTIRESOLUTION_FLAT_COLLAPSE_POLICIES_H
+
+#include <CGAL/Surface_mesh_multiresolution/Flat_collapse_profile.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Accumulated_cost.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Angular_defect_filter.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Collapse_shape_filter.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Triangle_shape_cost.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Volume_and_border_area_cost.h>
+
+namespace CGAL {
+namespace Surface_mesh_multiresolution {
+
+/// \ingroup PkgHLSCMMultiresolution
+/// The cost that makes hierarchies for conformal maps: volume and border area, accumulated over
+/// merged vertices, and the shape term. `VertexCostMap` holds the losses.
+template <class VertexCostMap = Flat_vertex_cost_map>
+using Hierarchy_collapse_cost
+  = Surface_mesh_simplification::Triangle_shape_cost<
+      Surface_mesh_simplification::Accumulated_cost<
+        Surface_mesh_simplification::Volume_and_border_area_cost, VertexCostMap>>;
+
+/// \ingroup PkgHLSCMMultiresolution
+/// The filter that makes hierarchies for conformal maps: angular defect and triangle shape.
+typedef Surface_mesh_simplification::Collapse_shape_filter<
+          Surface_mesh_simplification::Angular_defect_filter<>> Hierarchy_collapse_filter;
+
+/// \ingroup PkgHLSCMMultiresolution
+/// Returns the default cost on a map of losses.
+template <class VertexCostMap = Flat_vertex_cost_map>
+Hierarchy_collapse_cost<VertexCostMap>
+hierarchy_collapse_cost(const VertexCostMap& losses = VertexCostMap(), double shape_weight = 0.3)
+{
+  using namespace Surface_mesh_simplification;
+  typedef Accumulated_cost<Volume_and_border_area_cost, VertexCostMap> Base;
+  return Hierarchy_collapse_cost<VertexCostMap>(shape_weight, Base(losses));
+}
+
+/// \ingroup PkgHLSCMMultiresolution
+/// Returns the default filter with an angular-defect bound in degrees.
+inline Hierarchy_collapse_filter hierarchy_collapse_filter(double angular_defect_bound = 70.)
+{
+  using namespace Surface_mesh_simplification;
+  return Hierarchy_collapse_filter(Collapse_shape_bounds(),
+                                   Angular_defect_filter<>(angular_defect_bound));
+}
+
+} // namespace Surface_mesh_multiresolution
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_MULTIRESOLUTION_FLAT_COLLAPSE_POLICIES_H

@@ -1,0 +1,168 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_MESH_HIERARCHY_H
+#define CGAL_SURFACE_MESH_MULTIRESOLUTION_MESH_HIERARCHY_H
+
+#include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
+#include <CGAL/Surface_mesh_multiresolution/Prolongation.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/nearest_triangle.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/vsplit_stencils.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_multiresolution {
+
+/// \ingroup PkgHLSCMMultiresolution
+/// How the vertices that a coarse level does not have get their values.
+enum class Prolongation_rule
+{
+  WALK,  ///< from the nearest triangle of the coarse level, found by a walk from the ancestor
+  VSPLIT ///< from the nearest triangle at the time of the vertex split (Ray and Lévy 2003, 4.1)
+};
+
+/// \ingroup PkgHLSCMMultiresolution
+/// The options of `build_hierarchy()`.
+struct Hierarchy_options
+{
+  double ratio = 4.;                ///< vertices of a level to those of the next coarser one, > 1
+  std::size_t coarsest_size = 2000; ///< vertices that the coarsest level should have
+  Prolongation_rule rule = Prolongation_rule::WALK; ///< how values go to finer levels
+};
+
+/*!
+\ingroup PkgHLSCMMultiresolution
+
+The struct `Mesh_level` is one mesh of a hierarchy. Its vertices are a subset of the fine mesh's, in
+the same order.
+*/
+struct Mesh_level
+{
+  std::vector<Vertex_index> vertices; ///< for each vertex its index in the fine mesh
+  Indexed_triangle_mesh mesh;         ///< the level's mesh
+  Prolongation from_coarser;          ///< from the next coarser level; empty at the coarsest
+
+  /// Returns the index in this level of a vertex of the fine mesh. Precondition: the level has it.
+  std::size_t position(Vertex_index v) const
+  {
+    return std::lower_bound(vertices.begin(), vertices.end(), v) - vertices.begin();
+  }
+};
+
+/*!
+\ingroup PkgHLSCMMultiresolution
+
+Returns the numbers of collapses at which levels are cut, ascending from 0 (the fine mesh): each about
+`ratio` times smaller than the one before, at the ends of passes if the progressive mesh has them.
+*/
+inline std::vector<std::size_t> level_cuts(const Progressive_mesh& pm,
+                                           const Hierarchy_options& options)
+{
+  std::vector<std::size_t> cuts(1, 0);
+  const double smallest = double((std::max)(
+    options.coarsest_size, pm.number_of_vertices - pm.collapses.size()));
+  const double span = double(pm.number_of_vertices) / (std::max)(1., smallest);
+  const int steps = int(std::lround(std::log((std::max)(1., span)) / std::log(options.ratio)));
+  for(int step = 1; step <= steps; ++step) {
+    const double wanted = double(pm.number_of_vertices) / std::pow(span, double(step) / steps);
+    const double k = double(pm.number_of_vertices) - wanted;
+    std::size_t cut = (std::min)(pm.collapses.size(), std::size_t(k));
+    const auto after = std::lower_bound(pm.batch_ends.begin(), pm.batch_ends.end(), cut);
+    if(after != pm.batch_ends.end()) {
+      // The nearer pass end in the ratio of vertices
+      const double n_after = double(pm.number_of_vertices - *after);
+      const bool has_before = after != pm.batch_ends.begin();
+      const double n_before = has_before ? double(pm.number_of_vertices - *(after - 1)) : 1e300;
+      cut = (has_before && n_before / wanted < wanted / n_after) ? *(after - 1) : *after;
+    }
+    if(cut > cuts.back())
+      cuts.push_back(cut);
+  }
+  return cuts;
+}
+
+namespace internal {
+
+// The level that the collapses [first, last) make of `fine`; `ancestor` gets for each vertex of
+// `fine` its ancestor, first as an index of `fine`. Collapses are in indices of the finest mesh,
+// `index_in_fine` translates them.
+inline Mesh_level coarsen(const Mesh_level& fine, const Progressive_mesh& pm, std::size_t first,
+                          std::size_t last, const std::vector<Vertex_index>& index_in_fine,
+                          std::vector<Vertex_index>& ancestor)
+{
+  const std::size_t n = fine.mesh.points.size();
+  ancestor.resize(n);
+  for(Vertex_index v = 0; v < n; ++v)
+    ancestor[v] = v;
+  for(std::size_t i = last; i-- > first;)
+    ancestor[index_in_fine[pm.collapses[i].removed]]
+      = ancestor[index_in_fine[pm.collapses[i].kept]];
+  Mesh_level coarse;
+  const std::size_t n_coarse = n - (last - first);
+  coarse.vertices.reserve(n_coarse);
+  coarse.mesh.points.reserve(n_coarse);
+  std::vector<Vertex_index> rank(n, no_vertex);
+  for(Vertex_index v = 0; v < n; ++v)
+    if(ancestor[v] == v) {
+      rank[v] = Vertex_index(coarse.vertices.size());
+      coarse.vertices.push_back(fine.vertices[v]);
+      coarse.mesh.points.push_back(fine.mesh.points[v]);
+    }
+  for(const Triangle_indices& t : fine.mesh.triangles) {
+    const Triangle_indices s = {rank[ancestor[t[0]]], rank[ancestor[t[1]]], rank[ancestor[t[2]]]};
+    if(s[0] != s[1] && s[1] != s[2] && s[2] != s[0])
+      coarse.mesh.triangles.push_back(s);
+  }
+  return coarse;
+}
+
+} // namespace internal
+
+/*!
+\ingroup PkgHLSCMMultiresolution
+
+Returns the levels of a hierarchy, the coarsest first; the last is `mesh` itself.
+
+\param mesh the mesh that `pm` was made of; it is moved into the result
+\param pm its progressive mesh
+\param options the ratio of the levels, and how values are taken from one to the next
+
+Linear time.
+*/
+inline std::vector<Mesh_level> build_hierarchy(Indexed_triangle_mesh mesh,
+                                               const Progressive_mesh& pm,
+                                               const Hierarchy_options& options)
+{
+  const std::vector<std::size_t> cuts = level_cuts(pm, options);
+  std::vector<Mesh_level> levels(1);
+  levels[0].vertices.resize(mesh.points.size());
+  for(Vertex_index v = 0; v < mesh.points.size(); ++v)
+    levels[0].vertices[v] = v;
+  levels[0].mesh = std::move(mesh);
+  std::vector<Vertex_index> index = levels[0].vertices, ancestor;
+  for(std::size_t c = 1; c < cuts.size(); ++c) {
+    Mesh_level& fine = levels.back();
+    Mesh_level coarse = internal::coarsen(fine, pm, cuts[c - 1], cuts[c], index, ancestor);
+    Prolongation& p = fine.from_coarser;
+    for(Vertex_index v = 0; v < ancestor.size(); ++v)
+      if(ancestor[v] == v)
+        p.kept.push_back(v);
+    p.stencils = options.rule == Prolongation_rule::WALK
+               ? internal::walk_stencils(fine.mesh, coarse.mesh, p.kept, ancestor)
+               : internal::vsplit_stencils(fine.mesh, pm, cuts[c - 1], cuts[c], index);
+    for(Vertex_index v = 0; v < coarse.vertices.size(); ++v)
+      index[coarse.vertices[v]] = v;
+    levels.push_back(std::move(coarse));
+  }
+  std::reverse(levels.begin(), levels.end());
+  return levels;
+}
+
+} // namespace Surface_mesh_multiresolution
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_MULTIRESOLUTION_MESH_HIERARCHY_H

@@ -1,0 +1,114 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_HLSCM_OPTIONS_H
+#define CGAL_SURFACE_MESH_PARAMETERIZATION_HLSCM_OPTIONS_H
+
+#include <CGAL/Multigrid/Schedule.h>
+#include <CGAL/Surface_mesh_multiresolution/Mesh_hierarchy.h>
+
+#include <array>
+#include <complex>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_parameterization {
+
+/// \ingroup PkgHLSCMParameterizer
+/// How the minimum of the conformal energy is found.
+enum class Conformal_method
+{
+  HLSCM,    ///< conjugate gradients preconditioned by multigrid cycles, to the minimiser
+  CASCADIC, ///< the cascade of Ray and Lévy 2003: a few steps on each level; no tolerance is met
+  LSCM,     ///< conjugate gradients on the fine mesh alone (monogrid)
+  DIRECT    ///< sparse Cholesky factorization of the whole system
+};
+
+/// \ingroup PkgHLSCMParameterizer
+/// Which energy is minimised.
+enum class Conformal_weights
+{
+  EXACT,    ///< the conformal energy, which does not depend on the resolution of the mesh
+  CGAL_LSCM ///< that of `LSCM_parameterizer_3`: each triangle times eight times its area
+};
+
+/// \ingroup PkgHLSCMParameterizer
+/// What decimates the mesh.
+enum class Decimation_engine
+{
+  FLAT,        ///< `Flat_collapse_engine`, in batches
+  FLAT_STRICT, ///< `Flat_collapse_engine`, always the cheapest collapse of all
+  CGAL         ///< CGAL's `edge_collapse()` with the same policies
+};
+
+/// \ingroup PkgHLSCMParameterizer
+/// The preconditioner of the monogrid method.
+enum class Monogrid_preconditioner
+{
+  JACOBI,                ///< the diagonal
+  SYMMETRIC_GAUSS_SEIDEL ///< a forward and a backward sweep of Gauss-Seidel
+};
+
+using Surface_mesh_multiresolution::Prolongation_rule;
+
+/// \ingroup PkgHLSCMParameterizer
+/// The map on one level, as observers see it.
+struct Level_view
+{
+  std::size_t level;            ///< 0 is the coarsest
+  std::size_t number_of_levels; ///< their number
+  /// For each vertex of the level its position in `vertices(mesh)`.
+  const std::vector<std::uint32_t>* vertices;
+  /// The faces, as indices into `vertices`.
+  const std::vector<std::array<std::uint32_t, 3>>* faces;
+  /// The parameter \f$ u + iv \f$ of each vertex.
+  const std::vector<std::complex<double>>* uv;
+};
+
+/*!
+\ingroup PkgHLSCMParameterizer
+
+The options of `HLSCM_parameterizer_3`.
+*/
+struct HLSCM_options
+{
+  /// How the minimum is found.
+  Conformal_method method = Conformal_method::HLSCM;
+  /// The part of the energy by which the result may lie above the minimum, \f$ (E - E_{\min}) / E \f$:
+  /// 1e-2 cannot be told from the minimum by eye, 1e-4 leaves uv errors of about 1e-3 of the map.
+  double tolerance = 1e-2;
+  /// Smoothing steps before and after the coarse correction, and visits of the coarse level. By
+  /// default the K-cycle of `Multigrid::Schedule()`, and for the cascade, which takes
+  /// `post_smoothing` conjugate gradient steps on each level, `Multigrid::Schedule::cascade(10)`.
+  std::optional<Multigrid::Schedule> schedule;
+  /// Vertices of a level to those of the next coarser one; 0 for the method's default: 4, and for
+  /// the cascade 10, as in the paper.
+  double level_ratio = 0.;
+  /// Vertices of the coarsest level, which is solved directly.
+  std::size_t coarsest_size = 2000;
+  /// A vertex whose angular defect is not below this stays, in degrees (the paper's 70).
+  double angular_defect_bound = 70.;
+  /// Which energy is minimised.
+  Conformal_weights weights = Conformal_weights::EXACT;
+  /// What decimates the mesh.
+  Decimation_engine engine = Decimation_engine::FLAT;
+  /// How values go to finer levels.
+  Prolongation_rule prolongation = Prolongation_rule::WALK;
+  /// The preconditioner of `Conformal_method::LSCM`.
+  Monogrid_preconditioner preconditioner = Monogrid_preconditioner::JACOBI;
+  /// Iterations on the fine mesh before the solver gives up; 0 for the method's default: 500, and
+  /// 100000 for the monogrid method.
+  std::size_t maximal_iterations = 0;
+  /// Told the part done in [0, 1] from time to time; returning `false` cancels.
+  std::function<bool(double)> progress;
+  /// Told the map on each level as soon as it is known.
+  std::function<void(const Level_view&)> level_observer;
+};
+
+} // namespace Surface_mesh_parameterization
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_HLSCM_OPTIONS_H

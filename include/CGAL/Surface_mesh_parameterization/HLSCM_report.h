@@ -1,0 +1,63 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_HLSCM_REPORT_H
+#define CGAL_SURFACE_MESH_PARAMETERIZATION_HLSCM_REPORT_H
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_parameterization {
+
+/// \ingroup PkgHLSCMParameterizer
+/// A vertex whose parameter is given.
+struct HLSCM_pin
+{
+  std::size_t vertex; ///< its position in `vertices(mesh)`
+  double u;           ///< its first parameter
+  double v;           ///< its second parameter
+};
+
+/// \ingroup PkgHLSCMParameterizer
+/// What happened on one level.
+struct HLSCM_level_report
+{
+  std::size_t vertices = 0;   ///< vertices of the level
+  std::size_t faces = 0;      ///< faces of the level
+  std::size_t iterations = 0; ///< iterations on it; 0 for a direct solution
+  double seconds = 0.;        ///< time of these iterations
+};
+
+/*!
+\ingroup PkgHLSCMParameterizer
+
+What `HLSCM_parameterizer_3` did, and what came of it.
+*/
+struct HLSCM_report
+{
+  std::string method;                     ///< name of the method: hlscm, cascadic, lscm, direct
+  bool converged = false;                 ///< whether the tolerance is met, as far as is known
+  bool cancelled = false;                 ///< whether the progress function stopped it
+  std::string message;                    ///< one sentence on what went wrong; empty if nothing did
+  std::vector<std::string> warnings;      ///< one sentence each
+  std::size_t vertices = 0;               ///< vertices of the chart
+  std::size_t faces = 0;                  ///< faces of the chart
+  std::size_t borders = 0;                ///< its border cycles
+  std::size_t mollified_faces = 0;        ///< faces without area that were given some
+  std::vector<HLSCM_pin> pins;            ///< the pins
+  std::vector<HLSCM_level_report> levels; ///< the levels, the coarsest first
+  std::size_t iterations = 0;             ///< iterations on the finest level
+  double energy = 0.;                     ///< \f$ E \f$, Dirichlet energy minus area of the map
+  double energy_gap_estimate = 0.;        ///< estimate of \f$ E - E_{\min} \f$
+  double seconds_hierarchy = 0.;          ///< time of reading the mesh, decimation and levels
+  double seconds_operators = 0.;          ///< time of matrices, and of their factorization
+  double seconds_solve = 0.;              ///< time of the iterations
+  double seconds_total = 0.;              ///< time of all
+};
+
+} // namespace Surface_mesh_parameterization
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_HLSCM_REPORT_H

@@ -1,0 +1,100 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_SOLVER_TRAITS_CHOLESKY_H
+#define CGAL_SURFACE_MESH_PARAMETERIZATION_SOLVER_TRAITS_CHOLESKY_H
+
+#include <CGAL/Multigrid/Hermitian_matrix.h>
+
+#include <complex>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_parameterization {
+
+/*!
+\ingroup PkgHLSCMParameterizer
+
+The class `Solver_traits_cholesky` lets a solver of CGAL, on real numbers, solve the coarsest level:
+the complex unknown \f$ u + iv \f$ becomes two real ones, and the row \f$ h = a + ib \f$ the rows
+\f$ (a, -b) \f$ and \f$ (b, a) \f$.
+
+\tparam SolverTraits a model of `SparseLinearAlgebraWithFactorTraits_d`
+
+\cgalModels{MultigridCoarsestSolver}
+*/
+template <class SolverTraits>
+class Solver_traits_cholesky
+{
+public:
+  /// Constructs it on a copy of `traits`.
+  explicit Solver_traits_cholesky(const SolverTraits& traits = SolverTraits()) : m_traits(traits) {}
+
+  /// Factorizes `matrix`, rows of zeros left out; returns whether that succeeded.
+  template <class Real>
+  bool factorize(const Multigrid::Hermitian_matrix<Real>& matrix)
+  {
+    typedef typename SolverTraits::NT NT;
+    const std::uint32_t pinned = std::uint32_t(-1);
+    std::vector<std::uint32_t> rank(matrix.size(), pinned);
+    m_free.clear();
+    for(std::uint32_t i = 0; i < matrix.size(); ++i)
+      if(matrix.diagonal()[i] != Real(0)) {
+        rank[i] = std::uint32_t(m_free.size());
+        m_free.push_back(i);
+      }
+    if(m_free.empty())
+      return true;
+    const int n = int(m_free.size());
+    const std::vector<std::uint32_t> slot = matrix.slot_of_row();
+    m_matrix = std::make_shared<typename SolverTraits::Matrix>(2 * n, 2 * n, true);
+    const auto set = [&](int i, int j, std::complex<double> h) {
+      m_matrix->set_coef(2 * i, 2 * j, NT(h.real()), true);
+      m_matrix->set_coef(2 * i + 1, 2 * j + 1, NT(h.real()), true);
+      if(h.imag() != 0.) {
+        m_matrix->set_coef(2 * i, 2 * j + 1, NT(-h.imag()), true);
+        m_matrix->set_coef(2 * i + 1, 2 * j, NT(h.imag()), true);
+      }
+    };
+    for(int i = 0; i < n; ++i) {
+      set(i, i, std::complex<double>(matrix.diagonal()[m_free[i]]));
+      matrix.for_each_entry(slot[m_free[i]], [&](std::uint32_t j, std::complex<Real> value) {
+        if(rank[j] != pinned)
+          set(i, int(rank[j]), std::complex<double>(value));
+      });
+    }
+    NT scale;
+    return m_traits.factor(*m_matrix, scale);
+  }
+
+  /// Solves for `x`; unknowns of rows of zeros become 0.
+  template <class Real>
+  void solve(const Multigrid::Complex_vector<Real>& f, Multigrid::Complex_vector<Real>& x)
+  {
+    typedef typename SolverTraits::NT NT;
+    x.assign(f.size(), std::complex<Real>(0));
+    const int n = int(m_free.size());
+    if(n == 0)
+      return;
+    typename SolverTraits::Vector b(2 * n), y(2 * n);
+    for(int i = 0; i < n; ++i) {
+      b.set(2 * i, NT(f[m_free[i]].real()));
+      b.set(2 * i + 1, NT(f[m_free[i]].imag()));
+    }
+    m_traits.linear_solver(b, y);
+    for(int i = 0; i < n; ++i)
+      x[m_free[i]] = std::complex<Real>(Real(y[2 * i]), Real(y[2 * i + 1]));
+  }
+
+private:
+  SolverTraits m_traits;
+  std::shared_ptr<typename SolverTraits::Matrix> m_matrix; // some factorizations refer to it
+  std::vector<std::uint32_t> m_free;
+};
+
+} // namespace Surface_mesh_parameterization
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_SOLVER_TRAITS_CHOLESKY_H

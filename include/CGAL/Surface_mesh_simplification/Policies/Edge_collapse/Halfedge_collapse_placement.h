@@ -1,0 +1,83 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_HALFEDGE_COLLAPSE_PLACEMENT_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_HALFEDGE_COLLAPSE_PLACEMENT_H
+
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Volume_and_border_area_cost.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Angular_defect_filter.h>
+
+namespace CGAL {
+namespace Surface_mesh_simplification {
+
+namespace internal {
+
+// The map that locks no vertex.
+struct No_locked_vertices
+{
+  template <class VertexDescriptor>
+  friend bool get(const No_locked_vertices&, const VertexDescriptor&) { return false; }
+};
+
+} // namespace internal
+
+/*!
+\ingroup PkgHLSCMPolicies
+
+The class `Halfedge_collapse_placement` places the merged vertex at the endpoint of the edge whose
+halfedge collapse (hcoll) costs less: at `p1` to remove `v0`, at `p0` to remove `v1`. Vertices of a
+coarse mesh are then vertices of the fine one. Directions that the filter or the locks forbid are
+not considered; if none is left the edge has no placement. A border vertex moves only along the
+border.
+
+\tparam Cost a model of `GetCost`
+\tparam Filter a model of `PlacementFilter`
+\tparam VertexIsLockedMap a model of `ReadablePropertyMap` with the vertex descriptor as key and
+        `bool` as value; locked vertices are never removed
+
+\cgalModels{GetPlacement}
+*/
+template <class Cost = Volume_and_border_area_cost,
+          class Filter = internal::Accept_all_filter,
+          class VertexIsLockedMap = internal::No_locked_vertices>
+class Halfedge_collapse_placement
+{
+public:
+  /// Constructs the placement.
+  explicit Halfedge_collapse_placement(const Cost& cost = Cost(), const Filter& filter = Filter(),
+                                       const VertexIsLockedMap& is_locked = VertexIsLockedMap())
+    : m_cost(cost), m_filter(filter), m_is_locked(is_locked)
+  {}
+
+  /// Returns the endpoint to collapse to, or nothing if neither is allowed; `p1` on a tie.
+  template <class Profile>
+  internal::Optional<typename Profile::Point> operator()(const Profile& profile) const
+  {
+    typedef internal::Optional<typename Profile::Point> Optional_point;
+    typedef internal::Optional<typename Profile::FT> Optional_cost;
+    const auto admitted = [&](const Optional_point& placement) {
+      return m_filter(profile, placement);
+    };
+    Optional_point to_p1, to_p0;
+    if(!get(m_is_locked, profile.v0()))
+      to_p1 = admitted(Optional_point(profile.p1()));
+    // Equal points cannot say which of the two vertices goes.
+    if(profile.p0() != profile.p1() && !get(m_is_locked, profile.v1()))
+      to_p0 = admitted(Optional_point(profile.p0()));
+    const Optional_cost cost_p1 = to_p1 ? m_cost(profile, to_p1) : Optional_cost();
+    const Optional_cost cost_p0 = to_p0 ? m_cost(profile, to_p0) : Optional_cost();
+    if(cost_p1 && (!cost_p0 || *cost_p1 <= *cost_p0))
+      return to_p1;
+    return cost_p0 ? to_p0 : Optional_point();
+  }
+
+private:
+  Cost m_cost;
+  Filter m_filter;
+  VertexIsLockedMap m_is_locked;
+};
+
+} // namespace Surface_mesh_simplification
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_HALFEDGE_COLLAPSE_PLACEMENT_H

@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# Copyright (c) 2026  The HLSCM for CGAL authors.
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# Installs the Debian packages that are missing, as root or by sudo.
+#
+# Usage: scripts/install_dependencies.sh [--doc] [--bench]
+#   --doc    also what the manual needs
+#   --bench  also what the plots of the benchmarks need
+
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+packages=(
+  g++ cmake ninja-build python3
+  libcgal-dev libcgal-demo libeigen3-dev
+  libsuitesparse-dev libopenmesh-dev
+  libcli11-dev nlohmann-json3-dev libstb-dev
+  libgtest-dev libbenchmark-dev)
+
+for option in "$@"; do
+  case "$option" in
+    --doc) packages+=(doxygen graphviz python3-matplotlib) ;;
+    --bench) packages+=(python3-matplotlib) ;;
+    *) fail "unknown option $option; there are --doc and --bench" ;;
+  esac
+done
+
+missing=()
+for package in "${packages[@]}"; do
+  status="$(dpkg -s "$package" 2>/dev/null || true)"
+  case "$status" in
+    *"Status: install ok installed"*) ;;
+    *) missing+=("$package") ;;
+  esac
+done
+
+if [ "${#missing[@]}" -eq 0 ]; then
+  say "all packages are installed"
+  exit 0
+fi
+
+say "installing ${missing[*]}"
+command -v apt-get >/dev/null || fail "no apt-get here; install these by hand: ${missing[*]}"
+as_root apt-get -qq update >&2
+as_root env DEBIAN_FRONTEND=noninteractive \
+  apt-get -qq -y -o DPkg::Lock::Timeout=300 install --no-install-recommends "${missing[@]}" >&2

@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# Copyright (c) 2026  The HLSCM for CGAL authors.
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# Installs what is missing, builds everything and runs all tests.
+#
+# Usage: scripts/test.sh [ARGUMENT of ctest]...      for instance: scripts/test.sh -L core
+
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+cd "$root"
+scripts/install_dependencies.sh
+
+# Also for the builds that tests start
+CMAKE_BUILD_PARALLEL_LEVEL="$(number_of_jobs)"
+export CMAKE_BUILD_PARALLEL_LEVEL
+
+say "building"
+cmake --preset release >&2
+cmake --build --preset release >&2
+
+HLSCM_DATA_DIR="$(scripts/debian_meshes.sh "$root/build/release/meshes")"
+export HLSCM_DATA_DIR
+if [ -d "$root/../shared/data" ]; then
+  HLSCM_EXTRA_DATA_DIR="$(cd "$root/../shared/data" && pwd)"
+  export HLSCM_EXTRA_DATA_DIR
+fi
+
+say "testing"
+exec ctest --preset release --parallel "$(nproc)" "$@"

@@ -1,0 +1,12 @@
+# Copyright (c) 2026  The HLSCM for CGAL authors.
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+# Builds the core tests with the preset asan-ubsan, in a folder of its own, and runs them.
+
+include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
+
+set(ENV{UBSAN_OPTIONS} print_stacktrace=1)
+run(${CMAKE_COMMAND} --preset asan-ubsan -S ${source_dir} -B ${work_dir}
+    -D CMAKE_CXX_COMPILER=${compiler} -D CGAL_DIR=${cgal_dir})
+run(${CMAKE_COMMAND} --build ${work_dir})
+run(${CMAKE_CTEST_COMMAND} --test-dir ${work_dir} --output-on-failure --no-tests=error)
