@@ -41,6 +41,7 @@ fi
 
 say "installing ${missing[*]}"
 command -v apt-get >/dev/null || fail "no apt-get here; install these by hand: ${missing[*]}"
-as_root apt-get -qq update >&2
+# One source that does not answer is no reason to give up: the packages come from Debian's.
+as_root apt-get -qq update >&2 || say "apt-get update failed; trying with the lists at hand"
 as_root env DEBIAN_FRONTEND=noninteractive \
   apt-get -qq -y -o DPkg::Lock::Timeout=300 install --no-install-recommends "${missing[@]}" >&2

@@ -537,7 +537,7 @@ std::vector<Bad_file> bad_files()
       {"short.stl", "short", {"5 bytes", "export"}},
       {"mesh.xyz", "0 0 0\n", {"extension", ".off, .obj, .ply or .stl"}},
       {"mesh", "0 0 0\n", {"extension"}},
-      {"cut.off", off(good).substr(0, 300), {"vertex 7", "cut short"}},
+      {"cut.off", off(good).substr(0, 300), {"14 of 25 vertices", "cut short"}},
       {"cut.ply", binary.substr(0, binary.size() - 20), {"face 30", "cut short"}},
       {"cut.stl", stl(good, true).substr(0, 1000), {"18 of 32 triangles", "cut short"}},
       {"cut2.stl", stl(good, false).substr(0, 1000), {"triangle", "cut short"}},
@@ -619,7 +619,7 @@ TEST_F(Program, misses_files_and_folders)
 TEST_F(Program, notices_files_that_were_cut_short)
 {
   Soup strip;
-  for(std::size_t i = 0; i < 6; ++i) {
+  for(std::size_t i = 0; i < 5; ++i) {
     strip.points.push_back({double(i), double(i % 2), 0.25});
     if(i >= 2) {
       strip.faces.push_back({i - 2 + i % 2, i - 1 - i % 2, i});
@@ -632,14 +632,13 @@ TEST_F(Program, notices_files_that_were_cut_short)
   for(const auto& [name, bytes] : files) {
     ASSERT_EQ(parameterize(write(name, bytes), "out.obj", {"--quiet"}).exit_code, 0) << name;
     const bool is_text = bytes.back() == '\n';
-    for(std::size_t size = 0; size < bytes.size(); ++size) {
-      const Outcome outcome =
-          parameterize(write(name, bytes.substr(0, size)), "out.obj", {"--quiet"});
+    // All places near the end, every third before.
+    for(std::size_t size = 0; size < bytes.size(); size += size + 60 < bytes.size() ? 3 : 1) {
+      const Outcome outcome = parameterize(write(name, bytes.substr(0, size)), "out.obj");
       const bool is_noticed =
           outcome.exit_code == 1 || outcome.err.find("no line feed") != std::string::npos;
-      const bool is_complete =
-          is_text && (size + 1 == bytes.size() || bytes.compare(0, size, bytes, 0, size) != 0);
-      const bool is_name_of_solid = name == "b.stl" && size + 5 >= bytes.size();
+      const bool is_complete = is_text && size + 1 == bytes.size();
+      const bool is_name_of_solid = name == "b.stl" && size + 6 >= bytes.size();
       ASSERT_TRUE(is_noticed || is_complete || is_name_of_solid) << name << " " << size;
     }
   }
@@ -736,7 +735,7 @@ TEST_F(Program, warns_of_adjacent_pins)
   const Outcome outcome = parameterize(in, "out.obj", {"--pin", "0=0,0", "--pin", "1=1,0"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.err.find("hlscm: warning: "), std::string::npos);
-  EXPECT_NE(outcome.err.find("adjacent"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("neighbours"), std::string::npos) << outcome.err;
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -889,7 +888,7 @@ TEST_F(Program, says_so_when_it_does_not_converge)
                                        {"--method", "lscm", "--iterations", "2", "--tolerance",
                                         "1e-9", "--report", path("report.json")});
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_EQ(error_in_message(outcome.err, in, {"converge"}), "");
+  EXPECT_EQ(error_in_message(outcome.err, in, {"not met after 2 iterations"}), "");
   EXPECT_EQ(names(), std::set<std::string>{"in.off"});
 }
 
@@ -941,20 +940,22 @@ TEST_F(Program, draws_pictures)
 TEST_F(Program, repeats_itself_exactly)
 {
   const std::string in = write("in.off", off(grid(60, hilly)));
-  std::vector<std::vector<std::string>> runs;
+  const Texts names{"out.obj",        "out.ply",       "p/domain.png",
+                    "p/isolines.png", "p/checker.png", "p/levels.png"};
+  Texts first;
   for(int i = 0; i < 2; ++i) {
-    for(const char* name : {"out.obj", "out.ply"}) {
-      ASSERT_EQ(parameterize(in, name, {"--pictures", path("p"), "--coarsest", "200"}).exit_code,
-                0);
-    }
-    auto& files = runs.emplace_back();
-    for(const char* name :
-        {"out.obj", "out.ply", "p/domain.png", "p/isolines.png", "p/checker.png", "p/levels.png"})
-    {
-      files.push_back(read_file(folder / name));
+    const Texts coarse{"--coarsest", "200"};
+    ASSERT_EQ(parameterize(in, "out.ply", coarse).exit_code, 0);
+    ASSERT_EQ(
+        parameterize(in, "out.obj", {"--pictures", path("p"), coarse[0], coarse[1]}).exit_code, 0);
+    for(std::size_t k = 0; k < names.size(); ++k) {
+      const std::string bytes = read_file(folder / names[k]);
+      if(i == 0) {
+        first.push_back(bytes);
+      }
+      EXPECT_TRUE(first[k] == bytes) << names[k];
     }
   }
-  EXPECT_TRUE(runs[0] == runs[1]);
 }
 
 // ---------------------------------------------------------------------------------------------

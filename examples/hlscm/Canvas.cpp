@@ -27,9 +27,9 @@ void put_bytes(void* file, void* bytes, int size)
 } // namespace
 
 Canvas::Canvas(std::size_t width, std::size_t height)
-    : m_width(samples * width), m_height(samples * height),
-      m_colours(m_width * m_height, {255, 255, 255}),
-      m_depths(m_width * m_height, -std::numeric_limits<float>::infinity())
+  : m_width(samples * width), m_height(samples * height),
+    m_colours(m_width * m_height, {255, 255, 255}),
+    m_depths(m_width * m_height, -std::numeric_limits<float>::infinity())
 {}
 
 void Canvas::draw_segment(const Point& a, const Point& b, double width, const Colour& colour)

@@ -44,9 +44,9 @@ class Examination
 {
 public:
   Examination(const Polygon_soup& soup, Progress_bar& progress)
-      : m_soup(soup), m_progress(progress), m_components(soup.number_of_faces()),
-        m_fans(soup.corners.size()), m_border(soup.number_of_vertices()),
-        m_is_on_border(soup.number_of_vertices(), 0), m_is_used(soup.number_of_vertices(), 0)
+    : m_soup(soup), m_progress(progress), m_components(soup.number_of_faces()),
+      m_fans(soup.corners.size()), m_border(soup.number_of_vertices()),
+      m_is_on_border(soup.number_of_vertices(), 0), m_is_used(soup.number_of_vertices(), 0)
   {}
 
   Diagnosis run()
@@ -188,12 +188,12 @@ private:
     for(std::size_t v = 0; v < m_soup.number_of_vertices(); ++v) {
       m_result.borders += m_is_on_border[v] && m_border.is_representative(v);
     }
-    m_result.euler_characteristic = (long long)(m_result.vertices - m_result.isolated.count) -
-                                    (long long)(m_result.edges) + (long long)(m_result.faces);
+    m_result.euler_characteristic = (long long)(m_result.vertices - m_result.isolated.count)
+                                    - (long long)(m_result.edges) + (long long)(m_result.faces);
     if(m_result.has_genus()) { // chi = 2 components - 2 genus - borders
-      m_result.genus = (2 * (long long)(m_result.components) - (long long)(m_result.borders) -
-                        m_result.euler_characteristic) /
-                       2;
+      m_result.genus = (2 * (long long)(m_result.components) - (long long)(m_result.borders)
+                        - m_result.euler_characteristic)
+                       / 2;
     }
     if(m_result.components > 1 && !m_result.not_finite) {
       count_coinciding_points();

@@ -51,8 +51,8 @@ class Domain_drawing
 public:
   Domain_drawing(Canvas& canvas, const Panel& panel, const Drawn_surface& surface,
                  const Uv_box& box)
-      : m_canvas(canvas), m_panel(panel), m_surface(surface), m_box(box),
-        m_scale(std::min(panel.width / box.width(), panel.height / box.height()))
+    : m_canvas(canvas), m_panel(panel), m_surface(surface), m_box(box),
+      m_scale(std::min(panel.width / box.width(), panel.height / box.height()))
   {}
 
   // The depth orders what is drawn: faces, flipped faces, borders, marks.
@@ -94,9 +94,10 @@ private:
     }
     const double size = std::sqrt(doubled_area / 2);
     const double strength =
-        0.75 * std::clamp((size - smallest_triangle_with_edges) /
-                              (triangle_with_full_edges - smallest_triangle_with_edges),
-                          0., 1.);
+        0.75
+        * std::clamp((size - smallest_triangle_with_edges)
+                         / (triangle_with_full_edges - smallest_triangle_with_edges),
+                     0., 1.);
     m_canvas.draw_triangle(p, [&](const std::array<double, 3>& b) {
       const double distance = std::min({b[0] * height[0], b[1] * height[1], b[2] * height[2]});
       return mix(face, edge_colour, strength * std::clamp(edge_width / 2 + 0.5 - distance, 0., 1.));
@@ -108,21 +109,8 @@ private:
 
   void draw_borders()
   {
-    std::vector<std::array<std::uint32_t, 2>> edges;
-    for(const auto& t : m_surface.triangles) {
-      for(std::size_t i = 0; i < 3; ++i) {
-        edges.push_back({std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3])});
-      }
-    }
-    std::sort(edges.begin(), edges.end());
-    for(std::size_t i = 0, j = 0; i < edges.size(); i = j) {
-      while(j < edges.size() && edges[j] == edges[i]) {
-        ++j;
-      }
-      if(j - i == 1) {
-        m_canvas.draw_segment(place(edges[i][0], 2), place(edges[i][1], 2), border_width,
-                              edge_colour);
-      }
+    for(const auto& edge : border_edges(m_surface)) {
+      m_canvas.draw_segment(place(edge[0], 2), place(edge[1], 2), border_width, edge_colour);
     }
   }
 

@@ -21,6 +21,9 @@ struct Drawn_surface
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
+/// The edges of one triangle only, by their vertices.
+std::vector<std::array<std::uint32_t, 2>> border_edges(const Drawn_surface& surface);
+
 inline Vector_3 operator+(const Vector_3& a, const Vector_3& b)
 {
   return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
@@ -29,10 +32,7 @@ inline Vector_3 operator-(const Vector_3& a, const Vector_3& b)
 {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
-inline Vector_3 operator*(double s, const Vector_3& a)
-{
-  return {s * a[0], s * a[1], s * a[2]};
-}
+inline Vector_3 operator*(double s, const Vector_3& a) { return {s * a[0], s * a[1], s * a[2]}; }
 inline double dot(const Vector_3& a, const Vector_3& b)
 {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

@@ -25,7 +25,7 @@ public:
   };
 
   explicit Edge_table(const Polygon_soup& soup)
-      : m_soup(soup), m_bucket(soup.number_of_vertices() + 1, 0), m_sides(soup.corners.size())
+    : m_soup(soup), m_bucket(soup.number_of_vertices() + 1, 0), m_sides(soup.corners.size())
   {
     for_each_side([this](std::uint32_t low, std::uint32_t, std::uint32_t) { ++m_bucket[low]; });
     std::uint32_t begin = 0;
@@ -39,8 +39,7 @@ public:
   }
 
   /// Calls `use(vertex, first side, last side)` for each edge.
-  template <typename Use>
-  void for_each_edge(Use use)
+  template <typename Use> void for_each_edge(Use use)
   {
     for(std::size_t v = 0; v + 1 < m_bucket.size(); ++v) {
       Side* begin = m_sides.data() + m_bucket[v];
@@ -58,8 +57,7 @@ public:
   }
 
 private:
-  template <typename Use>
-  void for_each_side(Use use) const
+  template <typename Use> void for_each_side(Use use) const
   {
     for(std::size_t f = 0; f < m_soup.number_of_faces(); ++f) {
       const Polygon_soup::Face face = m_soup.face(f);

@@ -11,6 +11,7 @@
 #include <mutex>
 #include <thread>
 
+#include <semaphore.h>
 #include <unistd.h>
 
 namespace hlscm {
@@ -20,6 +21,7 @@ namespace {
 constexpr std::chrono::milliseconds time_to_stop_by_itself(500);
 
 std::atomic<bool> requested(false);
+sem_t arrival;
 
 // Never destroyed: the waiting thread may outlive main().
 struct Clean_up
@@ -41,13 +43,16 @@ bool is_ignored(int signal)
   return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
-void wait_for_signal(sigset_t signals)
+void handle(int)
 {
-  int signal = 0;
-  if(sigwait(&signals, &signal) != 0) {
-    return;
-  }
   requested = true;
+  sem_post(&arrival); // one of the few functions that a handler may call
+}
+
+void stop_if_nobody_else_does()
+{
+  while(sem_wait(&arrival) != 0) { // a handler ran in this thread
+  }
   std::this_thread::sleep_for(time_to_stop_by_itself);
 
   std::lock_guard<std::mutex> lock(clean_up().mutex);
@@ -65,23 +70,21 @@ void wait_for_signal(sigset_t signals)
 
 void install()
 {
-  sigset_t signals;
-  sigemptyset(&signals);
+  clean_up();
+  sem_init(&arrival, 0, 0);
+  std::thread(stop_if_nobody_else_does).detach();
+  struct sigaction action = {};
+  action.sa_handler = handle;
+  action.sa_flags = SA_RESTART;
   for(int signal : {SIGINT, SIGTERM}) {
     if(!is_ignored(signal)) {
-      sigaddset(&signals, signal);
+      sigaction(signal, &action, nullptr);
     }
   }
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   std::signal(SIGXFSZ, SIG_IGN); // a limit on file sizes is an error of writing, not the end
-  clean_up();
-  std::thread(wait_for_signal, signals).detach();
 }
 
-bool is_requested()
-{
-  return requested;
-}
+bool is_requested() { return requested; }
 
 void check()
 {

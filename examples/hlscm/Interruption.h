@@ -10,12 +10,13 @@ namespace hlscm {
 
 /// Ctrl-C (SIGINT) and SIGTERM.
 ///
-/// A thread of its own waits for the signal. It raises a flag that all loops of the program and the
-/// progress callback of the library poll; a stage that does not poll within half a second (a sparse
-/// factorization, say) is abandoned: the thread runs the clean-up and ends the process.
+/// The handler raises a flag that all loops of the program and the progress callback of the library
+/// poll. A stage that does not poll within half a second (a sparse factorization, say) is
+/// abandoned: a thread of its own, which waits for the handler, runs the clean-up and ends the
+/// process.
 namespace Interruption {
 
-/// Starts to listen; to be called once, before any other thread exists.
+/// Starts to listen; to be called once.
 void install();
 
 /// Whether the user asked to stop.

@@ -40,9 +40,9 @@ File_bytes load(const std::string& file_name)
                                                        std::fclose);
   const std::size_t size = file ? std::size_t(fs::file_size(file_name, error)) : 0;
   if(!file || error) {
-    throw Program_error(file_name, std::string("cannot be opened (") +
-                                       (error ? error.message() : std::strerror(errno)) +
-                                       "), check its permissions");
+    throw Program_error(file_name, std::string("cannot be opened (")
+                                       + (error ? error.message() : std::strerror(errno))
+                                       + "), check its permissions");
   }
   File_bytes bytes{std::unique_ptr<char[]>(new char[size + 1]), size};
   constexpr std::size_t piece = std::size_t(1) << 24;
@@ -50,8 +50,8 @@ File_bytes load(const std::string& file_name)
     Interruption::check();
     const std::size_t wanted = std::min(piece, size - done);
     if(std::fread(bytes.data.get() + done, 1, wanted, file.get()) != wanted) {
-      throw Program_error(file_name, "reading stopped after " + std::to_string(done) +
-                                         " bytes, check the disk and try again");
+      throw Program_error(file_name, "reading stopped after " + std::to_string(done)
+                                         + " bytes, check the disk and try again");
     }
   }
   return bytes;
@@ -83,9 +83,9 @@ Read_mesh read_mesh(const std::string& file_name, Progress_bar& progress)
                                       [&](const Format& f) { return extension == f.extension; });
   const File_bytes bytes = load(file_name);
   if(format == std::end(formats)) {
-    throw Program_error(file_name, "the extension \"" + extension +
-                                       "\" is unknown, convert the mesh "
-                                       "to .off, .obj, .ply or .stl");
+    throw Program_error(file_name, "the extension \"" + extension
+                                       + "\" is unknown, convert the mesh "
+                                         "to .off, .obj, .ply or .stl");
   }
   const Mesh_source source{file_name, bytes.data.get(), bytes.data.get() + bytes.size, progress};
   if(bytes.size == 0) {
@@ -93,8 +93,8 @@ Read_mesh read_mesh(const std::string& file_name, Progress_bar& progress)
   }
   Read_mesh mesh = format->read(source);
   if(mesh.soup.number_of_faces() == 0) {
-    source.fail("there is no face in it (" + std::to_string(mesh.soup.number_of_vertices()) +
-                " vertices), give a mesh instead of points or a damaged file");
+    source.fail("there is no face in it (" + std::to_string(mesh.soup.number_of_vertices())
+                + " vertices), give a mesh instead of points or a damaged file");
   }
   return mesh;
 }

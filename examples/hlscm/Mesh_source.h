@@ -38,8 +38,8 @@ struct Mesh_source
   [[noreturn]] void fail_truncated(const std::string& kind, std::size_t have,
                                    std::size_t want) const
   {
-    fail("the file ends after " + std::to_string(have) + " of " + std::to_string(want) + " " +
-         kind + ", it is cut short: copy or export it again");
+    fail("the file ends after " + std::to_string(have) + " of " + std::to_string(want) + " " + kind
+         + ", it is cut short: copy or export it again");
   }
 
   /// Refuses counts that no file of this size can hold, before memory is set aside for them.
@@ -47,12 +47,13 @@ struct Mesh_source
   {
     constexpr std::size_t limit = std::size_t(1) << 30; // of 32-bit halfedge indices
     if(count > size() / bytes_each) {
-      fail("the header promises " + std::to_string(count) + " " + kind + " but the file has only " +
-           std::to_string(size()) + " bytes, it is cut short or damaged: copy or export it again");
+      fail("the header promises " + std::to_string(count) + " " + kind + " but the file has only "
+           + std::to_string(size())
+           + " bytes, it is cut short or damaged: copy or export it again");
     }
     if(count >= limit) {
-      fail(std::to_string(count) + " " + kind +
-           " are more than this program can index, split the mesh");
+      fail(std::to_string(count) + " " + kind
+           + " are more than this program can index, split the mesh");
     }
   }
 
@@ -70,9 +71,9 @@ struct Mesh_source
   void add_corner(Polygon_soup& soup, long long index) const
   {
     if(index < 0 || std::size_t(index) >= soup.number_of_vertices()) {
-      fail("face " + std::to_string(soup.number_of_faces()) + " names vertex " +
-           std::to_string(index) + " but there are " + std::to_string(soup.number_of_vertices()) +
-           " vertices, the file is damaged: export it again");
+      fail("face " + std::to_string(soup.number_of_faces()) + " names vertex "
+           + std::to_string(index) + " but there are " + std::to_string(soup.number_of_vertices())
+           + " vertices, the file is damaged: export it again");
     }
     soup.corners.push_back(std::uint32_t(index));
   }

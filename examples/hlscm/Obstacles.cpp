@@ -7,29 +7,26 @@ namespace hlscm {
 
 namespace {
 
-std::string text(std::size_t number)
-{
-  return std::to_string(number);
-}
+std::string text(std::size_t number) { return std::to_string(number); }
 
 // "vertex 7", and how many more.
 std::string named(const std::string& element, const Finding& finding)
 {
-  return element + " " + text(finding.first[0]) +
-         (finding.count > 1 ? " (and " + text(finding.count - 1) + " more)" : "");
+  return element + " " + text(finding.first[0])
+         + (finding.count > 1 ? " (and " + text(finding.count - 1) + " more)" : "");
 }
 
 std::string named_pair(const std::string& elements, const Finding& finding)
 {
-  return elements + " " + text(finding.first[0]) + " and " + text(finding.first[1]) +
-         (finding.count > 1 ? " (and " + text(finding.count - 1) + " more pairs)" : "");
+  return elements + " " + text(finding.first[0]) + " and " + text(finding.first[1])
+         + (finding.count > 1 ? " (and " + text(finding.count - 1) + " more pairs)" : "");
 }
 
 Obstacle orientation_obstacle(const Diagnosis& d)
 {
-  const std::string what = named_pair("faces", d.misoriented) +
-                           " run along their common edge in the "
-                           "same direction";
+  const std::string what = named_pair("faces", d.misoriented)
+                           + " run along their common edge in the "
+                             "same direction";
   return d.is_orientable
              ? Obstacle{what, "orient all faces consistently first"}
              : Obstacle{what + " and the surface has one side only", "cut it to a disk first"};
@@ -40,8 +37,8 @@ Obstacle component_obstacle(const Diagnosis& d)
   Obstacle obstacle{"the mesh has " + text(d.components) + " connected components",
                     "split it and parameterize each part alone"};
   if(d.coinciding_points > 0) {
-    obstacle.remedy += ", or merge its " + text(d.coinciding_points) +
-                       " coinciding vertices first if the parts belong together";
+    obstacle.remedy += ", or merge its " + text(d.coinciding_points)
+                       + " coinciding vertices first if the parts belong together";
   }
   return obstacle;
 }
@@ -70,16 +67,16 @@ std::vector<Obstacle> obstacles(const Diagnosis& d)
   add_if(bool(d.duplicate),
          {named_pair("faces", d.duplicate) + " have the same vertices", "remove one of them"});
   add_if(bool(d.non_manifold_edges),
-         {"the edge between vertices " + text(d.non_manifold_edges.first[0]) + " and " +
-              text(d.non_manifold_edges.first[1]) + " has more than two faces" +
-              (d.non_manifold_edges.count > 1
-                   ? " (and " + text(d.non_manifold_edges.count - 1) + " more edges)"
-                   : ""),
+         {"the edge between vertices " + text(d.non_manifold_edges.first[0]) + " and "
+              + text(d.non_manifold_edges.first[1]) + " has more than two faces"
+              + (d.non_manifold_edges.count > 1
+                     ? " (and " + text(d.non_manifold_edges.count - 1) + " more edges)"
+                     : ""),
           "split the mesh there into manifold parts"});
   add_if(bool(d.misoriented), orientation_obstacle(d));
   add_if(bool(d.non_manifold_vertices),
-         {named("vertex", d.non_manifold_vertices) + " joins " +
-              text(d.non_manifold_vertices.first[1]) + " separate fans of faces",
+         {named("vertex", d.non_manifold_vertices) + " joins "
+              + text(d.non_manifold_vertices.first[1]) + " separate fans of faces",
           "give each fan a vertex of its own"});
   add_if(d.components > 1, component_obstacle(d));
   add_if(d.borders == 0, {"the surface is closed", "cut it open along a path of edges first"});

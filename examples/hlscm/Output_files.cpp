@@ -63,8 +63,8 @@ Output_file::Output_file(const fs::path& target) : m_name(target)
       (m_target.parent_path() / ("." + m_target.filename().string())).string() + ".XXXXXX";
   const int descriptor = mkstemp(pattern.data());
   if(descriptor < 0) {
-    throw Program_error(m_name.string(), std::string("cannot be written (") + std::strerror(errno) +
-                                             "), choose a folder that exists and is writable");
+    throw Program_error(m_name.string(), std::string("cannot be written (") + std::strerror(errno)
+                                             + "), choose a folder that exists and is writable");
   }
   m_temporary = pattern;
   [[maybe_unused]] const int changed = fchmod(descriptor, final_mode(m_target));
@@ -111,8 +111,8 @@ void Output_file::close()
 
 void Output_file::fail() const
 {
-  throw Program_error(m_name.string(), std::string("writing failed (") + std::strerror(errno) +
-                                           "), make room or choose another folder");
+  throw Program_error(m_name.string(), std::string("writing failed (") + std::strerror(errno)
+                                           + "), make room or choose another folder");
 }
 
 Output_files::Output_files()
@@ -143,8 +143,8 @@ void Output_files::create_folder(const fs::path& folder)
       m_created_folders.push_back(part);
     }
     if(error && !fs::is_directory(part)) {
-      throw Program_error(folder.string(), "the folder cannot be created (" + error.message() +
-                                               "), choose a place that exists and is writable");
+      throw Program_error(folder.string(), "the folder cannot be created (" + error.message()
+                                               + "), choose a place that exists and is writable");
     }
   }
 }
@@ -166,8 +166,8 @@ void Output_files::commit()
     std::error_code error;
     fs::rename(file->m_temporary, file->m_target, error);
     if(error) {
-      throw Program_error(file->m_name.string(), "cannot be put in place (" + error.message() +
-                                                     "), choose another output");
+      throw Program_error(file->m_name.string(), "cannot be put in place (" + error.message()
+                                                     + "), choose another output");
     }
     file->m_temporary.clear();
   }

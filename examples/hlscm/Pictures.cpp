@@ -77,9 +77,9 @@ void draw_level_picture(View view, const std::vector<Drawn_surface>& levels, Out
 } // namespace
 
 Picture_files::Picture_files(Output_files& files, const std::filesystem::path& folder)
-    : m_domain((files.create_folder(folder), files.create(folder / "domain.png"))),
-      m_isolines(files.create(folder / "isolines.png")),
-      m_checker(files.create(folder / "checker.png")), m_levels(files.create(folder / "levels.png"))
+  : m_domain((files.create_folder(folder), files.create(folder / "domain.png"))),
+    m_isolines(files.create(folder / "isolines.png")),
+    m_checker(files.create(folder / "checker.png")), m_levels(files.create(folder / "levels.png"))
 {}
 
 void Picture_files::draw(const std::vector<Drawn_surface>& levels, Progress_bar& progress)

@@ -106,9 +106,9 @@ Header read_header(const Mesh_source& source)
       return header;
     }
     if(!read_header_line(keyword, scanner, header)) {
-      source.fail("line " + std::to_string(scanner.line_number()) +
-                  " of the header is not understood, "
-                  "the file is damaged: export it again");
+      source.fail("line " + std::to_string(scanner.line_number())
+                  + " of the header is not understood, "
+                    "the file is damaged: export it again");
     }
   }
   source.fail("the header has no end, the file is cut short: copy or export it again");

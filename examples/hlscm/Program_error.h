@@ -14,7 +14,7 @@ class Program_error : public std::runtime_error
 {
 public:
   Program_error(const std::string& file, const std::string& what_is_wrong_and_remedy)
-      : std::runtime_error(file + ": " + what_is_wrong_and_remedy)
+    : std::runtime_error(file + ": " + what_is_wrong_and_remedy)
   {}
 };
 

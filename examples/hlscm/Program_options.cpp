@@ -18,8 +18,7 @@ namespace {
 
 constexpr int usage_error = 2;
 
-template <typename Value>
-using Names = std::vector<std::pair<std::string, Value>>;
+template <typename Value> using Names = std::vector<std::pair<std::string, Value>>;
 
 template <typename Value>
 void add_choice(CLI::App& app, const std::string& name, const Names<Value>& names, Value& value,
@@ -49,8 +48,8 @@ std::vector<double> numbers(const std::string& text)
   for(const char* p = text.data(); p <= end; ++p) {
     double value = 0;
     const std::from_chars_result result = std::from_chars(p, end, value);
-    if(result.ec != std::errc() || !std::isfinite(value) ||
-       (result.ptr != end && *result.ptr != ',')) {
+    if(result.ec != std::errc() || !std::isfinite(value)
+       || (result.ptr != end && *result.ptr != ',')) {
       return {};
     }
     values.push_back(value);
@@ -59,10 +58,7 @@ std::vector<double> numbers(const std::string& text)
   return values;
 }
 
-bool is_count(double value)
-{
-  return value >= 0 && value <= 1e9 && value == std::floor(value);
-}
+bool is_count(double value) { return value >= 0 && value <= 1e9 && value == std::floor(value); }
 
 Pin to_pin(const std::string& text)
 {
@@ -70,8 +66,8 @@ Pin to_pin(const std::string& text)
   const auto index = numbers(text.substr(0, equals));
   const auto uv =
       equals == std::string::npos ? std::vector<double>() : numbers(text.substr(equals + 1));
-  if(index.size() != 1 || index[0] < 0 || index[0] > 1e15 || index[0] != std::floor(index[0]) ||
-     uv.size() != 2)
+  if(index.size() != 1 || index[0] < 0 || index[0] > 1e15 || index[0] != std::floor(index[0])
+     || uv.size() != 2)
   {
     throw CLI::ValidationError("--pin", "\"" + text + "\" is not INDEX=U,V");
   }
@@ -81,17 +77,18 @@ Pin to_pin(const std::string& text)
 void set_schedule(const std::string& text, SMP::HLSCM_options& options)
 {
   const auto m = numbers(text);
-  if(m.size() != 3 || !is_count(m[0]) || !is_count(m[1]) || !is_count(m[2]) || m[0] + m[1] < 1 ||
-     m[2] < 1)
+  if(m.size() != 3 || !is_count(m[0]) || !is_count(m[1]) || !is_count(m[2]) || m[0] + m[1] < 1
+     || m[2] < 1)
   {
-    throw CLI::ValidationError("--schedule", "\"" + text +
-                                                 "\" is not M1,M2,MC with M1 + M2 >= 1 "
-                                                 "and MC >= 1");
+    throw CLI::ValidationError("--schedule", "\"" + text
+                                                 + "\" is not M1,M2,MC with M1 + M2 >= 1 "
+                                                   "and MC >= 1");
   }
-  using Count = decltype(options.schedule.pre_smoothing);
-  options.schedule.pre_smoothing = Count(m[0]);
-  options.schedule.post_smoothing = Count(m[1]);
-  options.schedule.coarse_visits = Count(m[2]);
+  CGAL::Multigrid::Schedule schedule;
+  schedule.pre_smoothing = static_cast<unsigned int>(m[0]);
+  schedule.post_smoothing = static_cast<unsigned int>(m[1]);
+  schedule.coarse_visits = static_cast<unsigned int>(m[2]);
+  options.schedule = schedule;
 }
 
 CLI::Option* add_number(CLI::App& app, const std::string& name, double low, double high,
@@ -101,8 +98,8 @@ CLI::Option* add_number(CLI::App& app, const std::string& name, double low, doub
     const auto number = numbers(text);
     return number.size() == 1 && number[0] > low && number[0] <= high
                ? ""
-               : "\"" + text + "\" is not a number above " + CLI::detail::to_string(low) +
-                     " and at most " + CLI::detail::to_string(high);
+               : "\"" + text + "\" is not a number above " + CLI::detail::to_string(low)
+                     + " and at most " + CLI::detail::to_string(high);
   };
   return app.add_option(name, value, help)->check(CLI::Validator(check, ""))->type_name("NUMBER");
 }

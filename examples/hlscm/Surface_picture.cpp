@@ -9,11 +9,13 @@ namespace hlscm {
 
 namespace {
 
-constexpr double line_distance = 0.045, square_side = 0.05; // the surface is two units large
+constexpr double line_distance = 28; // pixels, at least
+constexpr double square_side = 0.05; // the surface is two units large
 constexpr Colour outside{0.95, 0.94, 0.92}, inside{0.70, 0.74, 0.80};
 constexpr Colour u_colour{0.78, 0.13, 0.10}, v_colour{0.09, 0.28, 0.66};
 constexpr Colour dark_square{0.22, 0.40, 0.62}, light_square{0.98, 0.97, 0.95};
-constexpr double line_width = 1.3; // pixels
+constexpr Colour border_colour{0.25, 0.25, 0.27};
+constexpr double line_width = 1.3, border_width = 1.3; // pixels
 
 double area(const Drawn_surface& surface, const std::array<std::uint32_t, 3>& t)
 {
@@ -111,15 +113,16 @@ class Surface_drawing
 {
 public:
   Surface_drawing(Canvas& canvas, const View& view, const Drawn_surface& surface, Pattern pattern)
-      : m_canvas(canvas), m_view(view), m_surface(surface), m_normals(vertex_normals(surface)),
-        m_pattern(pattern)
+    : m_canvas(canvas), m_view(view), m_surface(surface), m_normals(vertex_normals(surface)),
+      m_pattern(pattern)
   {
     if(pattern == Pattern::CHECKERBOARD) {
       m_square = square_size(surface);
     } else {
       m_levels = vertex_area_scales(surface);
       for(double& scale : m_levels) {
-        scale = std::log2(line_distance * std::sqrt(std::max(scale, 1e-100)));
+        scale =
+            std::log2(line_distance / view.pixels_per_unit() * std::sqrt(std::max(scale, 1e-100)));
       }
     }
   }
@@ -132,9 +135,20 @@ public:
       }
       draw_face(m_surface.triangles[f]);
     }
+    for(const auto& edge : border_edges(m_surface)) {
+      m_canvas.draw_segment(lifted(edge[0]), lifted(edge[1]), border_width, border_colour);
+    }
   }
 
 private:
+  // A little nearer than the surface.
+  Canvas::Point lifted(std::uint32_t v) const
+  {
+    Canvas::Point p = m_view(m_surface.points[v]);
+    p.depth += 0.004;
+    return p;
+  }
+
   void draw_face(const std::array<std::uint32_t, 3>& t)
   {
     const std::array<Canvas::Point, 3> p{m_view(m_surface.points[t[0]]),
@@ -177,23 +191,22 @@ private:
 
   Colour checker_colour(const Vector_2& uv, const Vector_2& slope) const
   {
-    const double wave = square_wave(uv[0] / m_square, slope[0] / m_square) *
-                        square_wave(uv[1] / m_square, slope[1] / m_square);
+    const double wave = square_wave(uv[0] / m_square, slope[0] / m_square)
+                        * square_wave(uv[1] / m_square, slope[1] / m_square);
     return mix(light_square, dark_square, (1 - wave) / 2);
   }
 
   // A light above the left shoulder of the viewer, and a weak one from everywhere.
-  template <typename Material>
-  Colour lit(Vector_3 normal, Material material) const
+  template <typename Material> Colour lit(Vector_3 normal, Material material) const
   {
     const double length = std::sqrt(dot(normal, normal));
     const double facing = dot(normal, m_view.toward());
     const bool is_outside = (facing >= 0) != m_view.is_inside_out();
     normal = ((facing >= 0 ? 1 : -1) / std::max(length, 1e-300)) * normal;
     static const Vector_3 light{-0.35, 0.45, 0.82}; // right, up, toward the viewer
-    const double cosine = light[0] * dot(m_view.right(), normal) +
-                          light[1] * dot(m_view.up(), normal) +
-                          light[2] * dot(m_view.toward(), normal);
+    const double cosine = light[0] * dot(m_view.right(), normal)
+                          + light[1] * dot(m_view.up(), normal)
+                          + light[2] * dot(m_view.toward(), normal);
     const double brightness = 0.42 + 0.60 * std::max(cosine, 0.);
     const Colour colour = material(is_outside ? outside : inside);
     return brightness * (is_outside ? colour : mix(colour, inside, 0.5));

@@ -18,7 +18,7 @@ class Text_scanner
 {
 public:
   Text_scanner(const char* begin, const char* end)
-      : m_position(begin), m_line_end(begin), m_end(end)
+    : m_position(begin), m_line_end(begin), m_end(end)
   {}
 
   const char* position() const { return m_position; }

@@ -35,6 +35,8 @@ public:
             m_centre_y - m_scale * (dot(m_up, p) - m_y), dot(m_toward, p)};
   }
 
+  double pixels_per_unit() const { return m_scale; }
+
   /// Whether the faces are ordered clockwise seen from the outside, which is where the normals of a
   /// nearly closed surface would point to.
   bool is_inside_out() const { return m_is_inside_out; }

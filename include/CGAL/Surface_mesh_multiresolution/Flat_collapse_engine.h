@@ -32,7 +32,7 @@ struct Flat_collapse_options
   std::size_t target_vertices = 2000; ///< where to stop
   Collapse_order order = Collapse_order::BATCHED; ///< which collapse comes next
   /// The part of the vertices, the cheapest, that a pass of the batched order may remove.
-  double pass_fraction = 0.5;
+  double pass_fraction = 0.6;
   /// Told the part done in [0, 1] from time to time; returning false stops early.
   std::function<bool(double)> progress;
 };
@@ -85,11 +85,38 @@ private:
     std::uint8_t is_gone : 1, is_locked : 1, is_stale : 1;
   };
 
+  // Asks the user's function now and then whether to go on.
+  class Progress
+  {
+  public:
+    Progress(const Flat_collapse_options& options, std::size_t n)
+      : m_function(options.progress)
+      , m_whole(n > options.target_vertices ? double(n - options.target_vertices) : 1.)
+    {}
+
+    bool operator()(const Progressive_mesh& pm)
+    {
+      if(m_function && ++m_calls % 32768 == 0 && !m_is_cancelled)
+        m_is_cancelled = !m_function((std::min)(1., double(pm.collapses.size()) / m_whole));
+      return !m_is_cancelled;
+    }
+
+    bool is_cancelled() const { return m_is_cancelled; }
+
+  private:
+    const std::function<bool(double)>& m_function;
+    double m_whole;
+    std::size_t m_calls = 0;
+    bool m_is_cancelled = false;
+  };
+
   bool load_star(Vertex_index v);
   void evaluate(Vertex_index v, bool check_topology);
   bool try_collapse(Vertex_index v, Progressive_mesh& pm);
   float pass_threshold(const std::vector<Vertex_index>& alive, std::size_t wanted,
                        double fraction) const;
+  void run_pass(const std::vector<Vertex_index>& alive, float threshold, std::size_t wanted,
+                Progress& progress, Progressive_mesh& pm);
   void run_batched(const Flat_collapse_options& options, Progressive_mesh& pm);
   void run_strict(const Flat_collapse_options& options, Progressive_mesh& pm);
 
@@ -161,7 +188,7 @@ void Flat_collapse_engine<Cost, Filter>::evaluate(Vertex_index v, bool check_top
   for(std::uint32_t k = 0; k < d; k += step) {
     m_profile.set(v, k);
     auto& collapse = m_profile.collapse();
-    collapse.kept_degree = int(m_rings.degree(r[k]));
+    collapse.kept_degree = m_rings.small_degree(r[k]);
     collapse.measure = m_star.measure(int(k));
     const Optional_point placement = m_filter(m_profile, Optional_point(m_profile.p1()));
     if(!placement)
@@ -178,8 +205,8 @@ void Flat_collapse_engine<Cost, Filter>::evaluate(Vertex_index v, bool check_top
   }
 }
 
-// Collapses v into its best target, or into the next best that topology allows if that costs the
-// same; otherwise v keeps its new cost and stays.
+// Collapses v into its best target. If topology forbids that, v gets the cost of the best target
+// that it allows, and stays for now.
 template <class Cost, class Filter>
 bool Flat_collapse_engine<Cost, Filter>::try_collapse(Vertex_index v, Progressive_mesh& pm)
 {
@@ -215,11 +242,33 @@ pass_threshold(const std::vector<Vertex_index>& alive, std::size_t wanted, doubl
       costs.push_back(m_best_cost[v]);
   if(costs.empty())
     return no_cost;
-  // About two in three of those below the threshold are collapsed: the others have become dearer.
-  const double part = (std::min)(fraction * double(costs.size()), 1.6 * double(wanted));
+  // About one in two of those below the threshold is collapsed: the others have become dearer.
+  const double part = (std::min)(fraction * double(costs.size()), 2. * double(wanted));
   const std::size_t rank = (std::min)(costs.size() - 1, std::size_t(part));
   std::nth_element(costs.begin(), costs.begin() + rank, costs.end());
   return costs[rank];
+}
+
+// One pass over the living vertices in memory order: those whose cost was not above the threshold
+// when it was last computed are removed if it still is not. Costs of the others are left as they
+// are: most would change again before they matter.
+template <class Cost, class Filter>
+void Flat_collapse_engine<Cost, Filter>::
+run_pass(const std::vector<Vertex_index>& alive, float threshold, std::size_t wanted,
+         Progress& progress, Progressive_mesh& pm)
+{
+  const std::size_t end = pm.collapses.size() + wanted;
+  for(const Vertex_index v : alive) {
+    if(!(m_best_cost[v] <= threshold))
+      continue;
+    if(m_state[v].is_stale)
+      evaluate(v, false);
+    if(m_best_cost[v] <= threshold && try_collapse(v, pm) && pm.collapses.size() == end)
+      break;
+    if(!progress(pm))
+      break;
+  }
+  pm.batch_ends.push_back(pm.collapses.size());
 }
 
 template <class Cost, class Filter>
@@ -227,35 +276,23 @@ void Flat_collapse_engine<Cost, Filter>::
 run_batched(const Flat_collapse_options& options, Progressive_mesh& pm)
 {
   const std::size_t n = m_mesh.points.size();
+  Progress progress(options, n);
   std::vector<Vertex_index> alive(n);
-  for(Vertex_index v = 0; v < n; ++v)
+  for(Vertex_index v = 0; v < n && progress(pm); ++v) {
     alive[v] = v;
-  while(alive.size() > options.target_vertices) {
-    for(const Vertex_index v : alive)
-      if(m_state[v].is_stale)
-        evaluate(v, false);
+    evaluate(v, false);
+  }
+  while(alive.size() > options.target_vertices && !progress.is_cancelled()) {
     const std::size_t wanted = alive.size() - options.target_vertices;
     const float threshold = pass_threshold(alive, wanted, options.pass_fraction);
     if(threshold == no_cost)
       break;
-    const std::size_t before = pm.collapses.size();
-    for(const Vertex_index v : alive) {
-      if(!(m_best_cost[v] <= threshold))
-        continue;
-      if(m_state[v].is_stale)
-        evaluate(v, false);
-      if(m_best_cost[v] <= threshold && try_collapse(v, pm)
-         && pm.collapses.size() - before == wanted)
-        break;
-    }
-    const std::size_t done = pm.collapses.size() - before;
-    if(done > 0)
-      pm.batch_ends.push_back(pm.collapses.size());
+    const std::size_t before = alive.size();
+    run_pass(alive, threshold, wanted, progress, pm);
     alive.erase(std::remove_if(alive.begin(), alive.end(),
                                [this](Vertex_index v) { return m_state[v].is_gone != 0; }),
                 alive.end());
-    const double part = double(n - alive.size()) / double(n - options.target_vertices);
-    if((options.progress && !options.progress((std::min)(1., part))) || 500 * done < alive.size())
+    if(500 * (before - alive.size()) < before) // what is left cannot be removed
       break;
   }
 }
@@ -272,9 +309,10 @@ run_strict(const Flat_collapse_options& options, Progressive_mesh& pm)
       queue.push({m_best_cost[v], v});
   };
   const std::size_t n = m_mesh.points.size();
-  for(Vertex_index v = 0; v < n; ++v)
+  Progress progress(options, n);
+  for(Vertex_index v = 0; v < n && progress(pm); ++v)
     enqueue(v);
-  while(!queue.empty() && n - pm.collapses.size() > options.target_vertices) {
+  while(!queue.empty() && n - pm.collapses.size() > options.target_vertices && progress(pm)) {
     const auto [cost, v] = queue.top();
     queue.pop();
     if(m_state[v].is_gone || cost != m_best_cost[v]) // an entry that a later one replaced
@@ -289,9 +327,6 @@ run_strict(const Flat_collapse_options& options, Progressive_mesh& pm)
     m_best_cost[v] = no_cost;
     for(std::uint32_t i = 0; i < d; ++i)
       enqueue(r[i]);
-    if(options.progress && pm.collapses.size() % 16384 == 0
-       && !options.progress(double(pm.collapses.size()) / double(n - options.target_vertices)))
-      break;
   }
 }
 

@@ -46,6 +46,9 @@ public:
   Ring_defect defect() const { return m_defect; }
 
   std::uint32_t degree(Vertex_index v) const { return m_lines[v].degree & degree_mask; }
+
+  // The degree if it is below 255, and 255 otherwise: one byte instead of a line to look up.
+  int small_degree(Vertex_index v) const { return m_small_degree[v]; }
   bool is_border(Vertex_index v) const { return (m_lines[v].degree & border_flag) != 0; }
 
   const Vertex_index* ring(Vertex_index v) const
@@ -95,7 +98,13 @@ private:
   void replace(Vertex_index v, Vertex_index old_neighbor, Vertex_index new_neighbor);
   void splice(Vertex_index v, std::uint32_t at, const Vertex_index* first, std::uint32_t count);
 
+  void note_degree(Vertex_index v)
+  {
+    m_small_degree[v] = std::uint8_t((std::min)(degree(v), std::uint32_t(255)));
+  }
+
   std::vector<Line> m_lines;
+  std::vector<std::uint8_t> m_small_degree;
   std::vector<std::vector<Vertex_index>> m_spill;
   std::vector<Vertex_index> m_scratch;
   Vertex_index m_defective_vertex = no_vertex;
@@ -224,6 +233,7 @@ inline void Vertex_rings::build(const Indexed_triangle_mesh& mesh)
     for(int c = 0; c < 3; ++c)
       all[begin[t[c]]++] = {t[(c + 1) % 3], t[(c + 2) % 3]};
   m_lines.resize(n);
+  m_small_degree.resize(n);
   std::vector<std::array<Vertex_index, 2>> wedges;
   std::vector<Vertex_index> ring;
   for(std::size_t v = 0; v < n; ++v) {
@@ -237,6 +247,8 @@ inline void Vertex_rings::build(const Indexed_triangle_mesh& mesh)
       m_defective_vertex = Vertex_index(v);
     }
   }
+  for(std::size_t v = 0; v < n; ++v)
+    note_degree(Vertex_index(v));
 }
 
 inline bool Vertex_rings::is_collapse_valid(Vertex_index v, std::uint32_t k) const
@@ -275,6 +287,7 @@ inline void Vertex_rings::erase(Vertex_index v, std::uint32_t at)
   const std::uint32_t d = degree(v);
   std::copy(r + at + 1, r + d, r + at);
   --m_lines[v].degree;
+  note_degree(v);
 }
 
 inline void Vertex_rings::replace(Vertex_index v, Vertex_index old_neighbor,
@@ -304,6 +317,7 @@ inline void Vertex_rings::splice(Vertex_index v, std::uint32_t at, const Vertex_
     std::copy(r + at + 1, r + d, r + at);
   std::copy(first, first + count, r + at);
   line.degree = (line.degree & ~degree_mask) | e;
+  note_degree(v);
 }
 
 //        a                    a             In the ring of t the vertex v gives way to the ring

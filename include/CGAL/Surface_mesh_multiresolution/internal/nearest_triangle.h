@@ -7,6 +7,7 @@
 #include <CGAL/Surface_mesh_multiresolution/Prolongation.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/Triangles_at_vertices.h>
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -48,33 +49,50 @@ inline float nearest_on_segment(const Float_vector& a, const Float_vector& b)
   return t < 0.f ? 0.f : (t > 1.f ? 1.f : t);
 }
 
-// The point of triangle (a, b, c) nearest to the origin: the foot of the perpendicular if it lies
-// inside, otherwise the best of the three sides.
-inline Nearest_point nearest_to_origin(const std::array<Float_vector, 3>& corner)
+typedef std::array<Float_vector, 3> Float_triangle;
+
+inline Float_triangle triangle_around(const std::vector<Indexed_triangle_mesh::Point_3>& points,
+                                      const Triangle_indices& t,
+                                      const Indexed_triangle_mesh::Point_3& origin)
 {
-  const Float_vector &a = corner[0], &b = corner[1], &c = corner[2];
+  return {difference(points[t[0]], origin), difference(points[t[1]], origin),
+          difference(points[t[2]], origin)};
+}
+
+inline Nearest_point point_of_weights(const Float_triangle& t, const std::array<float, 3>& w)
+{
+  const Float_vector p = {w[0] * t[0].x + w[1] * t[1].x + w[2] * t[2].x,
+                          w[0] * t[0].y + w[1] * t[1].y + w[2] * t[2].y,
+                          w[0] * t[0].z + w[1] * t[1].z + w[2] * t[2].z};
+  return Nearest_point{dot(p, p), w};
+}
+
+// The foot of the perpendicular from the origin if it lies in the triangle; otherwise a point at
+// infinity.
+inline Nearest_point foot_of_origin(const Float_triangle& t)
+{
+  const Float_vector &a = t[0], &b = t[1], &c = t[2];
   const Float_vector u = {b.x - a.x, b.y - a.y, b.z - a.z}, v = {c.x - a.x, c.y - a.y, c.z - a.z};
   const float uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), au = -dot(a, u), av = -dot(a, v);
   const float area = uu * vv - uv * uv;
-  const auto at = [&](const std::array<float, 3>& w) {
-    const Float_vector p = {w[0] * a.x + w[1] * b.x + w[2] * c.x,
-                            w[0] * a.y + w[1] * b.y + w[2] * c.y,
-                            w[0] * a.z + w[1] * b.z + w[2] * c.z};
-    return Nearest_point{dot(p, p), w};
-  };
-  if(area > 1e-12f * uu * vv) {
-    const float wb = (vv * au - uv * av) / area, wc = (uu * av - uv * au) / area;
-    if(wb >= 0.f && wc >= 0.f && wb + wc <= 1.f)
-      return at({1.f - wb - wc, wb, wc});
-  }
+  const float wb = vv * au - uv * av, wc = uu * av - uv * au;
+  if(!(area > 1e-12f * uu * vv) || wb < 0.f || wc < 0.f || wb + wc > area)
+    return Nearest_point();
+  const float inverse = 1.f / area;
+  return point_of_weights(t, {1.f - (wb + wc) * inverse, wb * inverse, wc * inverse});
+}
+
+// The point of the three sides that is nearest to the origin.
+inline Nearest_point nearest_on_sides(const Float_triangle& t)
+{
   Nearest_point best;
   for(int side = 0; side < 3; ++side) {
     const int next = side == 2 ? 0 : side + 1;
-    const float t = nearest_on_segment(corner[side], corner[next]);
+    const float along = nearest_on_segment(t[side], t[next]);
     std::array<float, 3> w = {0.f, 0.f, 0.f};
-    w[side] = 1.f - t;
-    w[next] = t;
-    const Nearest_point candidate = at(w);
+    w[side] = 1.f - along;
+    w[next] = along;
+    const Nearest_point candidate = point_of_weights(t, w);
     if(candidate.squared_distance < best.squared_distance)
       best = candidate;
   }
@@ -85,13 +103,57 @@ inline Nearest_point nearest_in_triangle(const std::vector<Indexed_triangle_mesh
                                          const Triangle_indices& t,
                                          const Indexed_triangle_mesh::Point_3& p)
 {
-  return nearest_to_origin({difference(points[t[0]], p), difference(points[t[1]], p),
-                            difference(points[t[2]], p)});
+  const Float_triangle triangle = triangle_around(points, t, p);
+  const Nearest_point foot = foot_of_origin(triangle);
+  return foot.squared_distance < Nearest_point().squared_distance ? foot
+                                                                  : nearest_on_sides(triangle);
 }
 
-// For each vertex of `fine` that is not kept, the weights of the nearest triangle of `coarse`: a
-// walk from star to star, beginning at the ancestor and going to the vertex of the best triangle
-// that weighs most, as long as that brings it nearer.
+// The best of the triangles at a vertex.
+struct Nearest_triangle
+{
+  Nearest_point point;
+  Triangle_indices triangle = {0, 0, 0};
+};
+
+template <class Measure>
+void improve_in_star(const Triangles_at_vertices& at, const Indexed_triangle_mesh& mesh,
+                     Vertex_index star, const Indexed_triangle_mesh::Point_3& p,
+                     const Measure& measure, Nearest_triangle& best)
+{
+  for(const std::uint32_t* corner = at.begin(star); corner != at.end(star); ++corner) {
+    const Triangle_indices& t = mesh.triangles[*corner / 3];
+    const Nearest_point candidate = measure(triangle_around(mesh.points, t, p));
+    if(candidate.squared_distance < best.point.squared_distance)
+      best = {candidate, t};
+  }
+}
+
+// The triangle whose plane point below p lies in it, in the star of `star`; if no triangle of it has
+// one, a walk goes on in the star of that vertex of the nearest triangle that weighs most, as long
+// as this brings it nearer.
+inline Nearest_triangle walk_to_nearest(const Triangles_at_vertices& at,
+                                        const Indexed_triangle_mesh& mesh, Vertex_index star,
+                                        const Indexed_triangle_mesh::Point_3& p)
+{
+  Nearest_triangle best;
+  for(;;) {
+    Nearest_triangle inside;
+    improve_in_star(at, mesh, star, p, foot_of_origin, inside);
+    if(inside.point.squared_distance < Nearest_point().squared_distance)
+      return inside.point.squared_distance <= best.point.squared_distance ? inside : best;
+    const float before = best.point.squared_distance;
+    improve_in_star(at, mesh, star, p, nearest_on_sides, best);
+    const auto heaviest = std::max_element(best.point.weight.begin(), best.point.weight.end());
+    const Vertex_index next = best.triangle[heaviest - best.point.weight.begin()];
+    if(next == star || !(best.point.squared_distance < before))
+      return best;
+    star = next;
+  }
+}
+
+// For each vertex of `fine` that is not kept, the weights of the nearest triangle of `coarse` that
+// a walk from its ancestor finds.
 inline std::vector<Prolongation::Stencil>
 walk_stencils(const Indexed_triangle_mesh& fine, const Indexed_triangle_mesh& coarse,
               const std::vector<Vertex_index>& kept, const std::vector<Vertex_index>& ancestor)
@@ -105,24 +167,9 @@ walk_stencils(const Indexed_triangle_mesh& fine, const Indexed_triangle_mesh& co
   for(Vertex_index v = 0; v < fine.points.size(); ++v) {
     if(ancestor[v] == v)
       continue;
-    Nearest_point best;
-    Triangle_indices best_triangle = {0, 0, 0};
-    Vertex_index star = rank[ancestor[v]], next_star = star;
-    do {
-      star = next_star;
-      for(const std::uint32_t* corner = at.begin(star); corner != at.end(star); ++corner) {
-        const Triangle_indices& t = coarse.triangles[*corner / 3];
-        const Nearest_point candidate = nearest_in_triangle(coarse.points, t, fine.points[v]);
-        if(candidate.squared_distance < best.squared_distance) {
-          best = candidate;
-          best_triangle = t;
-          const auto heaviest = std::max_element(best.weight.begin(), best.weight.end());
-          next_star = t[heaviest - best.weight.begin()];
-        }
-      }
-    } while(next_star != star);
-    result.push_back({v, {kept[best_triangle[0]], kept[best_triangle[1]], kept[best_triangle[2]]},
-                      best.weight});
+    const Nearest_triangle best = walk_to_nearest(at, coarse, rank[ancestor[v]], fine.points[v]);
+    const Triangle_indices& t = best.triangle;
+    result.push_back({v, {kept[t[0]], kept[t[1]], kept[t[2]]}, best.point.weight});
   }
   return result;
 }

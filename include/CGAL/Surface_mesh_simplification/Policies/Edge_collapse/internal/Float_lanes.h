@@ -25,13 +25,6 @@ typedef std::int32_t Mask_lanes __attribute__((vector_size(32)));  // 0 or -1 in
 
 inline void load_lanes(const float* from, Float_lanes& to) { std::memcpy(&to, from, sizeof(to)); }
 
-inline bool any_lane(const Mask_lanes& mask)
-{
-  std::uint64_t word[4];
-  std::memcpy(word, &mask, sizeof(word));
-  return (word[0] | word[1] | word[2] | word[3]) != 0;
-}
-
 // `mask ? yes : no` in each lane
 inline void select_lanes(const Mask_lanes& mask, const Float_lanes& yes, const Float_lanes& no,
                          Float_lanes& result)
@@ -89,14 +82,6 @@ inline Mask_lanes operator|(const Mask_lanes& a, const Mask_lanes& b)
 
 inline void load_lanes(const float* from, Float_lanes& to) { std::memcpy(&to, from, sizeof(to)); }
 
-inline bool any_lane(const Mask_lanes& mask)
-{
-  for(int i = 0; i < lane_count; ++i)
-    if(mask[i] != 0)
-      return true;
-  return false;
-}
-
 inline void select_lanes(const Mask_lanes& mask, const Float_lanes& yes, const Float_lanes& no,
                          Float_lanes& result)
 {
@@ -112,21 +97,55 @@ inline void fill_lanes(float value, Float_lanes& to)
     to[i] = value;
 }
 
-// Sums in a fixed tree, so that the order of additions is part of the definition.
+// Folds the lanes in a fixed tree: ((0 4) (2 6)) ((1 5) (3 7)), so that the order of additions is
+// part of the definition.
+template <class Operation>
+inline float fold_lanes(const Float_lanes& a, const Operation& operation)
+{
+#if defined(__GNUC__) && defined(__has_builtin)
+#if __has_builtin(__builtin_shufflevector)
+#define CGAL_SMS_HAS_SHUFFLE
+#endif
+#endif
+#ifdef CGAL_SMS_HAS_SHUFFLE
+#undef CGAL_SMS_HAS_SHUFFLE
+  Float_lanes half, quarter, whole;
+  operation(a, Float_lanes(__builtin_shufflevector(a, a, 4, 5, 6, 7, 0, 1, 2, 3)), half);
+  operation(half, Float_lanes(__builtin_shufflevector(half, half, 2, 3, 0, 1, 6, 7, 4, 5)),
+            quarter);
+  operation(quarter, Float_lanes(__builtin_shufflevector(quarter, quarter, 1, 0, 3, 2, 5, 4, 7, 6)),
+            whole);
+  return whole[0];
+#else
+  Float_lanes folded = a;
+  for(const int distance : {4, 2, 1}) {
+    Float_lanes moved;
+    for(int i = 0; i < lane_count; ++i)
+      moved[i] = folded[i ^ distance];
+    Float_lanes result;
+    operation(folded, moved, result);
+    folded = result;
+  }
+  return folded[0];
+#endif
+}
+
 inline float sum_of_lanes(const Float_lanes& a)
 {
-  return ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]));
+  return fold_lanes(a, [](const Float_lanes& x, const Float_lanes& y, Float_lanes& result) {
+    result = x + y;
+  });
 }
 
 inline float minimum_of_lanes(const Float_lanes& a)
 {
-  const auto least = [](float x, float y) { return x < y ? x : y; };
-  return least(least(least(a[0], a[4]), least(a[2], a[6])),
-               least(least(a[1], a[5]), least(a[3], a[7])));
+  return fold_lanes(a, [](const Float_lanes& x, const Float_lanes& y, Float_lanes& result) {
+    select_lanes(x < y, x, y, result);
+  });
 }
 
-// Cube root of a non-negative finite float, within 2 ulp or so: a first guess from the exponent
-// (divided by three) and two steps of Halley's iteration, which triples the digits each time.
+// Cube root of a non-negative finite float, within 5e-5 of it: a first guess from the exponent
+// divided by three, which is 3 % off, and one step of Halley's iteration, which cubes the error.
 inline float fast_cbrt(float a)
 {
   if(!(a > 1e-36f))
@@ -136,11 +155,8 @@ inline float fast_cbrt(float a)
   bits = bits / 3 + 709921077u;
   float x;
   std::memcpy(&x, &bits, sizeof(x));
-  for(int step = 0; step < 2; ++step) {
-    const float cube = x * x * x;
-    x *= (cube + 2.f * a) / (2.f * cube + a);
-  }
-  return x;
+  const float cube = x * x * x;
+  return x * (cube + 2.f * a) / (2.f * cube + a);
 }
 
 } // namespace internal

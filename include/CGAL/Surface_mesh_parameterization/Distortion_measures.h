@@ -1,0 +1,244 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_DISTORTION_MEASURES_H
+#define CGAL_SURFACE_MESH_PARAMETERIZATION_DISTORTION_MEASURES_H
+
+#include <CGAL/Surface_mesh_parameterization/Conformal_triangle.h>
+#include <CGAL/Surface_mesh_parameterization/internal/overlap.h>
+#include <CGAL/Surface_mesh_parameterization/internal/uv_triangles.h>
+
+#include <CGAL/boost/graph/properties.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_parameterization {
+
+/*!
+\ingroup PkgHLSCMMeasures
+
+The struct `Distortion_measures` says how good a map of a triangle mesh to the plane is.
+
+On each face the map from the surface to the plane is linear, with the singular values
+\f$ \sigma_1 \ge \sigma_2 \f$. The means, the quantile and the extremes are over the *regular* faces,
+those with an area on the surface and a positive one in the plane; flipped and degenerate faces, on
+which ratios and stretch would be infinite, are counted instead. If no face is regular, the measures
+are 0.
+*/
+struct Distortion_measures
+{
+  /// Dirichlet energy minus signed area, \f$ \frac12 \sum A (\sigma_1 \mp \sigma_2)^2 \f$ (minus; plus on
+  /// flipped faces), over all faces; see `Conformal_triangle`. In units of the plane's area.
+  double conformal_energy = 0.;
+  /// The mean of the quasi-conformal ratio \f$ \sigma_1 / \sigma_2 \ge 1 \f$, weighted by the areas on
+  /// the surface.
+  double quasi_conformal_mean = 0.;
+  /// The ratio that is not exceeded on 99 % of the surface.
+  double quasi_conformal_99 = 0.;
+  /// The greatest ratio.
+  double quasi_conformal_max = 0.;
+  /// The greatest area scale \f$ \sigma_1 \sigma_2 \f$ to the smallest.
+  double area_scale_range = 0.;
+  /// The stretch \f$ L^2 \f$ of Sander, Snyder, Gortler and Hoppe 2001 (section 3): the root of the
+  /// mean, over the surface, of \f$ (\sigma_1^{-2} + \sigma_2^{-2}) / 2 \f$, once the plane is
+  /// scaled so that the total areas agree. At least 1; 1 for an isometry.
+  double stretch_L2 = 0.;
+  /// The stretch \f$ L^\infty \f$ of the same: the greatest \f$ \sigma_2^{-1} \f$, on the same scale.
+  double stretch_Linf = 0.;
+  /// Faces whose area in the plane is negative, by an exact predicate.
+  std::size_t flipped_faces = 0;
+  /// Faces whose area in the plane is 0, by the same; also those with a parameter that is not a
+  /// finite number.
+  std::size_t degenerate_faces = 0;
+};
+
+namespace internal {
+
+// The mean length of the sides of the faces; 1 if there are none, or all are points.
+template <class TriangleMesh>
+double mean_edge_length(const TriangleMesh& mesh)
+{
+  const auto vpm = get(CGAL::vertex_point, mesh);
+  double sum = 0.;
+  for(const auto f : faces(mesh))
+    for(const auto h : halfedges_around_face(halfedge(f, mesh), mesh)) {
+      const auto& p = get(vpm, source(h, mesh));
+      const auto& q = get(vpm, target(h, mesh));
+      sum += std::hypot(to_double(q[0]) - to_double(p[0]), to_double(q[1]) - to_double(p[1]),
+                        to_double(q[2]) - to_double(p[2]));
+    }
+  return sum > 0. ? sum / (3. * double(num_faces(mesh))) : 1.;
+}
+
+// The face on the surface, its first corner in the origin, lengths in units of `mean_edge`: squares
+// of lengths exist whatever the unit of the mesh.
+template <class TriangleMesh>
+Conformal_triangle
+conformal_triangle(const TriangleMesh& mesh,
+                   typename boost::graph_traits<TriangleMesh>::face_descriptor f, double mean_edge)
+{
+  const auto vpm = get(CGAL::vertex_point, mesh);
+  const auto h = halfedge(f, mesh), h1 = next(h, mesh);
+  const auto& origin = get(vpm, target(h, mesh));
+  const auto corner = [&](auto v) {
+    const auto& p = get(vpm, v);
+    const auto coordinate
+      = [&](int i) { return (to_double(p[i]) - to_double(origin[i])) / mean_edge; };
+    return Conformal_triangle::Point_3(coordinate(0), coordinate(1), coordinate(2));
+  };
+  return Conformal_triangle(Conformal_triangle::Point_3(0., 0., 0.), corner(target(h1, mesh)),
+                            corner(target(next(h1, mesh), mesh)));
+}
+
+// Collects the measures face by face.
+class Distortion_summary
+{
+public:
+  // `sign`: the orientation of the image `uv`
+  void add(const Conformal_triangle& triangle, const Uv_triangle& uv, Orientation sign);
+  Distortion_measures result();
+
+private:
+  void add_regular(double area, double uv_area, double sigma_1);
+
+  Distortion_measures m_sums;
+  std::vector<std::pair<float, float>> m_ratios; // and the areas they hold on
+  double m_area = 0., m_uv_area = 0.;            // of the regular faces
+  double m_greatest_scale = 0., m_smallest_scale = 0.;
+};
+
+inline void Distortion_summary::add(const Conformal_triangle& triangle, const Uv_triangle& uv,
+                                    Orientation sign)
+{
+  typedef std::complex<double> Complex;
+  m_sums.flipped_faces += sign == RIGHT_TURN ? 1 : 0;
+  m_sums.degenerate_faces += sign == COLLINEAR ? 1 : 0;
+  const Complex b(uv[1].x() - uv[0].x(), uv[1].y() - uv[0].y());
+  const Complex c(uv[2].x() - uv[0].x(), uv[2].y() - uv[0].y());
+  const std::array<Complex, 3> z = {Complex(0.), b, c};
+  m_sums.conformal_energy += triangle.energy(z);
+  const double uv_area = 0.5 * (b.real() * c.imag() - b.imag() * c.real());
+  if(sign != LEFT_TURN || !(uv_area > 0.) || triangle.is_mollified())
+    return;
+  // |dz/dw| + |dz/dw'| and, of the area, no difference that cancels
+  add_regular(triangle.area(), uv_area,
+              0.5 * (std::abs(triangle.holomorphic_derivative(z))
+                     + std::abs(triangle.antiholomorphic_derivative(z))));
+}
+
+inline void Distortion_summary::add_regular(double area, double uv_area, double sigma_1)
+{
+  const double scale = uv_area / area, sigma_2 = scale / sigma_1;
+  const double ratio = (std::max)(1., sigma_1 / sigma_2);
+  m_ratios.push_back({float(ratio), float(area)});
+  m_smallest_scale = m_area > 0. ? (std::min)(m_smallest_scale, scale) : scale;
+  m_greatest_scale = (std::max)(m_greatest_scale, scale);
+  m_area += area;
+  m_uv_area += uv_area;
+  m_sums.quasi_conformal_mean += area * ratio;
+  m_sums.quasi_conformal_max = (std::max)(m_sums.quasi_conformal_max, ratio);
+  m_sums.stretch_L2 += 0.5 * area * (1. / (sigma_1 * sigma_1) + 1. / (sigma_2 * sigma_2));
+  m_sums.stretch_Linf = (std::max)(m_sums.stretch_Linf, 1. / sigma_2);
+}
+
+inline Distortion_measures Distortion_summary::result()
+{
+  if(m_ratios.empty())
+    return m_sums;
+  Distortion_measures measures = m_sums;
+  const double scale = m_uv_area / m_area;
+  measures.quasi_conformal_mean /= m_area;
+  measures.area_scale_range = m_greatest_scale / m_smallest_scale;
+  measures.stretch_L2 = std::sqrt(m_sums.stretch_L2 / m_area * scale);
+  measures.stretch_Linf *= std::sqrt(scale);
+  std::sort(m_ratios.begin(), m_ratios.end());
+  double area = 0.;
+  for(const auto& [ratio, face_area] : m_ratios) {
+    measures.quasi_conformal_99 = (std::min)(double(ratio), measures.quasi_conformal_max);
+    area += face_area;
+    if(area >= 0.99 * m_area)
+      break;
+  }
+  return measures;
+}
+
+} // namespace internal
+
+/*!
+\ingroup PkgHLSCMMeasures
+
+Measures the map `uvmap` over all faces of `mesh`.
+
+\tparam TriangleMesh a model of `FaceListGraph` whose faces are triangles
+\tparam VertexUVMap a model of `ReadablePropertyMap` with the vertex descriptor as key and a model of
+        `Kernel::Point_2` as value; the parameters are taken as numbers of type `double`
+
+Two passes over the faces and a sort of one number a face, 8 bytes each.
+*/
+template <class TriangleMesh, class VertexUVMap>
+Distortion_measures measure_distortion(const TriangleMesh& mesh, VertexUVMap uvmap)
+{
+  const internal::Uv_view<TriangleMesh, VertexUVMap> view(mesh, uvmap);
+  const double mean_edge = internal::mean_edge_length(mesh);
+  internal::Distortion_summary summary;
+  for(const auto f : faces(mesh)) {
+    const internal::Uv_triangle uv = view.triangle(f);
+    summary.add(internal::conformal_triangle(mesh, f, mean_edge), uv,
+                internal::orientation_of(uv));
+  }
+  return summary.result();
+}
+
+/*!
+\ingroup PkgHLSCMMeasures
+
+Writes the flipped faces of the map `uvmap`, those whose area in the plane is negative by an exact
+predicate, to `out`.
+
+\tparam FaceOutputIterator a model of `OutputIterator` that takes face descriptors
+
+\return `out` after the last face
+*/
+template <class TriangleMesh, class VertexUVMap, class FaceOutputIterator>
+FaceOutputIterator flipped_faces(const TriangleMesh& mesh, VertexUVMap uvmap,
+                                 FaceOutputIterator out)
+{
+  const internal::Uv_view<TriangleMesh, VertexUVMap> view(mesh, uvmap);
+  for(const auto f : faces(mesh))
+    if(internal::orientation_of(view.triangle(f)) == RIGHT_TURN)
+      *out++ = f;
+  return out;
+}
+
+/*!
+\ingroup PkgHLSCMMeasures
+
+Returns whether the map `uvmap` covers a part of the plane twice, that is whether two faces of `mesh`
+have images whose interiors intersect. The answer is exact for the parameters as numbers of type
+`double`: faces that only touch do not overlap, but faces that would touch overlap by as much as
+rounding makes them. Faces without area in the plane overlap nothing; a map that is mirrored as a
+whole does not overlap itself for that.
+
+A flipped face beside one that is not decides at once. If all faces have the same orientation, the
+images of the border edges decide in time \f$ O(b \log^2 b) \f$ for \f$ b \f$ of them, if they meet
+nowhere and one border cycle surrounds all others. Only in the remaining cases (a border that meets
+itself, several charts, degenerate faces) the images of all faces are compared, by their boxes.
+*/
+template <class TriangleMesh, class VertexUVMap>
+bool has_global_overlap(const TriangleMesh& mesh, VertexUVMap uvmap)
+{
+  return internal::has_global_overlap(
+    internal::Uv_view<TriangleMesh, VertexUVMap>(mesh, uvmap));
+}
+
+} // namespace Surface_mesh_parameterization
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_DISTORTION_MEASURES_H
