@@ -10,10 +10,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
-#include <memory>
 
 namespace {
 
@@ -27,6 +27,7 @@ struct Settings
   std::string data_dir, chart_dir = "charts";
   std::size_t max_faces = 2000000;
   bool table_1 = false, decimation = false;
+  Earlier_rows earlier_rows = Earlier_rows::DROP;
   std::string method; // of a child process
 };
 
@@ -37,7 +38,7 @@ int run_child(const Settings& settings)
   Measurement measurement;
   try {
     const std::vector<Method> methods = all_methods();
-    measurement = run_method(*find_method(methods, settings.method), settings.charts.at(0));
+    measurement = find_method(methods, settings.method)->run(settings.charts.at(0));
   } catch(const std::bad_alloc&) {
     measurement.status = "out of memory";
   } catch(const std::exception& error) {
@@ -47,27 +48,49 @@ int run_child(const Settings& settings)
   return 0;
 }
 
-// One print for each chart, given or made; `print` gets the runs and the number of the chart.
+// Whether an earlier call has compared all methods on the chart.
+bool is_known(const Csv_file& csv, const std::string& chart,
+              const std::vector<std::string>& methods)
+{
+  return std::all_of(methods.begin(), methods.end(), [&](const std::string& method) {
+    return csv.has(name_of_chart(chart), method);
+  });
+}
+
+// The charts given, or the standard ones, which are made where they are missing.
+std::vector<std::string> chart_files(const Settings& settings,
+                                     const std::vector<Standard_chart>& standard)
+{
+  std::vector<std::string> files = settings.charts;
+  if(files.empty())
+    for(const Standard_chart& chart : standard)
+      files.push_back(chart_file(chart, settings.chart_dir));
+  for(const std::string& file : files)
+    if(!std::filesystem::is_regular_file(file))
+      throw std::runtime_error(file + ": no such file");
+  return files;
+}
+
+// Compares the methods on each chart; `print` gets the runs and the number of the chart.
 template <class Print>
 void compare(const Settings& settings, const std::vector<Standard_chart>& standard,
              const std::vector<std::string>& default_methods, const Print& print)
 {
-  Settings used = settings;
-  if(used.comparison.methods.empty())
-    used.comparison.methods = default_methods;
-  if(used.charts.empty())
-    for(const Standard_chart& chart : standard)
-      used.charts.push_back(chart_file(chart, settings.chart_dir));
-  for(const std::string& chart : used.charts)
-    if(!std::filesystem::is_regular_file(chart))
-      throw std::runtime_error(chart + ": no such file");
-  std::cout << "# " << description_of_machine() << std::endl;
-  Comparison comparison(used.comparison);
-  Csv_file csv(used.output);
-  for(std::size_t i = 0; i < used.charts.size(); ++i) {
-    const std::vector<Runs> all = comparison.run(used.charts[i]);
-    for(const Runs& runs : all)
-      csv.write(runs);
+  Comparison_options options = settings.comparison;
+  if(options.methods.empty())
+    options.methods = default_methods;
+  const std::vector<std::string> charts = chart_files(settings, standard);
+  std::cout << "# " << machine::description() << std::endl;
+  Comparison comparison(options);
+  Csv_file csv(settings.output, settings.earlier_rows);
+  for(std::size_t i = 0; i < charts.size(); ++i) {
+    for(const std::string& method : options.methods)
+      if(csv.has_exceeded_time(name_of_chart(charts[i]), method))
+        comparison.note_too_slow(charts[i], method);
+    if(is_known(csv, charts[i], options.methods))
+      continue;
+    const std::vector<Runs> all = comparison.run(charts[i]);
+    csv.write(all);
     print(all, i);
   }
 }
@@ -95,7 +118,8 @@ void run_table_1(const Settings& settings)
 void run_decimation(const Settings& settings)
 {
   compare(settings, growing_charts(settings.data_dir, settings.max_faces),
-          {"direct", "hlscm_flat", "hlscm_flat_strict", "hlscm_cgal_engine"},
+          {"decimate_flat", "decimate_flat_strict", "decimate_cgal", "direct", "hlscm_flat",
+           "hlscm_flat_strict", "hlscm_cgal"},
           [](const std::vector<Runs>& all, std::size_t) { print_decimation(all); });
 }
 
@@ -113,6 +137,9 @@ int main(int argc, char** argv)
   app.add_option("--repeat", settings.comparison.repetitions, "runs of each method")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  app.add_option("--repeat-below", settings.comparison.slow_seconds,
+                 "seconds; a method whose first run on a chart takes longer is not repeated")
+      ->capture_default_str();
   app.add_option("--limit", settings.comparison.limits.seconds, "seconds for a run")
       ->capture_default_str();
   app.add_option("--memory-limit", settings.comparison.limits.gigabytes, "GB for a run, 0: none")
@@ -127,6 +154,9 @@ int main(int argc, char** argv)
   app.add_flag("--table1", settings.table_1,
                "charts as in the paper's table 1, beside its seconds");
   app.add_flag("--decimation", settings.decimation, "the decimation engines");
+  app.add_flag_callback(
+      "--resume", [&] { settings.earlier_rows = Earlier_rows::KEEP; },
+      "keep the rows of the CSV file and skip the charts it has");
   app.add_option("--run", settings.method)->group(""); // how it calls itself
   CLI11_PARSE(app, argc, argv);
   try {

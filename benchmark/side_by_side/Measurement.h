@@ -72,20 +72,20 @@ inline double median(std::vector<double> values)
   return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
-// The median of each number over the runs that succeeded; the status of the first run that did
-// not, if none did.
+// The median of each number over the runs that succeeded; if none did over all, with the status of
+// the first.
 inline Measurement median(const std::vector<Measurement>& runs)
 {
+  const bool is_any_ok =
+      std::any_of(runs.begin(), runs.end(), [](const Measurement& run) { return run.is_ok(); });
   std::map<std::string, std::vector<double>> values;
+  for(const Measurement& run : runs)
+    if(run.is_ok() || !is_any_ok)
+      for(const auto& [name, value] : run.numbers)
+        values[name].push_back(value);
   Measurement result;
-  result.status = runs.empty() ? "not run" : runs.front().status;
-  for(const Measurement& run : runs) {
-    if(!run.is_ok())
-      continue;
-    result.status = "ok";
-    for(const auto& [name, value] : run.numbers)
-      values[name].push_back(value);
-  }
+  if(!is_any_ok)
+    result.status = runs.empty() ? "not run" : runs.front().status;
   for(const auto& [name, list] : values)
     result.numbers[name] = median(list);
   return result;

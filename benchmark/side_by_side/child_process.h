@@ -28,6 +28,9 @@ struct Limits
   double gigabytes = 0; // of address space; 0: no limit
 };
 
+// The status of a run that was stopped.
+constexpr const char* time_limit = "time limit";
+
 // The largest amount of physical memory that this process has had so far, in MB (1e6 bytes).
 inline double peak_memory_mb()
 {
@@ -110,7 +113,7 @@ inline Measurement measure_in_child(const std::vector<std::string>& arguments, c
 
   Measurement measurement = receive(text);
   if(!in_time)
-    measurement.status = "time limit";
+    measurement.status = time_limit;
   else if(WIFSIGNALED(state))
     measurement.status = "ended by signal " + std::to_string(WTERMSIG(state));
   return measurement;

@@ -26,21 +26,24 @@ inline Measurement run_library(Surface_mesh& mesh, const Pins& pins, Uv_map uvma
   parameterizer.set_pins({pins.begin(), pins.end()});
   const SMP::Error_code code = parameterizer.parameterize(
       mesh, border, uvmap, get(boost::vertex_index, mesh), is_parameterized);
-  Measurement measurement;
+  const double seconds = stopwatch.seconds(), peak_memory = peak_memory_mb();
   const SMP::HLSCM_report& report = parameterizer.report();
-  measurement.numbers = {{"seconds_total", stopwatch.seconds()},
-                         {"peak_memory_mb", peak_memory_mb()},
+  Measurement measurement;
+  measurement.numbers = {{"seconds_total", seconds},
+                         {"peak_memory_mb", peak_memory},
                          {"seconds_hierarchy", report.seconds_hierarchy},
                          {"seconds_operators", report.seconds_operators},
                          {"seconds_solve", report.seconds_solve},
                          {"iterations", double(report.iterations)},
                          {"levels", double(report.levels.size())},
-                         {"converged", double(report.converged)},
-                         {"energy_gap_estimate", report.energy_gap_estimate / report.energy}};
-  if(!report.levels.empty())
-    measurement.numbers["coarsest_vertices"] = double(report.levels.front().vertices);
-  if(code != SMP::OK && report.converged) // running out of iterations is a result, not a failure
+                         {"converged", double(report.converged)}};
+  if(options.method == SMP::Conformal_method::HLSCM ||
+     options.method == SMP::Conformal_method::LSCM)
+    measurement.numbers["tolerance"] = options.tolerance;
+  if(code != SMP::OK) // also if the iterations are used up: then no map is handed over
     measurement.status = report.message;
+  else
+    measurement.numbers["energy_gap_estimate"] = report.energy_gap_estimate / report.energy;
   return measurement;
 }
 

@@ -5,6 +5,7 @@
 #define HLSCM_BENCHMARK_SIDE_BY_SIDE_METHODS_H
 
 #include "cgal_peers.h"
+#include "decimation.h"
 #include "library_methods.h"
 
 #include <CGAL/Surface_mesh_parameterization/Distortion_measures.h>
@@ -16,44 +17,102 @@
 namespace side_by_side {
 
 // Which energy a method minimises.
-enum class Energy { EXACT, CGAL_LSCM };
+enum class Energy { NONE, EXACT, CGAL_LSCM };
 
 struct Method
 {
   std::string name;
   Energy energy;
   bool is_direct; // its result is the minimum that the others with this energy are compared with
-  std::function<Measurement(Surface_mesh&, const Pins&, Uv_map)> run;
+  std::function<Measurement(const std::string& chart_path)> run; // in this process
 };
 
 namespace internal {
 
+// Throws if a pin is not where it was put: the methods would not solve the same problem.
+inline void check_pins(const Pins& pins, Uv_map uvmap)
+{
+  for(const auto& [vertex, uv] : pins)
+    if(CGAL::squared_distance(get(uvmap, vertex), uv) > 1e-20)
+      throw std::runtime_error("a pin has moved");
+}
+
+// Runs a parameterizer on a chart and measures its result: both energies with the same pins, and
+// the quality. The peak memory is that of reading and running.
+template <class Parameterize>
+Measurement run_parameterizer(const Parameterize& parameterize, const std::string& chart_path)
+{
+  Surface_mesh mesh = charts::make_surface_mesh(charts::read_chart(chart_path));
+  const double mesh_memory = peak_memory_mb();
+  auto uvmap = mesh.add_property_map<Vertex, Kernel::Point_2>("v:uv").first;
+  const Pins pins = far_border_pins(mesh);
+  Measurement measurement = parameterize(mesh, pins, uvmap);
+  measurement.numbers.insert({{"faces", double(mesh.number_of_faces())},
+                              {"vertices", double(mesh.number_of_vertices())},
+                              {"mesh_memory_mb", mesh_memory}});
+  if(!measurement.is_ok()) // then there is no map
+    return measurement;
+  check_pins(pins, uvmap);
+  const SMP::Distortion_measures distortion = SMP::measure_distortion(mesh, uvmap);
+  measurement.numbers.insert({{"energy", distortion.conformal_energy},
+                              {"energy_cgal", cgal_lscm_energy(mesh, uvmap)},
+                              {"flips", double(distortion.flipped_faces)},
+                              {"degenerate", double(distortion.degenerate_faces)},
+                              {"quasi_conformal_mean", distortion.quasi_conformal_mean},
+                              {"quasi_conformal_99", distortion.quasi_conformal_99},
+                              {"area_scale_range", distortion.area_scale_range},
+                              {"stretch_L2", distortion.stretch_L2}});
+  return measurement;
+}
+
+template <class Parameterize>
+Method parameterizer(const std::string& name, Energy energy, bool is_direct,
+                     const Parameterize& parameterize)
+{
+  return {name, energy, is_direct, [parameterize](const std::string& chart_path) {
+            return run_parameterizer(parameterize, chart_path);
+          }};
+}
+
 inline Method library_method(const std::string& name, const SMP::HLSCM_options& options)
 {
-  return {name, Energy::EXACT, options.method == SMP::Conformal_method::DIRECT,
-          [options](Surface_mesh& mesh, const Pins& pins, Uv_map uvmap) {
-            return run_library(mesh, pins, uvmap, options);
+  return parameterizer(name, Energy::EXACT, options.method == SMP::Conformal_method::DIRECT,
+                       [options](Surface_mesh& mesh, const Pins& pins, Uv_map uvmap) {
+                         return run_library(mesh, pins, uvmap, options);
+                       });
+}
+
+inline Method decimation_method(const std::string& name, Decimation_engine engine)
+{
+  return {name, Energy::NONE, false, [engine](const std::string& chart_path) {
+            return run_decimation(chart_path, engine);
           }};
+}
+
+inline SMP::HLSCM_options options_of(SMP::Conformal_method method)
+{
+  SMP::HLSCM_options options;
+  options.method = method;
+  return options;
 }
 
 inline SMP::HLSCM_options options_of(SMP::Conformal_method method, double tolerance)
 {
-  SMP::HLSCM_options options;
-  options.method = method;
+  SMP::HLSCM_options options = options_of(method);
   options.tolerance = tolerance;
-  if(method == SMP::Conformal_method::CASCADIC)
-    options.level_ratio = 0; // the paper's
   return options;
 }
 
+// Monogrid iterations stand still for hundreds of steps: asked for 1e-2 they believe to be there
+// while the energy is still several times the minimum.
 inline SMP::HLSCM_options options_of(SMP::Monogrid_preconditioner preconditioner)
 {
-  SMP::HLSCM_options options = options_of(SMP::Conformal_method::LSCM, 1e-2);
+  SMP::HLSCM_options options = options_of(SMP::Conformal_method::LSCM, 1e-5);
   options.preconditioner = preconditioner;
   return options;
 }
 
-inline SMP::HLSCM_options options_of(SMP::Decimation_engine engine)
+inline SMP::HLSCM_options options_of(Decimation_engine engine)
 {
   SMP::HLSCM_options options = options_of(SMP::Conformal_method::HLSCM, 1e-4);
   options.engine = engine;
@@ -68,18 +127,21 @@ inline std::vector<Method> all_methods()
   using namespace internal;
   using SMP::Conformal_method;
   return {
-      library_method("direct", options_of(Conformal_method::DIRECT, 1e-2)),
-      {"cgal_lscm_cholmod", Energy::CGAL_LSCM, true, run_cgal_lscm_cholmod},
-      {"cgal_lscm_default", Energy::CGAL_LSCM, true, run_cgal_lscm<CGAL::Default>},
-      {"cgal_lscm_cg", Energy::CGAL_LSCM, false, run_cgal_lscm_cg},
+      library_method("direct", options_of(Conformal_method::DIRECT)),
+      parameterizer("cgal_lscm_cholmod", Energy::CGAL_LSCM, true, run_cgal_lscm_cholmod),
+      parameterizer("cgal_lscm_default", Energy::CGAL_LSCM, true, run_cgal_lscm<CGAL::Default>),
+      parameterizer("cgal_lscm_cg", Energy::CGAL_LSCM, false, run_cgal_lscm_cg),
       library_method("lscm_jacobi", options_of(SMP::Monogrid_preconditioner::JACOBI)),
       library_method("lscm_sgs", options_of(SMP::Monogrid_preconditioner::SYMMETRIC_GAUSS_SEIDEL)),
-      library_method("cascadic", options_of(Conformal_method::CASCADIC, 1e-2)),
+      library_method("cascadic", options_of(Conformal_method::CASCADIC)),
       library_method("hlscm_1e-2", options_of(Conformal_method::HLSCM, 1e-2)),
       library_method("hlscm_1e-4", options_of(Conformal_method::HLSCM, 1e-4)),
-      library_method("hlscm_flat", options_of(SMP::Decimation_engine::FLAT)),
-      library_method("hlscm_flat_strict", options_of(SMP::Decimation_engine::FLAT_STRICT)),
-      library_method("hlscm_cgal_engine", options_of(SMP::Decimation_engine::CGAL)),
+      decimation_method("decimate_flat", Decimation_engine::FLAT),
+      decimation_method("decimate_flat_strict", Decimation_engine::FLAT_STRICT),
+      decimation_method("decimate_cgal", Decimation_engine::CGAL),
+      library_method("hlscm_flat", options_of(Decimation_engine::FLAT)),
+      library_method("hlscm_flat_strict", options_of(Decimation_engine::FLAT_STRICT)),
+      library_method("hlscm_cgal", options_of(Decimation_engine::CGAL)),
   };
 }
 
@@ -90,26 +152,6 @@ inline const Method* find_method(const std::vector<Method>& methods, const std::
     if(method.name == name)
       return &method;
   return nullptr;
-}
-
-// Runs a method on a chart, in this process, and measures its result: both energies with the same
-// pins, and the triangles that are flipped. The peak memory is that of reading and running.
-inline Measurement run_method(const Method& method, const std::string& chart_path)
-{
-  Surface_mesh mesh = charts::make_surface_mesh(charts::read_chart(chart_path));
-  const double mesh_memory = peak_memory_mb();
-  auto uvmap = mesh.add_property_map<Vertex, Kernel::Point_2>("v:uv").first;
-  Measurement measurement = method.run(mesh, far_border_pins(mesh), uvmap);
-  const SMP::Distortion_measures distortion = SMP::measure_distortion(mesh, uvmap);
-  measurement.numbers.insert({{"faces", double(mesh.number_of_faces())},
-                              {"vertices", double(mesh.number_of_vertices())},
-                              {"mesh_memory_mb", mesh_memory},
-                              {"energy", distortion.conformal_energy},
-                              {"energy_cgal", cgal_lscm_energy(mesh, uvmap)},
-                              {"flips", double(distortion.flipped_faces)},
-                              {"quasi_conformal_99", distortion.quasi_conformal_99},
-                              {"area_scale_range", distortion.area_scale_range}});
-  return measurement;
 }
 
 } // namespace side_by_side

@@ -34,7 +34,7 @@ inline std::vector<Standard_chart> growing_charts(const std::string& data_dir,
       recipe.cut = cut;
       recipe.loop = loop;
       recipe.noise = loop > 0 ? 0.1 : 0;
-      result.push_back({std::string(name) + '_' + std::to_string(faces / 1000) + 'k', recipe});
+      result.push_back({std::string(name) + '_' + std::to_string((faces + 500) / 1000) + 'k', recipe});
     }
   };
   add("mannequin-devil", 25888, false);

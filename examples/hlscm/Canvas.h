@@ -36,7 +36,8 @@ public:
 
   /// Draws a triangle of either orientation; `shade(barycentric coordinates)` gives the colour,
   /// once a pixel. A region covered by triangles without gaps is drawn without gaps.
-  template <typename Shade> void draw_triangle(const std::array<Point, 3>& p, Shade shade);
+  template <typename Shade>
+  void draw_triangle(const std::array<Point, 3>& p, Shade shade);
 
   void draw_segment(const Point& a, const Point& b, double width, const Colour& colour);
   void draw_disk(const Point& centre, double radius, const Colour& colour);

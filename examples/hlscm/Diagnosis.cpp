@@ -92,14 +92,14 @@ private:
     }
   }
 
-  static bool uses_a_vertex_twice(Polygon_soup::Face face)
+  bool uses_a_vertex_twice(Polygon_soup::Face face)
   {
     if(face.size() == 3) {
       return face[0] == face[1] || face[1] == face[2] || face[2] == face[0];
     }
-    std::vector<std::uint32_t> sorted(face.begin(), face.end());
-    std::sort(sorted.begin(), sorted.end());
-    return std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
+    m_sorted.assign(face.begin(), face.end());
+    std::sort(m_sorted.begin(), m_sorted.end());
+    return std::adjacent_find(m_sorted.begin(), m_sorted.end()) != m_sorted.end();
   }
 
   void examine_vertices()
@@ -240,6 +240,7 @@ private:
   Disjoint_sets m_fans;       // of corners
   Disjoint_sets m_border;     // of vertices, along border edges
   std::vector<char> m_is_on_border, m_is_used;
+  std::vector<std::uint32_t> m_sorted;                                   // corners of one face
   std::vector<std::pair<std::uint32_t, std::uint32_t>> m_third_and_face; // of one edge
 };
 

@@ -39,7 +39,8 @@ public:
   }
 
   /// Calls `use(vertex, first side, last side)` for each edge.
-  template <typename Use> void for_each_edge(Use use)
+  template <typename Use>
+  void for_each_edge(Use use)
   {
     for(std::size_t v = 0; v + 1 < m_bucket.size(); ++v) {
       Side* begin = m_sides.data() + m_bucket[v];
@@ -57,7 +58,8 @@ public:
   }
 
 private:
-  template <typename Use> void for_each_side(Use use) const
+  template <typename Use>
+  void for_each_side(Use use) const
   {
     for(std::size_t f = 0; f < m_soup.number_of_faces(); ++f) {
       const Polygon_soup::Face face = m_soup.face(f);

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::chrono::milliseconds time_to_stop_by_itself(500);
 
-std::atomic<bool> requested(false);
+std::atomic<bool> requested(false), is_finished(false), is_said(false);
 sem_t arrival;
 
 // Never destroyed: the waiting thread may outlive main().
@@ -56,13 +56,13 @@ void stop_if_nobody_else_does()
   std::this_thread::sleep_for(time_to_stop_by_itself);
 
   std::lock_guard<std::mutex> lock(clean_up().mutex);
+  if(is_finished) {
+    return;
+  }
   if(clean_up().action) {
     clean_up().action();
   }
-  const char message[] = "\r\033[Khlscm: cancelled\n";
-  const std::size_t skip = isatty(STDERR_FILENO) ? 0 : 4; // the code that erases a progress bar
-  [[maybe_unused]] const auto written =
-      write(STDERR_FILENO, message + skip, sizeof message - 1 - skip);
+  say_cancelled();
   _exit(1);
 }
 
@@ -91,6 +91,24 @@ void check()
   if(requested) {
     throw Cancelled();
   }
+}
+
+void finish()
+{
+  std::lock_guard<std::mutex> lock(clean_up().mutex);
+  check();
+  is_finished = true;
+}
+
+void say_cancelled()
+{
+  if(is_said.exchange(true)) {
+    return;
+  }
+  const char message[] = "\r\033[Khlscm: cancelled\n";
+  const std::size_t skip = isatty(STDERR_FILENO) ? 0 : 4; // the code that erases a progress bar
+  [[maybe_unused]] const auto written =
+      write(STDERR_FILENO, message + skip, sizeof message - 1 - skip);
 }
 
 void set_clean_up(std::function<void()> action)

@@ -25,6 +25,12 @@ bool is_requested();
 /// Throws `Cancelled` if the user asked to stop.
 void check();
 
+/// The same, and from now on nothing stops the program: it puts its results in place.
+void finish();
+
+/// Says that the program was cancelled, once.
+void say_cancelled();
+
 /// Sets what must happen before the process is ended from outside the main thread; empty for
 /// nothing.
 void set_clean_up(std::function<void()> clean_up);

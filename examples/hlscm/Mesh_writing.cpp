@@ -57,10 +57,12 @@ void write_obj(const Mesh& mesh, const Uv_map& uv, Output_file& file, Progress_b
 }
 
 /// The bytes of one item of a binary file.
-template <std::size_t Size> class Record
+template <std::size_t Size>
+class Record
 {
 public:
-  template <typename T> void add(T value)
+  template <typename T>
+  void add(T value)
   {
     std::memcpy(m_bytes + m_size, &value, sizeof value); // on little-endian machines
     m_size += sizeof value;

@@ -18,7 +18,8 @@ namespace {
 
 constexpr int usage_error = 2;
 
-template <typename Value> using Names = std::vector<std::pair<std::string, Value>>;
+template <typename Value>
+using Names = std::vector<std::pair<std::string, Value>>;
 
 template <typename Value>
 void add_choice(CLI::App& app, const std::string& name, const Names<Value>& names, Value& value,

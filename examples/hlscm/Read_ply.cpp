@@ -50,7 +50,8 @@ public:
   }
 
 private:
-  template <typename T> static double as(const char* bytes)
+  template <typename T>
+  static double as(const char* bytes)
   {
     T value; // on the little-endian machines that this program is built for
     std::memcpy(&value, bytes, sizeof value);

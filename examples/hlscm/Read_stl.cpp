@@ -58,7 +58,8 @@ private:
   std::unordered_map<std::array<double, 3>, std::uint32_t, Hash> m_vertices;
 };
 
-template <typename T> T little_endian(const char* bytes)
+template <typename T>
+T little_endian(const char* bytes)
 {
   T value; // on the little-endian machines that this program is built for
   std::memcpy(&value, bytes, sizeof value);

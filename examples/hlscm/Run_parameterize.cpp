@@ -214,7 +214,7 @@ int run_parameterize(const Program_options& options)
   if(files.pictures) {
     files.pictures->draw(snapshots->surfaces(uv, to_result), progress);
   }
-  Interruption::check();
+  Interruption::finish();
   files.all.commit();
   progress.erase();
   if(!options.is_quiet) {

@@ -25,7 +25,8 @@ Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nul
 class Table
 {
 public:
-  template <typename... Parts> void add(const char* label, const Parts&... parts)
+  template <typename... Parts>
+  void add(const char* label, const Parts&... parts)
   {
     m_text << std::left << std::setw(12) << label << std::setprecision(4);
     (m_text << ... << parts) << "\n";

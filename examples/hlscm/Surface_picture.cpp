@@ -197,7 +197,8 @@ private:
   }
 
   // A light above the left shoulder of the viewer, and a weak one from everywhere.
-  template <typename Material> Colour lit(Vector_3 normal, Material material) const
+  template <typename Material>
+  Colour lit(Vector_3 normal, Material material) const
   {
     const double length = std::sqrt(dot(normal, normal));
     const double facing = dot(normal, m_view.toward());

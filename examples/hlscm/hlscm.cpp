@@ -23,16 +23,16 @@ int run(const hlscm::Program_options& options)
 
 int main(int argc, char** argv)
 {
+  hlscm::Interruption::install();
   const hlscm::Parsed_command_line command_line = hlscm::parse_command_line(argc, argv);
   if(!command_line.options) {
     return command_line.exit_code;
   }
-  hlscm::Interruption::install();
   const char* input = command_line.options->input.c_str();
   try {
     return run(*command_line.options);
   } catch(const hlscm::Cancelled&) {
-    std::fprintf(stderr, "hlscm: cancelled\n");
+    hlscm::Interruption::say_cancelled();
   } catch(const hlscm::Program_error& e) {
     std::fprintf(stderr, "hlscm: error: %s\n", e.what());
   } catch(const std::bad_alloc&) {

@@ -87,6 +87,12 @@ inline Topology topology_of(const std::vector<Triangle_indices>& triangles)
       if(halfedges.back().from == halfedges.back().to)
         result.defect = "triangle " + std::to_string(t) + " has a vertex twice";
     }
+  std::vector<Triangle_indices> vertex_sets = triangles;
+  for(Triangle_indices& t : vertex_sets)
+    std::sort(t.begin(), t.end());
+  std::sort(vertex_sets.begin(), vertex_sets.end());
+  if(std::adjacent_find(vertex_sets.begin(), vertex_sets.end()) != vertex_sets.end())
+    result.defect = "two triangles have the same vertices";
   std::sort(halfedges.begin(), halfedges.end());
   Partition components(halfedges.size()), fans(halfedges.size()), loops(halfedges.size());
   for(std::size_t corner = 0; corner < halfedges.size(); ++corner)

@@ -25,13 +25,16 @@ inline std::string debian_mesh(const std::string& name)
 {
   const std::filesystem::path file = folder_of_environment("HLSCM_DATA_DIR") / name;
   if(!std::filesystem::is_regular_file(file))
-    throw std::runtime_error("no mesh " + name + ": set HLSCM_DATA_DIR to the folder that " +
-                             "scripts/debian_meshes.sh prints");
+    throw std::runtime_error("no mesh " + name + ": set HLSCM_DATA_DIR to the folder that "
+                             + "scripts/debian_meshes.sh prints");
   return file.string();
 }
 
 // The folder of further meshes, HLSCM_EXTRA_DATA_DIR; an empty path if there is none.
-inline std::filesystem::path extra_meshes() { return folder_of_environment("HLSCM_EXTRA_DATA_DIR"); }
+inline std::filesystem::path extra_meshes()
+{
+  return folder_of_environment("HLSCM_EXTRA_DATA_DIR");
+}
 
 } // namespace test_support
 

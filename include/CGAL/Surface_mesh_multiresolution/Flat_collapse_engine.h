@@ -32,7 +32,7 @@ struct Flat_collapse_options
   std::size_t target_vertices = 2000; ///< where to stop
   Collapse_order order = Collapse_order::BATCHED; ///< which collapse comes next
   /// The part of the vertices, the cheapest, that a pass of the batched order may remove.
-  double pass_fraction = 0.6;
+  double pass_fraction = 0.7;
   /// Told the part done in [0, 1] from time to time; returning false stops early.
   std::function<bool(double)> progress;
 };
@@ -242,16 +242,15 @@ pass_threshold(const std::vector<Vertex_index>& alive, std::size_t wanted, doubl
       costs.push_back(m_best_cost[v]);
   if(costs.empty())
     return no_cost;
-  // About one in two of those below the threshold is collapsed: the others have become dearer.
-  const double part = (std::min)(fraction * double(costs.size()), 2. * double(wanted));
+  // About three in five of those below the threshold are collapsed: the others become dearer.
+  const double part = (std::min)(fraction * double(costs.size()), 1.6 * double(wanted));
   const std::size_t rank = (std::min)(costs.size() - 1, std::size_t(part));
   std::nth_element(costs.begin(), costs.begin() + rank, costs.end());
   return costs[rank];
 }
 
 // One pass over the living vertices in memory order: those whose cost was not above the threshold
-// when it was last computed are removed if it still is not. Costs of the others are left as they
-// are: most would change again before they matter.
+// when the pass began are removed if it still is not.
 template <class Cost, class Filter>
 void Flat_collapse_engine<Cost, Filter>::
 run_pass(const std::vector<Vertex_index>& alive, float threshold, std::size_t wanted,
@@ -278,11 +277,14 @@ run_batched(const Flat_collapse_options& options, Progressive_mesh& pm)
   const std::size_t n = m_mesh.points.size();
   Progress progress(options, n);
   std::vector<Vertex_index> alive(n);
-  for(Vertex_index v = 0; v < n && progress(pm); ++v) {
+  for(Vertex_index v = 0; v < n; ++v)
     alive[v] = v;
-    evaluate(v, false);
-  }
   while(alive.size() > options.target_vertices && !progress.is_cancelled()) {
+    // Costs fall, too, where long thin triangles give way to better ones: all are brought up to
+    // date, since vertices that would be passed over would spoil the levels.
+    for(std::size_t i = 0; i < alive.size() && progress(pm); ++i)
+      if(m_state[alive[i]].is_stale)
+        evaluate(alive[i], false);
     const std::size_t wanted = alive.size() - options.target_vertices;
     const float threshold = pass_threshold(alive, wanted, options.pass_fraction);
     if(threshold == no_cost)

@@ -56,10 +56,11 @@ public:
   template <class Profile, class OptionalPoint>
   OptionalPoint operator()(const Profile& profile, const OptionalPoint& placement) const
   {
-    const OptionalPoint accepted = m_base_filter(profile, placement);
+    const auto& measured = internal::measured(profile, placement);
+    const OptionalPoint accepted = m_base_filter(measured, placement);
     if(!accepted)
       return accepted;
-    const internal::Halfedge_collapse& collapse = internal::halfedge_collapse(profile, accepted);
+    const internal::Halfedge_collapse& collapse = measured.collapse();
     if(!collapse.is_valid)
       return OptionalPoint();
     if(!collapse.is_border && !(std::abs(float(2. * CGAL_PI) - collapse.angle_sum) < m_bound))

@@ -7,6 +7,8 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Volume_and_border_area_cost.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Angular_defect_filter.h>
 
+#include <CGAL/boost/graph/helpers.h>
+
 namespace CGAL {
 namespace Surface_mesh_simplification {
 
@@ -55,23 +57,29 @@ public:
   {
     typedef internal::Optional<typename Profile::Point> Optional_point;
     typedef internal::Optional<typename Profile::FT> Optional_cost;
-    const auto admitted = [&](const Optional_point& placement) {
-      return m_filter(profile, placement);
+    const auto cost_of = [&](const Optional_point& placement) {
+      const auto& measured = internal::measured(profile, placement);
+      return m_filter(measured, placement) ? m_cost(measured, placement) : Optional_cost();
     };
-    Optional_point to_p1, to_p0;
-    if(!get(m_is_locked, profile.v0()))
-      to_p1 = admitted(Optional_point(profile.p1()));
+    const Optional_point p1 = profile.p1(), p0 = profile.p0();
+    const Optional_cost cost_p1 = may_remove(profile, profile.v0()) ? cost_of(p1) : Optional_cost();
     // Equal points cannot say which of the two vertices goes.
-    if(profile.p0() != profile.p1() && !get(m_is_locked, profile.v1()))
-      to_p0 = admitted(Optional_point(profile.p0()));
-    const Optional_cost cost_p1 = to_p1 ? m_cost(profile, to_p1) : Optional_cost();
-    const Optional_cost cost_p0 = to_p0 ? m_cost(profile, to_p0) : Optional_cost();
+    const Optional_cost cost_p0
+      = p0 != p1 && may_remove(profile, profile.v1()) ? cost_of(p0) : Optional_cost();
     if(cost_p1 && (!cost_p0 || *cost_p1 <= *cost_p0))
-      return to_p1;
-    return cost_p0 ? to_p0 : Optional_point();
+      return p1;
+    return cost_p0 ? p0 : Optional_point();
   }
 
 private:
+  // Whether neither a lock nor the border, when the edge is not part of it, holds the vertex.
+  template <class Profile>
+  bool may_remove(const Profile& profile, const typename Profile::vertex_descriptor v) const
+  {
+    const bool is_border_edge = profile.is_v0_v1_a_border() || profile.is_v1_v0_a_border();
+    return !get(m_is_locked, v) && (is_border_edge || !is_border(v, profile.surface_mesh()));
+  }
+
   Cost m_cost;
   Filter m_filter;
   VertexIsLockedMap m_is_locked;

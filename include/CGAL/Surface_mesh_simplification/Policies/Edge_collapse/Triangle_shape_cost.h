@@ -46,10 +46,11 @@ public:
   operator()(const Profile& profile, const OptionalPoint& placement) const
   {
     typedef typename Profile::FT FT;
-    const internal::Optional<FT> base = m_base_cost(profile, placement);
+    const auto& measured = internal::measured(profile, placement);
+    const internal::Optional<FT> base = m_base_cost(measured, placement);
     if(!base)
       return {};
-    const internal::Halfedge_collapse& collapse = internal::halfedge_collapse(profile, placement);
+    const internal::Halfedge_collapse& collapse = measured.collapse();
     if(!collapse.is_valid)
       return {};
     const float quality = std::sqrt(collapse.measure.min_squared_quality);

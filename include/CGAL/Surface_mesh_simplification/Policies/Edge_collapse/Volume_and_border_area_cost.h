@@ -34,7 +34,8 @@ public:
   internal::Optional<typename Profile::FT>
   operator()(const Profile& profile, const OptionalPoint& placement) const
   {
-    const internal::Halfedge_collapse& collapse = internal::halfedge_collapse(profile, placement);
+    const auto& measured = internal::measured(profile, placement);
+    const internal::Halfedge_collapse& collapse = measured.collapse();
     if(!collapse.is_valid)
       return {};
     const float cost = internal::fast_cbrt(collapse.measure.volume)

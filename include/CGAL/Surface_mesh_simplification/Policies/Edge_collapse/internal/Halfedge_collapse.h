@@ -141,14 +141,32 @@ template <class Profile>
 struct Knows_collapse<Profile, std::void_t<decltype(std::declval<const Profile&>().collapse())>>
   : std::true_type {};
 
-// What the policies ask: the measures of the collapse of `profile` with `placement`.
+// A profile that knows its halfedge collapse, so that the star is measured once for all policies.
+template <class Profile>
+class Measured_profile
+  : public Profile
+{
+public:
+  template <class OptionalPoint>
+  Measured_profile(const Profile& profile, const OptionalPoint& placement)
+    : Profile(profile), m_collapse(measure_halfedge_collapse(profile, placement))
+  {}
+
+  const Halfedge_collapse& collapse() const { return m_collapse; }
+
+private:
+  Halfedge_collapse m_collapse;
+};
+
+// What each policy begins with: `profile` itself if it knows its collapse, otherwise a profile that
+// does, to be passed on to base policies.
 template <class Profile, class OptionalPoint>
-decltype(auto) halfedge_collapse(const Profile& profile, const OptionalPoint& placement)
+decltype(auto) measured(const Profile& profile, const OptionalPoint& placement)
 {
   if constexpr(Knows_collapse<Profile>::value)
-    return profile.collapse();
+    return (profile);
   else
-    return measure_halfedge_collapse(profile, placement);
+    return Measured_profile<Profile>(profile, placement);
 }
 
 } // namespace internal

@@ -73,7 +73,7 @@ private:
   float area_at_border() const;
 
   // The lanes, of those from `at` on, whose triangles survive the collapse into ring vertex k.
-  Mask_lanes alive_lanes(int at, int k, int previous) const
+  void alive_lanes(int at, int k, int previous, Mask_lanes& alive) const
   {
     static constexpr float index[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
     Float_lanes i, n, dead, dead_before;
@@ -81,7 +81,7 @@ private:
     fill_lanes(float(number_of_triangles()), n);
     fill_lanes(float(k), dead);
     fill_lanes(float(previous), dead_before);
-    return (i < n) & ((i < dead) | (i > dead)) & ((i < dead_before) | (i > dead_before));
+    alive = (i < n) & ((i < dead) | (i > dead)) & ((i < dead_before) | (i > dead_before));
   }
 
   int m_degree = 0;
@@ -186,7 +186,8 @@ inline Collapse_measure Vertex_star::measure(int k) const
     load_lanes(m_x + at, x);
     load_lanes(m_y + at, y);
     load_lanes(m_z + at, z);
-    const Mask_lanes alive = alive_lanes(at, k, previous);
+    Mask_lanes alive;
+    alive_lanes(at, k, previous, alive);
     const Float_lanes ax = x - tx, ay = y - ty, az = z - tz;
     const Float_lanes bx = m_nx[b] - tx, by = m_ny[b] - ty, bz = m_nz[b] - tz;
     const Float_lanes nx = ay * bz - az * by, ny = az * bx - ax * bz, nz = ax * by - ay * bx;

@@ -1,8 +1,8 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef HLSCM_BENCHMARK_SIDE_BY_SIDE_MACHINE_H
-#define HLSCM_BENCHMARK_SIDE_BY_SIDE_MACHINE_H
+#ifndef HLSCM_BENCHMARK_MACHINE_H
+#define HLSCM_BENCHMARK_MACHINE_H
 
 #include <CGAL/version.h>
 
@@ -21,7 +21,7 @@
 #define HLSCM_COMPILE_FLAGS "unknown flags"
 #endif
 
-namespace side_by_side {
+namespace machine {
 namespace internal {
 
 inline std::string cpu_model()
@@ -58,7 +58,7 @@ inline std::string commit()
 } // namespace internal
 
 // Machine, compiler, libraries and commit, in one line.
-inline std::string description_of_machine()
+inline std::string description()
 {
   return internal::cpu_model() + ", " + std::to_string(std::thread::hardware_concurrency()) +
          " processors, one thread used; compiler " + __VERSION__ + ", " + HLSCM_COMPILE_FLAGS +
@@ -67,6 +67,6 @@ inline std::string description_of_machine()
          "; commit " + internal::commit();
 }
 
-} // namespace side_by_side
+} // namespace machine
 
-#endif // HLSCM_BENCHMARK_SIDE_BY_SIDE_MACHINE_H
+#endif // HLSCM_BENCHMARK_MACHINE_H

@@ -1,0 +1,244 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Operators, products, smoother, transfer, cycle.
+
+#include "Kernel_chart.h"
+#include "counters.h"
+
+#include <CGAL/Multigrid/Multigrid_levels.h>
+#include <CGAL/Multigrid/Sparse_cholesky.h>
+#include <CGAL/Surface_mesh_parameterization/Conformal_operator.h>
+
+#include <memory>
+
+namespace {
+
+using namespace kernels;
+namespace MG = CGAL::Multigrid;
+namespace SMP = CGAL::Surface_mesh_parameterization;
+typedef MG::Multigrid_levels<SMM::Prolongation, MG::Sparse_cholesky<>> Multigrid_levels;
+
+// The pins of a level: those of the fine mesh, which all levels have.
+std::vector<bool> pinned_vertices(const SMM::Mesh_level& level, const std::vector<bool>& fine)
+{
+  std::vector<bool> is_pinned(level.vertices.size());
+  for(std::size_t v = 0; v < is_pinned.size(); ++v)
+    is_pinned[v] = fine[level.vertices[v]];
+  return is_pinned;
+}
+
+template <class Real>
+const MG::Hermitian_matrix<Real>& matrix(std::size_t faces)
+{
+  return made_once(faces, [](std::size_t number) {
+    const SMM::Indexed_triangle_mesh& mesh = sorted_mesh(number);
+    return SMP::conformal_operator<Real>(mesh, kernels::pinned_vertices(mesh)).matrix;
+  });
+}
+
+// The hierarchy of operators as the parameterizer makes it.
+Multigrid_levels& multigrid(std::size_t faces)
+{
+  return *made_once(faces, [](std::size_t number) {
+    const std::vector<bool> fine = kernels::pinned_vertices(sorted_mesh(number));
+    auto result = std::make_shared<Multigrid_levels>();
+    for(const SMM::Mesh_level& level : levels(number)) {
+      const std::vector<bool> is_pinned = pinned_vertices(level, fine);
+      const bool is_coarsest = result->number_of_levels() == 0;
+      if(is_coarsest)
+        result->coarsest_solver().factorize(
+            SMP::conformal_operator<double>(level.mesh, is_pinned).matrix);
+      auto h = SMP::conformal_operator<float>(level.mesh, is_pinned).matrix;
+      std::vector<float> inverse = MG::l1_inverse_diagonal(h);
+      result->add_level(std::move(h), std::move(inverse),
+                        is_coarsest ? nullptr : &level.from_coarser);
+    }
+    return result;
+  });
+}
+
+// Random numbers, 0 at the pins.
+template <class Real>
+MG::Complex_vector<Real> random_vector(const MG::Hermitian_matrix<Real>& h, std::uint64_t seed)
+{
+  MG::Complex_vector<Real> x(h.size());
+  for(std::size_t i = 0; i < x.size(); ++i)
+    if(h.diagonal()[i] != Real(0))
+      x[i] = {Real(charts::random_normal(seed, 2 * i)), Real(charts::random_normal(seed, 2 * i + 1))};
+  return x;
+}
+
+// Entries of a row beside the diagonal, all rows, without padding.
+template <class Real>
+double number_of_entries(const MG::Hermitian_matrix<Real>& h)
+{
+  double count = 0;
+  for(std::size_t slot = 0; slot < h.size(); ++slot)
+    h.for_each_entry(slot, [&](std::uint32_t, std::complex<Real>) { ++count; });
+  return count;
+}
+
+// The bytes of a matrix that a product reads.
+template <class Real>
+double matrix_bytes(const MG::Hermitian_matrix<Real>& h)
+{
+  const MG::Sliced_pattern& p = h.pattern();
+  double entries = double(p.column.size());
+  for(std::size_t s = 0; s < p.slices(); ++s)
+    if(p.imaginary[s] != MG::Sliced_pattern::none)
+      entries += double((p.slice_begin[s + 1] - p.slice_begin[s]) * MG::Sliced_pattern::slice_rows);
+  return bytes_of(p.column) + entries * sizeof(Real) + bytes_of(h.diagonal()) +
+         bytes_of(p.row_of_slot) + bytes_of(p.slice_begin) + bytes_of(p.imaginary);
+}
+
+template <class Real>
+void assemble(benchmark::State& state)
+{
+  const SMM::Indexed_triangle_mesh& mesh = sorted_mesh(std::size_t(state.range(0)));
+  const std::vector<bool> is_pinned = kernels::pinned_vertices(mesh);
+  for(auto _ : state)
+    benchmark::DoNotOptimize(SMP::conformal_operator<Real>(mesh, is_pinned));
+  set_rate(state, "faces/s", double(mesh.triangles.size()));
+}
+BENCHMARK_TEMPLATE(assemble, double)->Apply(small_and_large);
+BENCHMARK_TEMPLATE(assemble, float)->Apply(small_and_large);
+
+template <class Real>
+void product(benchmark::State& state)
+{
+  const MG::Hermitian_matrix<Real>& h = matrix<Real>(std::size_t(state.range(0)));
+  const MG::Complex_vector<Real> x = random_vector(h, 1);
+  MG::Complex_vector<Real> y(x.size());
+  for(auto _ : state) {
+    h.multiply(x, y);
+    benchmark::ClobberMemory();
+  }
+  set_rate(state, "nonzeros/s", number_of_entries(h) + double(h.size()));
+  set_bytes(state, matrix_bytes(h) + bytes_of(x) + bytes_of(y));
+}
+BENCHMARK_TEMPLATE(product, double)->Apply(small_and_large);
+BENCHMARK_TEMPLATE(product, float)->Apply(small_and_large);
+
+// The two steps that a cycle takes, which cost one product.
+void chebyshev_smoother(benchmark::State& state)
+{
+  const MG::Hermitian_matrix<float>& h = matrix<float>(std::size_t(state.range(0)));
+  const std::vector<float> inverse = MG::l1_inverse_diagonal(h);
+  const MG::Complex_vector<float> f = random_vector(h, 1);
+  MG::Complex_vector<float> u(f.size()), r(f.size()), z(f.size());
+  for(auto _ : state) {
+    r = f;
+    MG::chebyshev_steps(h, inverse, 2, u, r, z);
+    benchmark::ClobberMemory();
+  }
+  set_rate(state, "vertices/s", double(h.size()));
+  // r = f: 2 vectors; the first step: r, z, u, u, 1/D; the product: z, r, r; the second: z, z, r, u, u
+  set_bytes(state, matrix_bytes(h) + 15 * bytes_of(f) + 2 * bytes_of(inverse));
+}
+BENCHMARK(chebyshev_smoother)->Apply(small_and_large);
+
+// Between the finest level and the next.
+void prolongate(benchmark::State& state)
+{
+  const SMM::Prolongation& p = levels(std::size_t(state.range(0))).back().from_coarser;
+  const MG::Complex_vector<float> coarse(p.kept.size(), {1, 2});
+  MG::Complex_vector<float> fine(p.number_of_fine_vertices());
+  for(auto _ : state) {
+    p.prolongate(coarse, fine);
+    benchmark::ClobberMemory();
+  }
+  set_rate(state, "vertices/s", double(fine.size()));
+  set_bytes(state, bytes_of(p.kept) + bytes_of(p.stencils) + bytes_of(coarse) + bytes_of(fine));
+}
+BENCHMARK(prolongate)->Apply(small_and_large);
+
+void restrict_residual(benchmark::State& state)
+{
+  const SMM::Prolongation& p = levels(std::size_t(state.range(0))).back().from_coarser;
+  const MG::Complex_vector<float> residual(p.number_of_fine_vertices(), {1, 2});
+  MG::Complex_vector<float> fine(residual.size()), coarse(p.kept.size());
+  for(auto _ : state) {
+    fine = residual; // it is used up
+    p.restrict_in_place(fine, coarse);
+    benchmark::ClobberMemory();
+  }
+  set_rate(state, "vertices/s", double(fine.size()));
+  set_bytes(state, bytes_of(p.kept) + bytes_of(p.stencils) + bytes_of(coarse) + 4 * bytes_of(fine));
+}
+BENCHMARK(restrict_residual)->Apply(small_and_large);
+
+// What one iteration on the finest level costs beside its product and its inner products.
+void k_cycle(benchmark::State& state)
+{
+  const std::size_t faces = std::size_t(state.range(0));
+  Multigrid_levels& mg = multigrid(faces);
+  const std::size_t finest = mg.number_of_levels() - 1;
+  const MG::Complex_vector<double> r = random_vector(matrix<double>(faces), 1);
+  MG::Complex_vector<double> x;
+  for(auto _ : state) {
+    mg.precondition(MG::Schedule(), finest, r, x);
+    benchmark::ClobberMemory();
+  }
+  set_rate(state, "vertices/s", double(r.size()));
+  state.counters["levels"] = double(finest + 1);
+}
+BENCHMARK(k_cycle)->Apply(small_and_large);
+
+void factorize_coarsest(benchmark::State& state)
+{
+  const std::size_t faces = std::size_t(state.range(0));
+  const SMM::Mesh_level& level = levels(faces).front();
+  const auto h = SMP::conformal_operator<double>(
+                     level.mesh,
+                     pinned_vertices(level, kernels::pinned_vertices(sorted_mesh(faces))))
+                     .matrix;
+  for(auto _ : state) {
+    MG::Sparse_cholesky<> solver;
+    benchmark::DoNotOptimize(solver.factorize(h));
+  }
+  state.counters["vertices"] = double(h.size());
+}
+BENCHMARK(factorize_coarsest)->Apply(small_and_large);
+
+void solve_coarsest(benchmark::State& state)
+{
+  Multigrid_levels& mg = multigrid(std::size_t(state.range(0)));
+  const MG::Complex_vector<float> f = random_vector(mg.matrix(0), 1);
+  MG::Complex_vector<float> x(f.size());
+  for(auto _ : state) {
+    mg.coarsest_solver().solve(f, x);
+    benchmark::ClobberMemory();
+  }
+  state.counters["vertices"] = double(f.size());
+}
+BENCHMARK(solve_coarsest)->Apply(small_and_large);
+
+template <class Real>
+void inner_product(benchmark::State& state)
+{
+  const MG::Hermitian_matrix<Real>& h = matrix<Real>(std::size_t(state.range(0)));
+  const MG::Complex_vector<Real> x = random_vector(h, 1), y = random_vector(h, 2);
+  for(auto _ : state)
+    benchmark::DoNotOptimize(MG::inner_product(x, y));
+  set_bytes(state, bytes_of(x) + bytes_of(y));
+}
+BENCHMARK_TEMPLATE(inner_product, double)->Apply(small_and_large);
+BENCHMARK_TEMPLATE(inner_product, float)->Apply(small_and_large);
+
+template <class Real>
+void add_scaled(benchmark::State& state)
+{
+  const MG::Hermitian_matrix<Real>& h = matrix<Real>(std::size_t(state.range(0)));
+  const MG::Complex_vector<Real> x = random_vector(h, 1);
+  MG::Complex_vector<Real> y = random_vector(h, 2);
+  for(auto _ : state) {
+    MG::add_scaled(std::complex<Real>(Real(0), Real(1e-3)), x, y);
+    benchmark::ClobberMemory();
+  }
+  set_bytes(state, bytes_of(x) + 2 * bytes_of(y));
+}
+BENCHMARK_TEMPLATE(add_scaled, double)->Apply(small_and_large);
+BENCHMARK_TEMPLATE(add_scaled, float)->Apply(small_and_large);
+
+} // namespace

@@ -1,0 +1,107 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef HLSCM_BENCHMARK_SIDE_BY_SIDE_DECIMATION_H
+#define HLSCM_BENCHMARK_SIDE_BY_SIDE_DECIMATION_H
+
+#include "../charts/chart_io.h"
+#include "../charts/indexed_mesh.h"
+#include "Measurement.h"
+#include "Stopwatch.h"
+#include "child_process.h"
+
+#include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
+#include <CGAL/Surface_mesh_multiresolution/Mesh_hierarchy.h>
+#include <CGAL/Surface_mesh_multiresolution/edge_collapse_engine.h>
+#include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
+
+namespace side_by_side {
+
+namespace SMM = CGAL::Surface_mesh_multiresolution;
+using CGAL::Surface_mesh_parameterization::Decimation_engine;
+
+// Decimates by an engine as the parameterizer does: the same policies, the same number of vertices
+// at the end. `mesh` is normalized and in spatial order.
+inline SMM::Progressive_mesh decimate(const SMM::Indexed_triangle_mesh& mesh,
+                                      Decimation_engine engine)
+{
+  const CGAL::Surface_mesh_parameterization::HLSCM_options defaults;
+  const std::vector<bool> is_locked(mesh.points.size(), false);
+  if(engine == Decimation_engine::CGAL) {
+    SMM::Edge_collapse_options options;
+    options.target_vertices = defaults.coarsest_size;
+    options.angular_defect_bound = defaults.angular_defect_bound;
+    return SMM::progressive_mesh_by_edge_collapse(mesh, is_locked, options);
+  }
+  SMM::Flat_collapse_options options;
+  options.target_vertices = defaults.coarsest_size;
+  options.order = engine == Decimation_engine::FLAT ? SMM::Collapse_order::BATCHED
+                                                    : SMM::Collapse_order::STRICT;
+  SMM::Flat_collapse_engine<> flat(mesh, SMM::internal::Vertex_rings(mesh), is_locked);
+  return flat.run(options);
+}
+
+// The mean of 4 sqrt(3) A / (sum of squared lengths), which is 1 for equilateral triangles.
+inline double mean_quality(const SMM::Indexed_triangle_mesh& mesh)
+{
+  double sum = 0;
+  for(const SMM::Triangle_indices& t : mesh.triangles) {
+    const auto &p = mesh.points[t[0]], &q = mesh.points[t[1]], &r = mesh.points[t[2]];
+    const double squares = CGAL::squared_distance(p, q) + CGAL::squared_distance(q, r) +
+                           CGAL::squared_distance(r, p);
+    sum += 4 * std::sqrt(3 * CGAL::squared_area(p, q, r)) / squares;
+  }
+  return sum / double(mesh.triangles.size());
+}
+
+// The mean distance of the vertices that are gone from the coarse surface.
+inline double mean_distance(const SMM::Mesh_level& fine)
+{
+  const auto& points = fine.mesh.points;
+  double sum = 0;
+  for(const SMM::Prolongation::Stencil& s : fine.from_coarser.stencils) {
+    const auto nearest = CGAL::barycenter(points[s.source[0]], double(s.weight[0]),
+                                          points[s.source[1]], double(s.weight[1]),
+                                          points[s.source[2]], double(s.weight[2]));
+    sum += std::sqrt(CGAL::squared_distance(nearest, points[s.vertex]));
+  }
+  return sum / double(fine.from_coarser.stencils.size());
+}
+
+// How good the coarsest mesh is, lengths in mean edges of the fine one.
+inline void measure_coarse_mesh(SMM::Indexed_triangle_mesh mesh, const SMM::Progressive_mesh& pm,
+                                Measurement& measurement)
+{
+  SMM::Hierarchy_options options; // from the fine mesh to the coarsest in one step
+  options.coarsest_size = pm.number_of_vertices_after(pm.collapses.size());
+  options.ratio = double(pm.number_of_vertices) / double(options.coarsest_size);
+  if(options.ratio <= 1)
+    return;
+  const std::vector<SMM::Mesh_level> levels = SMM::build_hierarchy(std::move(mesh), pm, options);
+  measurement.numbers.insert({{"coarse_vertices", double(levels.front().vertices.size())},
+                              {"coarse_quality_mean", mean_quality(levels.front().mesh)},
+                              {"coarse_distance_mean", mean_distance(levels.back())}});
+}
+
+// Times an engine alone, from two arrays to the progressive mesh.
+inline Measurement run_decimation(const std::string& chart_path, Decimation_engine engine)
+{
+  SMM::Indexed_triangle_mesh mesh = charts::make_indexed_mesh(charts::read_chart(chart_path));
+  SMM::normalize(mesh);
+  SMM::sort_spatially(mesh);
+  Measurement measurement;
+  measurement.numbers = {{"faces", double(mesh.triangles.size())},
+                         {"vertices", double(mesh.points.size())},
+                         {"mesh_memory_mb", peak_memory_mb()}};
+  const Stopwatch stopwatch;
+  const SMM::Progressive_mesh pm = decimate(mesh, engine);
+  measurement.numbers.insert({{"seconds_total", stopwatch.seconds()},
+                              {"peak_memory_mb", peak_memory_mb()},
+                              {"collapses", double(pm.collapses.size())}});
+  measure_coarse_mesh(std::move(mesh), pm, measurement);
+  return measurement;
+}
+
+} // namespace side_by_side
+
+#endif // HLSCM_BENCHMARK_SIDE_BY_SIDE_DECIMATION_H

@@ -1,0 +1,144 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_BUILD_PROGRESSIVE_MESH_H
+#define CGAL_SURFACE_MESH_MULTIRESOLUTION_BUILD_PROGRESSIVE_MESH_H
+
+#include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/mesh_arrays.h>
+
+#include <CGAL/boost/graph/helpers.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_multiresolution {
+
+/// \ingroup PkgHLSCMMultiresolution
+/// The options of `build_progressive_mesh()`.
+struct Progressive_mesh_options
+{
+  std::size_t target_vertices = 0; ///< where to stop; 0: when nothing more can be collapsed
+  Collapse_order order = Collapse_order::BATCHED; ///< which collapse comes next
+  double angular_defect_bound = 70.; ///< a vertex of no smaller defect stays; degrees
+  /// For each vertex, in the order of `vertices(mesh)`, whether it must stay; empty for none.
+  std::vector<bool> is_locked;
+  /// Told the part done in [0, 1] from time to time; returning false stops early.
+  std::function<bool(double)> progress;
+};
+
+/*!
+\ingroup PkgHLSCMMultiresolution
+
+The struct `Progressive_surface` is a progressive mesh with its points.
+*/
+struct Progressive_surface
+{
+  /// The collapses. Vertices are numbered as in `vertices(mesh)`, triangles as in `faces(mesh)`.
+  Progressive_mesh progressive_mesh;
+  /// The position of each vertex.
+  std::vector<Indexed_triangle_mesh::Point_3> points;
+  /// Why there are no collapses, as a sentence; empty if all is well.
+  std::string error;
+};
+
+namespace internal {
+
+// What keeps a mesh from being decimated; empty if nothing does. `source` has for each vertex of
+// the rings its number in the input.
+inline std::string ring_error(const Vertex_rings& rings, const std::vector<Vertex_index>& source)
+{
+  if(rings.defect() == Ring_defect::NONE)
+    return {};
+  const std::string vertex = "vertex " + std::to_string(source[rings.defective_vertex()]);
+  if(rings.defect() == Ring_defect::ISOLATED)
+    return vertex + " has no face; remove it first";
+  if(rings.defect() == Ring_defect::REPEATED_HALFEDGE)
+    return vertex + " has two edges to the same vertex; repair the mesh first";
+  return "the faces at " + vertex + " do not form one fan; split the vertex first";
+}
+
+inline std::string point_error(const std::vector<Indexed_triangle_mesh::Point_3>& points)
+{
+  for(std::size_t v = 0; v < points.size(); ++v)
+    for(int c = 0; c < 3; ++c)
+      if(!std::isfinite(points[v][c]))
+        return "vertex " + std::to_string(v) + " has a coordinate that is not a finite number";
+  return {};
+}
+
+// Decimates `mesh`, a copy in any order, and appends the collapses in that order to `result`.
+inline std::string decimate(Indexed_triangle_mesh mesh, const Progressive_mesh_options& options,
+                            Progressive_mesh& result)
+{
+  if(!(normalize(mesh) > 0.))
+    return "all edges are without length";
+  const std::vector<Vertex_index> source = sort_spatially(mesh);
+  Vertex_rings rings(mesh);
+  const std::string error = ring_error(rings, source);
+  if(!error.empty())
+    return error;
+  std::vector<bool> is_locked(options.is_locked.size());
+  for(std::size_t v = 0; v < is_locked.size(); ++v)
+    is_locked[v] = options.is_locked[source[v]];
+  Flat_collapse_options flat;
+  flat.target_vertices = options.target_vertices;
+  flat.order = options.order;
+  flat.progress = options.progress;
+  Flat_collapse_engine<> engine(mesh, std::move(rings), is_locked, hierarchy_collapse_cost(),
+                                hierarchy_collapse_filter(options.angular_defect_bound));
+  Progressive_mesh pm = engine.run(flat);
+  for(const Halfedge_collapse& c : pm.collapses)
+    result.collapses.push_back({source[c.removed], source[c.kept]});
+  result.batch_ends = std::move(pm.batch_ends);
+  return {};
+}
+
+} // namespace internal
+
+/*!
+\ingroup PkgHLSCMMultiresolution
+
+Returns a progressive mesh of `mesh`, made by `Flat_collapse_engine` with its default policies.
+
+\tparam TriangleMesh a model of `FaceListGraph` with a point property
+\param mesh a triangle mesh, which is not changed
+\param options where to stop, and what must stay
+
+Bad data (faces that are no triangles, vertices without a face or with several fans of faces,
+coordinates that are not finite) give a result with `error` set and no collapses.
+
+Expected linear time; see `Flat_collapse_engine`.
+*/
+template <class TriangleMesh>
+Progressive_surface
+build_progressive_mesh(const TriangleMesh& mesh,
+                       const Progressive_mesh_options& options = Progressive_mesh_options())
+{
+  Progressive_surface result;
+  result.points = internal::copy_points(mesh);
+  result.progressive_mesh.number_of_vertices = result.points.size();
+  CGAL_precondition(options.is_locked.empty()
+                    || options.is_locked.size() == result.points.size());
+  if(!is_triangle_mesh(mesh)) {
+    result.error = "not all faces are triangles; triangulate the mesh first";
+    return result;
+  }
+  const auto position = get(dynamic_vertex_property_t<Vertex_index>(), mesh);
+  internal::number_vertices(mesh, position);
+  result.progressive_mesh.triangles = internal::copy_triangles(mesh, position);
+  result.error = internal::point_error(result.points);
+  if(result.error.empty())
+    result.error = internal::decimate({result.points, result.progressive_mesh.triangles}, options,
+                                      result.progressive_mesh);
+  return result;
+}
+
+} // namespace Surface_mesh_multiresolution
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_MULTIRESOLUTION_BUILD_PROGRESSIVE_MESH_H
