@@ -60,11 +60,11 @@ inline std::string commit()
 // Machine, compiler, libraries and commit, in one line.
 inline std::string description()
 {
-  return internal::cpu_model() + ", " + std::to_string(std::thread::hardware_concurrency()) +
-         " processors, one thread used; compiler " + __VERSION__ + ", " + HLSCM_COMPILE_FLAGS +
-         "; CGAL " CGAL_VERSION_STR + "; Eigen " + std::to_string(EIGEN_WORLD_VERSION) + '.' +
-         std::to_string(EIGEN_MAJOR_VERSION) + '.' + std::to_string(EIGEN_MINOR_VERSION) +
-         "; commit " + internal::commit();
+  return internal::cpu_model() + ", " + std::to_string(std::thread::hardware_concurrency())
+         + " processors, one thread used; compiler " + __VERSION__ + ", " + HLSCM_COMPILE_FLAGS
+         + "; CGAL " CGAL_VERSION_STR + "; Eigen " + std::to_string(EIGEN_WORLD_VERSION) + '.'
+         + std::to_string(EIGEN_MAJOR_VERSION) + '.' + std::to_string(EIGEN_MINOR_VERSION)
+         + "; commit " + internal::commit();
 }
 
 } // namespace machine

@@ -105,7 +105,7 @@ void run_all_methods(const Settings& settings)
 
 void run_table_1(const Settings& settings)
 {
-  compare(settings, table_1_charts(settings.data_dir),
+  compare(settings, table_1_charts(settings.data_dir, settings.max_faces),
           {"direct", "cascadic", "hlscm_1e-2", "hlscm_1e-4", "lscm_jacobi"},
           [](const std::vector<Runs>& all, std::size_t i) {
             const auto& rows = paper_table_1();

@@ -542,8 +542,9 @@ TEST(Conjugate_gradient, estimates_the_gap)
       const double e = energy(s.whole, x), gap = e - s.least();
       EXPECT_LE(gap, 5. * report.energy_gap) << "trial " << trial << " to " << tolerance;
       EXPECT_GE(gap, 0.01 * report.energy_gap) << "trial " << trial << " to " << tolerance;
-      if(tolerance <= 1e-2)
+      if(tolerance <= 1e-2) {
         EXPECT_LE(gap, tolerance * e) << "trial " << trial;
+      }
     }
   }
 }

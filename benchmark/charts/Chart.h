@@ -33,14 +33,8 @@ struct Chart
   Index target(Index h) const { return triangles[h / 3][(h % 3 + 1) % 3]; }
 };
 
-inline Index next(Index h)
-{
-  return h % 3 == 2 ? h - 2 : h + 1;
-}
-inline Index previous(Index h)
-{
-  return h % 3 == 0 ? h + 2 : h - 1;
-}
+inline Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
+inline Index previous(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
 inline Point operator+(const Point& p, const Point& q)
 {
@@ -50,18 +44,12 @@ inline Point operator-(const Point& p, const Point& q)
 {
   return {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
 }
-inline Point operator*(double s, const Point& p)
-{
-  return {s * p[0], s * p[1], s * p[2]};
-}
+inline Point operator*(double s, const Point& p) { return {s * p[0], s * p[1], s * p[2]}; }
 inline Point cross(const Point& p, const Point& q)
 {
   return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
 }
-inline double norm(const Point& p)
-{
-  return std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
-}
+inline double norm(const Point& p) { return std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]); }
 
 // The opposite of each halfedge, `none` on the border. Throws if an edge is not manifold or if two
 // triangles disagree about its direction.

@@ -53,8 +53,10 @@ inline Chart Loop_subdivision(const Chart& chart)
     if(o == none)
       fine.points.push_back(0.5 * ends);
     else
-      fine.points.push_back(0.375 * ends + 0.125 * (chart.points[chart.source(previous(h))] +
-                                                    chart.points[chart.source(previous(o))]));
+      fine.points.push_back(0.375 * ends
+                            + 0.125
+                                  * (chart.points[chart.source(previous(h))]
+                                     + chart.points[chart.source(previous(o))]));
   }
   fine.triangles.reserve(4 * chart.triangles.size());
   for(std::size_t t = 0; t < chart.triangles.size(); ++t) {

@@ -71,8 +71,8 @@ inline Shortest_paths shortest_paths(const Chart& chart, const Vertex_graph& gra
 
 inline Index farthest(const Shortest_paths& paths)
 {
-  return Index(std::max_element(paths.distance.begin(), paths.distance.end()) -
-               paths.distance.begin());
+  return Index(std::max_element(paths.distance.begin(), paths.distance.end())
+               - paths.distance.begin());
 }
 
 // Edges (smaller end first) of a tree that joins `count` vertices far from each other.

@@ -15,9 +15,9 @@ inline Chart make_terrain(Index columns, Index rows)
   const auto height = [](double x, double y) {
     double sum = 0, amplitude = 0.08, frequency = 5;
     for(int octave = 0; octave < 5; ++octave, amplitude *= 0.45, frequency *= 2.1)
-      sum += amplitude * std::sin(frequency * x + 1.3 * octave) *
-                 std::cos(frequency * 0.9 * y + octave) +
-             0.5 * amplitude * std::sin(frequency * (0.6 * x - 1.1 * y));
+      sum += amplitude * std::sin(frequency * x + 1.3 * octave)
+                 * std::cos(frequency * 0.9 * y + octave)
+             + 0.5 * amplitude * std::sin(frequency * (0.6 * x - 1.1 * y));
     return sum;
   };
   Chart chart;

@@ -34,7 +34,7 @@ void memory_read(benchmark::State& state)
 // 256 KB, 4 MB and 128 MB: about the second and third level of caches, and the memory
 void cache_sizes(benchmark::internal::Benchmark* benchmark)
 {
-  benchmark->Arg(1 << 18)->Arg(1 << 22)->Arg(1 << 27)->Unit(benchmark::kMicrosecond);
+  benchmark->Arg(1 << 18)->Arg(1 << 22)->Arg(1 << 27)->Unit(benchmark::kMillisecond);
 }
 
 BENCHMARK(memory_copy)->Apply(cache_sizes);

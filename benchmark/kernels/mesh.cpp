@@ -25,14 +25,8 @@ void sort_chart(benchmark::State& state, charts::Chart (*make)(std::size_t))
   set_rate(state, "vertices/s", double(unsorted.points.size()));
 }
 
-void sort_spatially_rows(benchmark::State& state)
-{
-  sort_chart(state, make_bumpy_square);
-}
-void sort_spatially_shuffled(benchmark::State& state)
-{
-  sort_chart(state, make_shuffled_square);
-}
+void sort_spatially_rows(benchmark::State& state) { sort_chart(state, make_bumpy_square); }
+void sort_spatially_shuffled(benchmark::State& state) { sort_chart(state, make_shuffled_square); }
 BENCHMARK(sort_spatially_rows)->Apply(small_and_large);
 BENCHMARK(sort_spatially_shuffled)->Apply(small_and_large);
 

@@ -45,7 +45,7 @@ class Comparison
 {
 public:
   explicit Comparison(const Comparison_options& options)
-      : m_options(options), m_methods(all_methods())
+    : m_options(options), m_methods(all_methods())
   {}
 
   // The runs of each method, in the order of the list, with the numbers of add_gaps(). The
@@ -80,8 +80,7 @@ private:
   Measurement run_once(const std::string& chart, const std::string& method)
   {
     const auto too_slow = m_too_slow_from.find(method);
-    if(too_slow != m_too_slow_from.end() &&
-       std::filesystem::file_size(chart) >= too_slow->second) {
+    if(too_slow != m_too_slow_from.end() && std::filesystem::file_size(chart) >= too_slow->second) {
       Measurement skipped;
       skipped.status = "skipped: too slow on a smaller chart";
       return skipped;

@@ -110,8 +110,9 @@ private:
     std::getline(in, comment);
     std::getline(in, names);
     if(comment + '\n' + names + '\n' != header())
-      throw std::runtime_error(m_path + ": its rows are of another machine, compiler or commit; "
-                                        "remove it, or do without --resume");
+      throw std::runtime_error(m_path
+                               + ": its rows are of another machine, compiler or commit; "
+                                 "remove it, or do without --resume");
     while(std::getline(in, row)) {
       std::istringstream fields(row);
       std::string chart, method, repetition;

@@ -43,8 +43,8 @@ inline Conjugate_gradient_run& conjugate_gradient_run()
 // Eigen's Jacobi-preconditioned conjugate gradients for CGAL, which accepts the last iterate when
 // the iterations are used up: the energy then shows how far it is.
 class Bounded_conjugate_gradient_traits
-    : public CGAL::Eigen_solver_traits<
-          Eigen::ConjugateGradient<CGAL::Eigen_sparse_symmetric_matrix<double>::EigenType>>
+  : public CGAL::Eigen_solver_traits<
+        Eigen::ConjugateGradient<CGAL::Eigen_sparse_symmetric_matrix<double>::EigenType>>
 {
 public:
   bool linear_solver(const Matrix& A, const Vector& B, Vector& X, NT& D)

@@ -101,8 +101,8 @@ inline Measurement measure_in_child(const std::vector<std::string>& arguments, c
     internal::become(argv, ends[1], limits);
   }
   close(ends[1]);
-  const auto deadline = std::chrono::steady_clock::now() +
-                        std::chrono::milliseconds((long long)(1000 * limits.seconds));
+  const auto deadline = std::chrono::steady_clock::now()
+                        + std::chrono::milliseconds((long long)(1000 * limits.seconds));
   std::string text;
   const bool in_time = internal::read_until(deadline, ends[0], text);
   if(!in_time)

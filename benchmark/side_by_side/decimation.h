@@ -47,8 +47,8 @@ inline double mean_quality(const SMM::Indexed_triangle_mesh& mesh)
   double sum = 0;
   for(const SMM::Triangle_indices& t : mesh.triangles) {
     const auto &p = mesh.points[t[0]], &q = mesh.points[t[1]], &r = mesh.points[t[2]];
-    const double squares = CGAL::squared_distance(p, q) + CGAL::squared_distance(q, r) +
-                           CGAL::squared_distance(r, p);
+    const double squares =
+        CGAL::squared_distance(p, q) + CGAL::squared_distance(q, r) + CGAL::squared_distance(r, p);
     sum += 4 * std::sqrt(3 * CGAL::squared_area(p, q, r)) / squares;
   }
   return sum / double(mesh.triangles.size());
@@ -60,9 +60,9 @@ inline double mean_distance(const SMM::Mesh_level& fine)
   const auto& points = fine.mesh.points;
   double sum = 0;
   for(const SMM::Prolongation::Stencil& s : fine.from_coarser.stencils) {
-    const auto nearest = CGAL::barycenter(points[s.source[0]], double(s.weight[0]),
-                                          points[s.source[1]], double(s.weight[1]),
-                                          points[s.source[2]], double(s.weight[2]));
+    const auto nearest =
+        CGAL::barycenter(points[s.source[0]], double(s.weight[0]), points[s.source[1]],
+                         double(s.weight[1]), points[s.source[2]], double(s.weight[2]));
     sum += std::sqrt(CGAL::squared_distance(nearest, points[s.vertex]));
   }
   return sum / double(fine.from_coarser.stencils.size());

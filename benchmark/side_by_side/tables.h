@@ -40,9 +40,9 @@ inline std::string remark(const Measurement& m)
 
 inline void print_comparison(const std::vector<Runs>& all)
 {
-  std::printf("\n%-20s %9s %9s %9s %9s %9s %6s %10s %7s %8s %9s %7s\n",
-              all.front().chart.c_str(), "hierarchy", "operators", "solve", "total s", "slower",
-              "its", "E/Emin-1", "flips", "qc mean", "peak MB", "B/face");
+  std::printf("\n%-20s %9s %9s %9s %9s %9s %6s %10s %7s %8s %9s %7s\n", all.front().chart.c_str(),
+              "hierarchy", "operators", "solve", "total s", "slower", "its", "E/Emin-1", "flips",
+              "qc mean", "peak MB", "B/face");
   const double fastest = median_of(all, "hlscm_1e-2").get("seconds_total");
   for(const Runs& runs : all) {
     const Measurement m = median(runs.repetitions);
@@ -65,8 +65,8 @@ inline void print_comparison(const std::vector<Runs>& all)
 inline void print_decimation(const std::vector<Runs>& all)
 {
   std::printf("\n%-20s %9s %11s %9s %9s %9s %9s %9s %6s %10s %7s\n", all.front().chart.c_str(),
-              "seconds", "collapses/s", "faster", "vertices", "quality", "distance", "peak MB", "its",
-              "E/Emin-1", "flips");
+              "seconds", "collapses/s", "faster", "vertices", "quality", "distance", "peak MB",
+              "its", "E/Emin-1", "flips");
   const double slowest = median_of(all, "decimate_cgal").get("seconds_total");
   for(const std::string engine : {"flat", "flat_strict", "cgal"}) {
     const Measurement alone = median_of(all, "decimate_" + engine);

@@ -109,7 +109,7 @@ private:
 
   void draw_borders()
   {
-    for(const auto& edge : border_edges(m_surface)) {
+    for(const auto& edge : m_surface.border) {
       m_canvas.draw_segment(place(edge[0], 2), place(edge[1], 2), border_width, edge_colour);
     }
   }

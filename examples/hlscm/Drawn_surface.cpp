@@ -7,7 +7,7 @@
 
 namespace hlscm {
 
-std::vector<std::array<std::uint32_t, 2>> border_edges(const Drawn_surface& surface)
+void find_border(Drawn_surface& surface)
 {
   std::vector<std::array<std::uint32_t, 2>> edges;
   edges.reserve(3 * surface.triangles.size());
@@ -17,17 +17,14 @@ std::vector<std::array<std::uint32_t, 2>> border_edges(const Drawn_surface& surf
     }
   }
   std::sort(edges.begin(), edges.end());
-  std::size_t kept = 0;
   for(std::size_t i = 0, j = 0; i < edges.size(); i = j) {
     while(j < edges.size() && edges[j] == edges[i]) {
       ++j;
     }
     if(j - i == 1) {
-      edges[kept++] = edges[i];
+      surface.border.push_back(edges[i]);
     }
   }
-  edges.resize(kept);
-  return edges;
 }
 
 } // namespace hlscm

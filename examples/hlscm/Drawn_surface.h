@@ -19,10 +19,11 @@ struct Drawn_surface
   std::vector<Vector_3> points;
   std::vector<Vector_2> uv;
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::array<std::uint32_t, 2>> border; ///< the edges of one triangle only
 };
 
-/// The edges of one triangle only, by their vertices.
-std::vector<std::array<std::uint32_t, 2>> border_edges(const Drawn_surface& surface);
+/// Finds the border from the triangles.
+void find_border(Drawn_surface& surface);
 
 inline Vector_3 operator+(const Vector_3& a, const Vector_3& b)
 {

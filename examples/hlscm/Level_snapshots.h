@@ -77,6 +77,9 @@ public:
       whole.triangles.push_back(corners(m_mesh, f));
     }
     m_levels.push_back(std::move(whole));
+    for(Drawn_surface& level : m_levels) {
+      find_border(level);
+    }
     return std::move(m_levels);
   }
 

@@ -40,12 +40,12 @@ public:
       m_position = m_end;
       return std::nullopt;
     }
+    const bool is_reversed = m_encoding == Encoding::BIG_ENDIAN_BINARY;
     char bytes[8];
-    std::memcpy(bytes, m_position, size);
-    m_position += size;
-    if(m_encoding == Encoding::BIG_ENDIAN_BINARY) {
-      std::reverse(bytes, bytes + size);
+    for(std::size_t i = 0; i < size; ++i) {
+      bytes[is_reversed ? size - 1 - i : i] = m_position[i];
     }
+    m_position += size;
     return decode(type, bytes);
   }
 

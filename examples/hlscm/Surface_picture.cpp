@@ -135,7 +135,7 @@ public:
       }
       draw_face(m_surface.triangles[f]);
     }
-    for(const auto& edge : border_edges(m_surface)) {
+    for(const auto& edge : m_surface.border) {
       m_canvas.draw_segment(lifted(edge[0]), lifted(edge[1]), border_width, border_colour);
     }
   }
@@ -164,7 +164,8 @@ private:
     Vector_2 slope; // |gradient| of u and of v, per pixel
     for(std::size_t k = 0; k < 2; ++k) {
       const double d1 = uv[1][k] - uv[0][k], d2 = uv[2][k] - uv[0][k];
-      slope[k] = std::hypot(d1 * y2 - d2 * y1, d2 * x1 - d1 * x2) / std::max(std::abs(area), 1e-12);
+      const double gx = d1 * y2 - d2 * y1, gy = d2 * x1 - d1 * x2;
+      slope[k] = std::sqrt(gx * gx + gy * gy) / std::max(std::abs(area), 1e-12);
     }
     m_canvas.draw_triangle(p, [&](const std::array<double, 3>& b) {
       Vector_3 normal{};

@@ -75,8 +75,7 @@ public:
 
 private:
   typedef Surface_mesh_simplification::internal::Vertex_star Vertex_star;
-  typedef Surface_mesh_simplification::internal::Optional<Indexed_triangle_mesh::Point_3>
-    Optional_point;
+  typedef Flat_collapse_profile::Placement Placement;
 
   static constexpr float no_cost = (std::numeric_limits<float>::infinity)();
 
@@ -112,7 +111,8 @@ private:
 
   bool load_star(Vertex_index v);
   void evaluate(Vertex_index v, bool check_topology);
-  bool try_collapse(Vertex_index v, Progressive_mesh& pm);
+  float cost_of(Vertex_index v, std::uint32_t k);
+  bool try_collapse(Vertex_index v, float limit, Progressive_mesh& pm);
   float pass_threshold(const std::vector<Vertex_index>& alive, std::size_t wanted,
                        double fraction) const;
   void run_pass(const std::vector<Vertex_index>& alive, float threshold, std::size_t wanted,
@@ -127,7 +127,7 @@ private:
   Flat_collapse_profile m_profile;
   Vertex_star m_star;
   std::vector<float> m_best_cost;
-  std::vector<std::uint8_t> m_best_target; // position in the ring
+  std::vector<Vertex_index> m_best_target;
   std::vector<State> m_state;
   std::size_t m_evaluations = 0;
 };
@@ -139,7 +139,7 @@ Flat_collapse_engine(const Indexed_triangle_mesh& mesh, internal::Vertex_rings r
   : m_mesh(mesh), m_rings(std::move(rings)), m_cost(cost), m_filter(filter)
   , m_profile(Flat_surface(m_mesh, m_rings))
   , m_best_cost(mesh.points.size(), no_cost)
-  , m_best_target(mesh.points.size(), 0)
+  , m_best_target(mesh.points.size(), no_vertex)
   , m_state(mesh.points.size())
 {
   for(std::size_t v = 0; v < mesh.points.size(); ++v)
@@ -173,7 +173,23 @@ bool Flat_collapse_engine<Cost, Filter>::load_star(Vertex_index v)
   return true;
 }
 
-// Finds the cheapest target that the policies allow; the smaller vertex index on a tie.
+// The cost of the collapse of v into its ring vertex k, or `no_cost` if the policies forbid it.
+// Precondition: the star of v is loaded.
+template <class Cost, class Filter>
+float Flat_collapse_engine<Cost, Filter>::cost_of(Vertex_index v, std::uint32_t k)
+{
+  m_profile.set(v, k);
+  auto& collapse = m_profile.collapse();
+  collapse.kept_degree = m_rings.small_degree(m_profile.v1());
+  collapse.measure = m_star.measure(int(k));
+  if(!m_filter(m_profile, m_profile.placement()))
+    return no_cost;
+  const auto cost = m_cost(m_profile, m_profile.placement());
+  return cost && float(*cost) < no_cost ? float(*cost) : no_cost; // not a number: no cost
+}
+
+// Finds the cheapest target that the policies, and if asked topology, allow; the smaller vertex
+// index on a tie.
 template <class Cost, class Filter>
 void Flat_collapse_engine<Cost, Filter>::evaluate(Vertex_index v, bool check_topology)
 {
@@ -186,46 +202,38 @@ void Flat_collapse_engine<Cost, Filter>::evaluate(Vertex_index v, bool check_top
   const std::uint32_t d = m_rings.degree(v);
   const std::uint32_t step = m_rings.is_border(v) ? d - 1 : 1; // the two ends only
   for(std::uint32_t k = 0; k < d; k += step) {
-    m_profile.set(v, k);
-    auto& collapse = m_profile.collapse();
-    collapse.kept_degree = m_rings.small_degree(r[k]);
-    collapse.measure = m_star.measure(int(k));
-    const Optional_point placement = m_filter(m_profile, Optional_point(m_profile.p1()));
-    if(!placement)
-      continue;
-    const auto cost = m_cost(m_profile, placement);
-    if(!cost || !(float(*cost) <= m_best_cost[v]) || float(*cost) == no_cost)
-      continue;
-    if(float(*cost) == m_best_cost[v] && r[k] > r[m_best_target[v]])
+    const float cost = cost_of(v, k);
+    if(cost > m_best_cost[v] || cost == no_cost
+       || (cost == m_best_cost[v] && r[k] > m_best_target[v]))
       continue;
     if(check_topology && !m_rings.is_collapse_valid(v, k))
       continue;
-    m_best_cost[v] = float(*cost);
-    m_best_target[v] = std::uint8_t(k);
+    m_best_cost[v] = cost;
+    m_best_target[v] = r[k];
   }
 }
 
-// Collapses v into its best target. If topology forbids that, v gets the cost of the best target
-// that it allows, and stays for now.
+// Collapses v into its best target if that still costs at most `limit`. If topology forbids it, v
+// gets the best target that it allows, and stays for now.
 template <class Cost, class Filter>
-bool Flat_collapse_engine<Cost, Filter>::try_collapse(Vertex_index v, Progressive_mesh& pm)
+bool Flat_collapse_engine<Cost, Filter>::try_collapse(Vertex_index v, float limit,
+                                                      Progressive_mesh& pm)
 {
-  if(!m_rings.is_collapse_valid(v, m_best_target[v])) {
+  const Vertex_index* r = m_rings.ring(v);
+  const std::uint32_t d = m_rings.degree(v);
+  const std::uint32_t k = std::uint32_t(std::find(r, r + d, m_best_target[v]) - r);
+  if(k == d || !load_star(v) || !(cost_of(v, k) <= limit))
+    return false;
+  if(!m_rings.is_collapse_valid(v, k)) {
     evaluate(v, true);
     return false;
   }
-  const std::uint32_t k = m_best_target[v];
-  const Vertex_index* r = m_rings.ring(v);
-  if constexpr(Surface_mesh_simplification::internal::Needs_update<Cost>::value) {
-    load_star(v);
-    m_profile.set(v, k);
-    m_profile.collapse().measure = m_star.measure(int(k));
-    m_cost.update_before_collapse(m_profile, Optional_point(m_profile.p1()));
-  }
+  if constexpr(Surface_mesh_simplification::internal::Needs_update<Cost>::value)
+    m_cost.update_before_collapse(m_profile, m_profile.placement());
   pm.collapses.push_back({v, r[k]});
   m_rings.collapse(v, k);
   m_state[v].is_gone = 1;
-  for(std::uint32_t i = 0; i < m_rings.degree(v); ++i)
+  for(std::uint32_t i = 0; i < d; ++i)
     m_state[r[i]].is_stale = 1;
   return true;
 }
@@ -250,7 +258,8 @@ pass_threshold(const std::vector<Vertex_index>& alive, std::size_t wanted, doubl
 }
 
 // One pass over the living vertices in memory order: those whose cost was not above the threshold
-// when the pass began are removed if it still is not.
+// when the pass began are removed if the same collapse still costs no more. The others wait for the
+// next pass, where all their targets are compared again.
 template <class Cost, class Filter>
 void Flat_collapse_engine<Cost, Filter>::
 run_pass(const std::vector<Vertex_index>& alive, float threshold, std::size_t wanted,
@@ -258,11 +267,8 @@ run_pass(const std::vector<Vertex_index>& alive, float threshold, std::size_t wa
 {
   const std::size_t end = pm.collapses.size() + wanted;
   for(const Vertex_index v : alive) {
-    if(!(m_best_cost[v] <= threshold))
-      continue;
-    if(m_state[v].is_stale)
-      evaluate(v, false);
-    if(m_best_cost[v] <= threshold && try_collapse(v, pm) && pm.collapses.size() == end)
+    if(m_best_cost[v] <= threshold && try_collapse(v, threshold, pm)
+       && pm.collapses.size() == end)
       break;
     if(!progress(pm))
       break;
@@ -321,9 +327,8 @@ run_strict(const Flat_collapse_options& options, Progressive_mesh& pm)
       continue;
     const Vertex_index* r = m_rings.ring(v);
     const std::uint32_t d = m_rings.degree(v);
-    if(!try_collapse(v, pm)) {
-      if(m_best_cost[v] < no_cost)
-        queue.push({m_best_cost[v], v});
+    if(!try_collapse(v, cost, pm)) { // the degree of the target has changed, or topology forbids it
+      enqueue(v);
       continue;
     }
     m_best_cost[v] = no_cost;

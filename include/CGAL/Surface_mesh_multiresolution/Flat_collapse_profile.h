@@ -113,6 +113,27 @@ public:
   typedef std::vector<vertex_descriptor> vertex_descriptor_vector;
   typedef Surface_mesh_simplification::internal::Halfedge_collapse Collapse;
 
+  /// An optional point that is either that of the kept vertex or none: policies may take it as it
+  /// is, or as the optional type of CGAL's own policies.
+  class Placement
+  {
+  public:
+    /// No placement.
+    Placement() {}
+    explicit Placement(const Point& point) : m_point(&point) {}
+    explicit operator bool() const { return m_point != nullptr; }
+    const Point& operator*() const { return *m_point; }
+    const Point* operator->() const { return m_point; }
+    operator Surface_mesh_simplification::internal::Optional<Point>() const
+    {
+      typedef Surface_mesh_simplification::internal::Optional<Point> Optional;
+      return m_point == nullptr ? Optional() : Optional(*m_point);
+    }
+
+  private:
+    const Point* m_point = nullptr;
+  };
+
   explicit Flat_collapse_profile(const Flat_surface& surface) : m_surface(surface) {}
 
   /// Describes the collapse of `removed` into its ring vertex number `k`.
@@ -127,6 +148,8 @@ public:
   vertex_descriptor v1() const { return m_kept; }
   const Point& p0() const { return m_surface.points()[m_removed]; }
   const Point& p1() const { return m_surface.points()[m_kept]; }
+  /// Returns the placement of every collapse of the flat engine: `p1()`.
+  Placement placement() const { return Placement(p1()); }
   const Flat_surface& surface_mesh() const { return m_surface; }
   const Flat_surface& surface() const { return m_surface; }
   Vertex_point_map vertex_point_map() const { return Vertex_point_map(m_surface.points().data()); }

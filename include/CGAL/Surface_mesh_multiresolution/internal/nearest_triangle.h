@@ -79,7 +79,8 @@ inline Nearest_point foot_of_origin(const Float_triangle& t)
   if(!(area > 1e-12f * uu * vv) || wb < 0.f || wc < 0.f || wb + wc > area)
     return Nearest_point();
   const float inverse = 1.f / area;
-  return point_of_weights(t, {1.f - (wb + wc) * inverse, wb * inverse, wc * inverse});
+  const float wa = (std::max)(0.f, 1.f - (wb + wc) * inverse); // rounding may go below
+  return point_of_weights(t, {wa, wb * inverse, wc * inverse});
 }
 
 // The point of the three sides that is nearest to the origin.

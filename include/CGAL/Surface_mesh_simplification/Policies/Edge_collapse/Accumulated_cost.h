@@ -48,7 +48,7 @@ public:
     const internal::Optional<FT> base = m_base_cost(profile, placement);
     if(!base)
       return {};
-    const auto removed = *placement == profile.p1() ? profile.v0() : profile.v1();
+    const auto removed = internal::removes_v0(profile, placement) ? profile.v0() : profile.v1();
     return FT(*base + FT(get(m_losses, removed)));
   }
 
@@ -70,8 +70,7 @@ public:
     const auto total = (*this)(profile, placement);
     if(!total)
       return;
-    const bool removes_v0 = *placement == profile.p1();
-    const auto kept = removes_v0 ? profile.v1() : profile.v0();
+    const auto kept = internal::removes_v0(profile, placement) ? profile.v1() : profile.v0();
     const Loss own = get(m_losses, kept);
     const Loss merged = own < Loss(*total) ? Loss(*total) : own;
     // The descriptor that survives a collapse of `edge_collapse()` is always v1.

@@ -57,15 +57,14 @@ public:
   OptionalPoint operator()(const Profile& profile, const OptionalPoint& placement) const
   {
     const auto& measured = internal::measured(profile, placement);
-    const OptionalPoint accepted = m_base_filter(measured, placement);
-    if(!accepted)
-      return accepted;
+    if(!m_base_filter(measured, placement))
+      return OptionalPoint();
     const internal::Halfedge_collapse& collapse = measured.collapse();
     if(!collapse.is_valid)
       return OptionalPoint();
     if(!collapse.is_border && !(std::abs(float(2. * CGAL_PI) - collapse.angle_sum) < m_bound))
       return OptionalPoint();
-    return accepted;
+    return placement;
   }
 
 private:

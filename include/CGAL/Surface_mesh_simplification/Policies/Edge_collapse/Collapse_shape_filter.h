@@ -57,11 +57,10 @@ public:
   OptionalPoint operator()(const Profile& profile, const OptionalPoint& placement) const
   {
     const auto& measured = internal::measured(profile, placement);
-    const OptionalPoint accepted = m_base_filter(measured, placement);
-    if(!accepted)
-      return accepted;
+    if(!m_base_filter(measured, placement))
+      return OptionalPoint();
     const internal::Halfedge_collapse& collapse = measured.collapse();
-    return is_acceptable(collapse) ? accepted : OptionalPoint();
+    return is_acceptable(collapse) ? placement : OptionalPoint();
   }
 
 private:

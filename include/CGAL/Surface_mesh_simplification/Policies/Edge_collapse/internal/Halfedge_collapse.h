@@ -141,6 +141,16 @@ template <class Profile>
 struct Knows_collapse<Profile, std::void_t<decltype(std::declval<const Profile&>().collapse())>>
   : std::true_type {};
 
+// Whether it is v0 that the collapse of `profile` with `placement` removes.
+template <class Profile, class OptionalPoint>
+bool removes_v0(const Profile& profile, const OptionalPoint& placement)
+{
+  if constexpr(Knows_collapse<Profile>::value)
+    return profile.collapse().removes_v0;
+  else
+    return *placement == profile.p1();
+}
+
 // A profile that knows its halfedge collapse, so that the star is measured once for all policies.
 template <class Profile>
 class Measured_profile

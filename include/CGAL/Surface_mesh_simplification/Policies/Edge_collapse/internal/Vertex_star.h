@@ -75,13 +75,18 @@ private:
   // The lanes, of those from `at` on, whose triangles survive the collapse into ring vertex k.
   void alive_lanes(int at, int k, int previous, Mask_lanes& alive) const
   {
-    static constexpr float index[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-    Float_lanes i, n, dead, dead_before;
-    load_lanes(index + at, i);
-    fill_lanes(float(number_of_triangles()), n);
-    fill_lanes(float(k), dead);
-    fill_lanes(float(previous), dead_before);
-    alive = (i < n) & ((i < dead) | (i > dead)) & ((i < dead_before) | (i > dead_before));
+    // Ones wherever a stretch of 16 begins at a lane to keep; a zero in the middle is the lane to
+    // drop.
+    static constexpr std::int32_t all_but_one[32] = {
+      -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1,
+      0,  -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
+    static constexpr std::int32_t first_ones[32] = {
+      -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
+    Mask_lanes dead, dead_before;
+    std::memcpy(&alive, first_ones + 16 - number_of_triangles() + at, sizeof(alive));
+    std::memcpy(&dead, all_but_one + 16 - k + at, sizeof(dead));
+    std::memcpy(&dead_before, all_but_one + 16 - previous + at, sizeof(dead_before));
+    alive = alive & dead & dead_before;
   }
 
   int m_degree = 0;

@@ -1,0 +1,124 @@
+#!/usr/bin/env bash
+# Copyright (c) 2026  The HLSCM for CGAL authors.
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# Reproduces all measurements: builds the benchmarks, makes the charts of real meshes in CHARTS_DIR
+# unless they are there, and puts the results into OUT. Interrupted, it goes on where it stopped
+# when it is called again. Nothing else should run on the machine meanwhile.
+#
+# Usage: benchmark/run_all.sh CHARTS_DIR OUT
+#
+# Environment:
+#   REPEAT          runs of each method, whose median counts (3)
+#   LIMIT           seconds for a run (600)
+#   MAX_FACES       of the charts (7000000)
+#   HLSCM_DATA_DIR  the meshes of Debian's libcgal-demo (unpacked into CHARTS_DIR/meshes)
+#   HLSCM_BIN       folder of the built programs (they are built)
+
+source "$(dirname "${BASH_SOURCE[0]}")/../scripts/common.sh"
+
+[ "$#" -eq 2 ] || fail "usage: benchmark/run_all.sh CHARTS_DIR OUT"
+mkdir -p "$1" "$2"
+charts="$(cd "$1" && pwd)"
+out="$(cd "$2" && pwd)"
+repeat="${REPEAT:-3}"
+limit="${LIMIT:-600}"
+max_faces="${MAX_FACES:-7000000}"
+[ -z "${HLSCM_BIN:-}" ] || HLSCM_BIN="$(cd "$HLSCM_BIN" && pwd)"
+[ -z "${HLSCM_DATA_DIR:-}" ] || HLSCM_DATA_DIR="$(cd "$HLSCM_DATA_DIR" && pwd)"
+cd "$root"
+
+if [ -z "${HLSCM_BIN:-}" ]; then
+  say "building"
+  cmake --preset bench >&2
+  cmake --build --preset bench --parallel "$(number_of_jobs)" >&2
+  HLSCM_BIN="$root/build/bench/bin"
+fi
+export HLSCM_DATA_DIR="${HLSCM_DATA_DIR:-$(scripts/debian_meshes.sh "$charts/meshes")}"
+
+print_machine() {
+  date --iso-8601=seconds
+  uname -srm
+  lscpu | grep -E '^(Model name|CPU\(s\)|Thread|L[0-9]|Hypervisor)' || true
+  grep -E '^Mem(Total|Available)' /proc/meminfo
+  echo "load of the last minute: $(cut -d ' ' -f 1 /proc/loadavg)"
+}
+
+# chart NAME INPUT OPTIONS...: makes CHARTS_DIR/NAME.ply if it is not there. NAME ends in _Nk for N
+# thousand faces.
+chart() {
+  local name="$1" input="$2" thousands
+  shift 2
+  thousands="${name##*_}"
+  [ "${thousands%k}000" -le "$max_faces" ] || return 0
+  [ -e "$charts/$name.ply" ] && return 0
+  say "making $name"
+  "$HLSCM_BIN/make_chart" "$input" -o "$charts/$name.unfinished.ply" "$@" >&2
+  mv "$charts/$name.unfinished.ply" "$charts/$name.ply"
+}
+
+# Charts that differ from those of the series that side_by_side makes itself: in shape, border,
+# triangles, order.
+make_charts() {
+  local data="$HLSCM_DATA_DIR"
+  chart lion_head_17k "$data/lion-head.off"
+  chart armadillo_52k "$data/armadillo.off" --cut
+  chart armadillo_832k "$data/armadillo.off" --cut --loop 2 --noise 0.1
+  chart lion_head_1067k "$data/lion-head.off" --loop 3 --noise 0.1
+  chart bunny00_1207k "$data/bunny00.off" --cut --loop 2 --noise 0.1
+  chart lion_borders_951k "$data/lion.off" --loop 3 --noise 0.1
+  chart jagged_lion_1060k "$data/lion-head.off" --loop 3 --noise 0.1 --jagged 20
+  chart anisotropic_devil_1000k "$data/mannequin-devil.off" --stretch 8 --faces 1000000 --noise 0.02
+  chart terrain_1000k grid:2000x250
+  chart bunny00_shuffled_1207k "$data/bunny00.off" --cut --loop 2 --noise 0.1 --shuffle
+}
+
+# All charts of the folder but those of the series and of table 1, by size.
+other_charts() {
+  local file thousands
+  find "$charts" -maxdepth 1 -name '*_*k.ply' -printf '%s %p\n' | sort -n | cut -d ' ' -f 2- |
+    grep -Ev '/((devil|camel)_[0-9]+k|bunny_1120k)\.ply$' |
+    while read -r file; do
+      thousands="${file##*_}"
+      [ "${thousands%k.ply}000" -gt "$max_faces" ] || echo "$file"
+    done
+}
+
+# compare NAME ARGUMENTS...: OUT/NAME.csv, and the tables in OUT/NAME.txt
+compare() {
+  local name="$1" memory
+  shift
+  say "$name"
+  memory="$(awk '/^MemAvailable:/ { printf "%.1f", 0.9 * $2 * 1024e-9 }' /proc/meminfo)"
+  "$HLSCM_BIN/side_by_side" "$@" --repeat "$repeat" --limit "$limit" --memory-limit "$memory" \
+    --chart-dir "$charts" --max-faces "$max_faces" --resume -o "$out/$name.csv" |
+    tee -a "$out/$name.txt"
+}
+
+run_kernels() {
+  [ -e "$out/kernels.json" ] && return 0
+  say "kernels"
+  "$HLSCM_BIN/kernels" --benchmark_repetitions="$repeat" --benchmark_report_aggregates_only=true \
+    --benchmark_out="$out/kernels.unfinished" --benchmark_out_format=json |
+    grep -Ev '_(mean|stddev) ' | tee "$out/kernels.txt"
+  mv "$out/kernels.unfinished" "$out/kernels.json"
+}
+
+print_machine | tee -a "$out/machine.txt"
+awk '$1 > 0.5 { exit 1 }' /proc/loadavg || say "the machine is busy: times will be too long"
+make_charts
+run_kernels
+compare side_by_side
+mapfile -t others < <(other_charts)
+compare other_charts "${others[@]}" --methods \
+  direct,cgal_lscm_cholmod,cgal_lscm_default,cascadic,hlscm_1e-2,hlscm_1e-4
+compare table_1 --table1
+max_faces=$((max_faces < 2000000 ? max_faces : 2000000))
+compare decimation --decimation
+# Debian's python3 has matplotlib; another one that comes first may not.
+python="$(command -v /usr/bin/python3 || command -v python3)"
+for name in side_by_side other_charts; do
+  "$python" benchmark/plot.py "$out/$name.csv" -o "$out/$name.png"
+done
+print_machine >> "$out/machine.txt"
+say "done: $out"

@@ -1,0 +1,195 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef HLSCM_TEST_SUPPORT_CONFORMAL_MAPS_H
+#define HLSCM_TEST_SUPPORT_CONFORMAL_MAPS_H
+
+// Runs of the parameterizer and what is promised of them.
+
+#include <support/chart_generators.h>
+
+#include <CGAL/Surface_mesh_parameterization/Distortion_measures.h>
+#include <CGAL/Surface_mesh_parameterization/HLSCM_parameterizer_3.h>
+
+#include <algorithm>
+#include <complex>
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace test_support {
+
+namespace SMP = CGAL::Surface_mesh_parameterization;
+
+typedef SMP::HLSCM_parameterizer_3<Surface_mesh> Parameterizer;
+typedef Parameterizer::Point_2 Point_2;
+typedef std::vector<std::complex<double>> Parameters;
+
+// A run: the parameters in the order of vertices(mesh), which are `untouched` where none were set.
+struct Run
+{
+  SMP::Error_code error = SMP::OK;
+  SMP::HLSCM_report report;
+  Parameters uv;
+};
+
+constexpr double untouched = -123.;
+
+typedef Surface_mesh::Property_map<Surface_mesh::Vertex_index, Point_2> Uv_map;
+
+// A new property map whose values are `untouched`.
+inline Uv_map new_uv_map(Surface_mesh& mesh)
+{
+  return mesh.add_property_map<Surface_mesh::Vertex_index, Point_2>(
+    "", Point_2(untouched, untouched)).first;
+}
+
+inline Parameters parameters(const Surface_mesh& mesh, const Uv_map& uvmap)
+{
+  Parameters result;
+  for(const auto v : vertices(mesh))
+    result.push_back({get(uvmap, v).x(), get(uvmap, v).y()});
+  return result;
+}
+
+// The same as a property map of the mesh.
+inline Uv_map to_uv_map(Surface_mesh& mesh, const Parameters& uv)
+{
+  Uv_map uvmap = new_uv_map(mesh);
+  std::size_t i = 0;
+  for(const auto v : vertices(mesh)) {
+    put(uvmap, v, Point_2(uv[i].real(), uv[i].imag()));
+    ++i;
+  }
+  return uvmap;
+}
+
+// Vertices by their positions in vertices(mesh), and where they go.
+typedef std::vector<std::pair<std::size_t, std::complex<double>>> Pins;
+
+inline Run parameterize(Surface_mesh& mesh, const SMP::HLSCM_options& options,
+                        const Pins& pins = Pins(),
+                        Surface_mesh::Halfedge_index bhd = Surface_mesh::null_halfedge())
+{
+  Parameterizer parameterizer(options);
+  std::vector<std::pair<Surface_mesh::Vertex_index, Point_2>> vertex_pins;
+  for(const auto& [v, z] : pins)
+    vertex_pins.push_back({Surface_mesh::Vertex_index(Vertex_index(v)),
+                           Point_2(z.real(), z.imag())});
+  if(!pins.empty())
+    parameterizer.set_pins(vertex_pins);
+  Uv_map uvmap = new_uv_map(mesh);
+  Run run;
+  run.error = parameterizer.parameterize(
+    mesh, bhd == Surface_mesh::null_halfedge() ? border_halfedge(mesh) : bhd, uvmap);
+  run.report = parameterizer.report();
+  run.uv = parameters(mesh, uvmap);
+  mesh.remove_property_map(uvmap);
+  return run;
+}
+
+inline SMP::HLSCM_options with_method(SMP::Conformal_method method, double tolerance = 1e-4)
+{
+  SMP::HLSCM_options options;
+  options.method = method;
+  options.tolerance = tolerance;
+  return options;
+}
+
+inline SMP::Distortion_measures measure(Surface_mesh& mesh, const Parameters& uv)
+{
+  Uv_map uvmap = to_uv_map(mesh, uv);
+  const SMP::Distortion_measures result = SMP::measure_distortion(mesh, uvmap);
+  mesh.remove_property_map(uvmap);
+  return result;
+}
+
+// The diagonal of the bounding box.
+inline double size_of(const Parameters& uv)
+{
+  double lo[2] = {1e300, 1e300}, hi[2] = {-1e300, -1e300};
+  for(const auto& z : uv)
+    for(int c = 0; c < 2; ++c) {
+      lo[c] = (std::min)(lo[c], c == 0 ? z.real() : z.imag());
+      hi[c] = (std::max)(hi[c], c == 0 ? z.real() : z.imag());
+    }
+  return std::hypot(hi[0] - lo[0], hi[1] - lo[1]);
+}
+
+// The greatest distance of a vertex from where it should be, in parts of the size of the map.
+inline double difference(const Parameters& uv, const Parameters& expected)
+{
+  double greatest = 0.;
+  for(std::size_t i = 0; i < uv.size(); ++i)
+    greatest = (std::max)(greatest, std::abs(uv[i] - expected[i]));
+  return greatest / size_of(expected);
+}
+
+// The hierarchical method beside the sparse direct one on the same system.
+struct Comparison
+{
+  Run hierarchical, direct;
+  std::size_t hierarchical_flips = 0, direct_flips = 0;
+  double hierarchical_energy = 0., direct_energy = 0.; // the minimised one
+  double scale = 0.;                                   // Dirichlet energy plus area, about
+
+  // (E - Emin) / E, differences that are rounding errors of the energies left out
+  double gap() const
+  {
+    const double difference = hierarchical_energy - direct_energy;
+    return std::abs(difference) <= 1e-11 * scale ? 0. : difference / hierarchical_energy;
+  }
+};
+
+inline Comparison compare_with_direct(Surface_mesh& mesh, SMP::HLSCM_options options,
+                                      const Pins& pins = Pins())
+{
+  Comparison c;
+  c.hierarchical = parameterize(mesh, options, pins);
+  options.method = SMP::Conformal_method::DIRECT;
+  c.direct = parameterize(mesh, options, pins);
+  const auto hierarchical = measure(mesh, c.hierarchical.uv), direct = measure(mesh, c.direct.uv);
+  c.hierarchical_flips = hierarchical.flipped_faces;
+  c.direct_flips = direct.flipped_faces;
+  const bool is_exact = options.weights == SMP::Conformal_weights::EXACT;
+  // Summed triangle by triangle, the energy loses fewer digits than as the form z^H H z.
+  c.hierarchical_energy = is_exact ? hierarchical.conformal_energy : c.hierarchical.report.energy;
+  c.direct_energy = is_exact ? direct.conformal_energy : c.direct.report.energy;
+  const double size = size_of(c.direct.uv);
+  c.scale = is_exact ? size * size : 0.;
+  return c;
+}
+
+// One row of a table: chart, faces, tolerance, gap, iterations, flips of both.
+inline std::string row_of(const std::string& name, const Comparison& c, double tolerance)
+{
+  char text[200];
+  std::snprintf(text, sizeof(text), "%-28s %8zu F  tolerance %.0e  gap %9.2e  %3zu iterations  "
+                "flips %zu / %zu", name.c_str(), c.hierarchical.report.faces, tolerance, c.gap(),
+                c.hierarchical.report.iterations, c.hierarchical_flips, c.direct_flips);
+  return text;
+}
+
+// What is wrong with the hierarchical result, or an empty string: it must have converged, its energy
+// must lie within the tolerance of the direct one, and it may not have more flipped faces.
+inline std::string error_in_comparison(const Comparison& c, double tolerance)
+{
+  for(const Run* run : {&c.hierarchical, &c.direct}) {
+    if(run->error != SMP::OK)
+      return run->report.method + " failed: " + run->report.message;
+    if(!run->report.converged)
+      return run->report.method + " did not converge";
+  }
+  if(c.gap() > tolerance)
+    return "the energy is too high";
+  if(c.gap() < -1e-9)
+    return "the energy is below that of the direct method";
+  if(c.hierarchical_flips > c.direct_flips)
+    return "more faces are flipped";
+  return {};
+}
+
+} // namespace test_support
+
+#endif // HLSCM_TEST_SUPPORT_CONFORMAL_MAPS_H
