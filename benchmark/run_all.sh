@@ -21,6 +21,8 @@ source "$(dirname "${BASH_SOURCE[0]}")/../scripts/common.sh"
 mkdir -p "$1" "$2"
 charts="$(cd "$1" && pwd)"
 out="$(cd "$2" && pwd)"
+exec 9> "$out/lock" # held by all that is started here
+flock -n 9 || fail "another run is writing to $out"
 repeat="${REPEAT:-3}"
 limit="${LIMIT:-600}"
 max_faces="${MAX_FACES:-7000000}"

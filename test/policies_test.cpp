@@ -196,7 +196,7 @@ void for_each_value(const Indexed_triangle_mesh& mesh, const Policy& policy, con
     ++flat_number;
   });
   EXPECT_EQ(number, flat_number);
-  EXPECT_GT(number, 8u);
+  EXPECT_GE(number, 8u);
 }
 
 // --- Measures
@@ -259,20 +259,21 @@ TEST(Halfedge_collapse, other_placements_are_none)
 
 TEST(Float_lanes, fast_cbrt_is_the_cube_root)
 {
-  for(double a = 1e-35; a < 1e38; a *= 1.37) {
+  for(double a = 1e-35; a < 1e37; a *= 1.037) {
     const double root = std::cbrt(double(float(a)));
-    EXPECT_NEAR(double(SMS::internal::fast_cbrt(float(a))), root, 3e-7 * root) << a;
+    EXPECT_NEAR(double(SMS::internal::fast_cbrt(float(a))), root, 5e-5 * root) << a;
   }
   EXPECT_EQ(SMS::internal::fast_cbrt(0.f), 0.f);
 }
 
 // --- Costs
 
-// The cost for all halfedges of all meshes is what `expected(direct)` says within `tolerance` mean
-// edge lengths and the same part of its value.
+// The cost for all halfedges of all meshes is what `expected(direct)` says. Single precision knows
+// the area of slivers badly, and the cube root makes 0.015 of a rounding error in a volume of zero.
 template <class Cost, class Expected>
-void expect_cost(const Cost& cost, double tolerance, const Expected& expected)
+void expect_cost(const Cost& cost, const Expected& expected)
 {
+  std::size_t checked_closely = 0;
   for(const Named_mesh& input : smooth_meshes()) {
     SCOPED_TRACE(input.name + seed_text);
     const Replay replay(input.mesh.triangles, input.mesh.points.size());
@@ -280,12 +281,15 @@ void expect_cost(const Cost& cost, double tolerance, const Expected& expected)
                                          const auto& value) {
       const Direct_measure direct = measure_directly(input.mesh.points, replay, removed, kept);
       const double c = expected(direct);
+      const bool is_close = direct.volume > 1e-3;
       ASSERT_TRUE(bool(value));
-      if(direct.quality > 0.02) { // of slivers single precision knows the area badly
-        EXPECT_NEAR(*value, c, tolerance * (1. + c)) << removed << " into " << kept;
+      if(direct.quality > 0.1) {
+        EXPECT_NEAR(*value, c, (is_close ? 3e-4 : 0.015) * (1. + c)) << removed << " into " << kept;
+        checked_closely += is_close ? 1 : 0;
       }
     });
   }
+  EXPECT_GT(checked_closely, 1000u);
 }
 
 double volume_and_border_area(const Direct_measure& direct)
@@ -295,8 +299,7 @@ double volume_and_border_area(const Direct_measure& direct)
 
 TEST(Volume_and_border_area_cost, is_the_formula)
 {
-  // The cube root of a rounded zero volume: (3e-6)^(1/3)
-  expect_cost(SMS::Volume_and_border_area_cost(), 0.015, volume_and_border_area);
+  expect_cost(SMS::Volume_and_border_area_cost(), volume_and_border_area);
 }
 
 TEST(Volume_and_border_area_cost, closed_forms)
@@ -322,7 +325,7 @@ TEST(Volume_and_border_area_cost, closed_forms)
 TEST(Triangle_shape_cost, is_the_formula)
 {
   for(const double weight : {0., 0.3, 2.})
-    expect_cost(SMS::Triangle_shape_cost<>(weight), 0.015, [weight](const Direct_measure& direct) {
+    expect_cost(SMS::Triangle_shape_cost<>(weight), [weight](const Direct_measure& direct) {
       return volume_and_border_area(direct) + weight * direct.length / std::sqrt(direct.quality);
     });
 }
@@ -514,7 +517,7 @@ TEST(Collapse_shape_filter, bounds_the_degree_unless_it_is_high_already)
 
 TEST(Angular_defect_filter, bounds_the_defect_inside)
 {
-  for(const double degrees : {5., 20., 70.})
+  for(const double degrees : {3., 10., 30.})
     expect_filter(SMS::Angular_defect_filter<>(degrees), 2e-4, [&](const Direct_measure& direct) {
       return direct.is_border
            ? 1. : degrees * CGAL_PI / 180. - std::abs(2. * CGAL_PI - direct.angle_sum);
@@ -565,10 +568,9 @@ double largest_removed_defect(const Indexed_triangle_mesh& mesh, const Progressi
 
 TEST(Angular_defect_filter, bound_is_kept_in_both_engines)
 {
-  Indexed_triangle_mesh mesh = with_noise(with_hills(irregular_grid(20, 20, seed), 3., seed), 0.3,
-                                          seed);
+  Indexed_triangle_mesh mesh = with_noise(irregular_grid(20, 20, seed), 0.4, seed);
   SMM::normalize(mesh);
-  for(const double bound : {20., 70., 180.}) {
+  for(const double bound : {20., 45., 70.}) {
     SMM::Edge_collapse_options edge_options;
     edge_options.target_vertices = 100;
     edge_options.angular_defect_bound = bound;
@@ -585,7 +587,7 @@ TEST(Angular_defect_filter, bound_is_kept_in_both_engines)
     for(const Progressive_mesh& pm : results) {
       EXPECT_GT(pm.collapses.size(), 50u);
       EXPECT_LT(largest_removed_defect(mesh, pm), bound + 0.01);
-      EXPECT_GT(largest_removed_defect(mesh, pm), (std::min)(bound, 90.) - 10.); // it matters
+      EXPECT_GT(largest_removed_defect(mesh, pm), 0.8 * bound); // it matters
     }
   }
 }

@@ -377,14 +377,14 @@ TEST(Progressive_mesh, real_meshes)
   for(const Named_mesh& input : inputs)
     for(const Engine engine : all_engines) {
       SCOPED_TRACE(input.name + ", " + name_of(engine) + seed_text);
-      if(engine == Engine::CGAL && input.mesh.points.size() > 10000)
+      if(engine != Engine::BATCHED && input.mesh.points.size() > 15000)
         continue; // for the time it takes
       const auto is_locked = random_locks(input.mesh.points.size(), 0.001, seed);
       const Progressive_mesh pm = decimate(input.mesh, engine, 500, is_locked);
       EXPECT_GT(pm.collapses.size(), input.mesh.points.size() / 2);
       EXPECT_EQ(error_in_collapses(pm, is_locked), "");
       EXPECT_EQ(error_in_levels(pm, 8), "");
-      EXPECT_EQ(error_in_walks(pm, seed, 3), "");
+      EXPECT_EQ(error_in_walks(pm, seed, 1), "");
     }
 }
 
@@ -763,7 +763,7 @@ TEST(Flat_collapse_engine, result_does_not_depend_on_size_and_place)
 
 TEST(Progress, is_told_and_may_cancel)
 {
-  Indexed_triangle_mesh mesh = with_hills(irregular_grid(250, 250, seed), 5., seed);
+  Indexed_triangle_mesh mesh = with_hills(irregular_grid(200, 200, seed), 5., seed);
   SMM::normalize(mesh);
   for(const Engine engine : all_engines)
     for(const double last : {0., 0.3, 2.}) {

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -41,10 +42,12 @@ inline double peak_memory_mb()
 
 namespace internal {
 
-// Becomes another run of this program. The libraries below get one thread each.
+// Becomes another run of this program, which ends with its parent at the latest. The libraries
+// below get one thread each.
 [[noreturn]] inline void become(std::vector<std::string> arguments, int output,
                                 const Limits& limits)
 {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
   dup2(output, STDOUT_FILENO);
   for(const char* variable : {"OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"})
     setenv(variable, "1", 1);

@@ -79,7 +79,7 @@ std::string draw_monogrid_figure(const Chart& chart, const std::filesystem::path
 
   const Frame frame(chart.mesh);
   const View view(drawn(chart.mesh, problem.start(), frame));
-  constexpr double side = 300., margin = 20., upper = 330., lower = 300.;
+  constexpr double side = 210., margin = 16., upper = 220., lower = 180.;
   Sheet sheet(5. * (side + margin) + margin, upper + lower + 4. * margin);
   std::string gaps;
   double left = margin;
@@ -113,7 +113,7 @@ std::string draw_levels_figure(const Chart& chart, const std::filesystem::path& 
   const std::vector<Level>& levels = solution.levels;
   const Frame frame(chart.mesh);
   const View view(drawn(chart.mesh, levels.back().uv, frame));
-  constexpr double side = 430., margin = 20., upper = 450., lower = 400.;
+  constexpr double side = 290., margin = 20., upper = 300., lower = 240.;
   Sheet sheet(3. * (side + margin) + margin, upper + lower + 4. * margin);
   double left = margin;
   for(const std::size_t l : {std::size_t(0), levels.size() / 2, levels.size() - 1}) {
@@ -133,11 +133,12 @@ std::string draw_checker_figure(const Chart& chart, const std::filesystem::path&
 {
   const Solution solution = solve(chart.mesh, SMP::HLSCM_options());
   const Frame frame(chart.mesh);
-  const Drawn_surface surface = drawn(chart.mesh, solution.levels.back().uv, frame);
+  const Level& finest = solution.levels.back();
+  const Drawn_surface surface = drawn(finest.mesh, finest.uv, frame);
   const View view(surface);
-  Sheet sheet(1280., 640.);
-  sheet.draw_surface(view, {20., 20., 600., 600.}, surface, Pattern::CHECKERBOARD);
-  sheet.draw_domain({660., 20., 600., 600.}, surface);
+  Sheet sheet(1000., 520.);
+  sheet.draw_surface(view, {20., 20., 440., 480.}, surface, Pattern::CHECKERBOARD);
+  sheet.draw_domain({500., 20., 480., 480.}, surface);
   sheet.write(file);
   return "";
 }

@@ -8,6 +8,8 @@
 #include <CGAL/number_utils.h>
 
 #include <cmath>
+#include <cstdint>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -57,9 +59,19 @@ public:
   double radius() const { return m_profile.back().first; }
   double height() const { return -m_profile.back().second; }
 
-  CGAL::Surface_mesh_multiresolution::Indexed_triangle_mesh mesh(unsigned int cells) const
+  // On a grid whose inner vertices are moved by up to a quarter of a cell, differently for each seed.
+  CGAL::Surface_mesh_multiresolution::Indexed_triangle_mesh mesh(unsigned int cells,
+                                                                 std::uint32_t seed) const
   {
-    return square_grid(cells, [this](double x, double z) { return place(x, z); });
+    std::minstd_rand random(seed);
+    const auto shift = [&] { // not by a distribution of the standard: those differ
+      return (double(random()) / double(std::minstd_rand::max()) - 0.5) / cells;
+    };
+    return square_grid(cells, [&](double x, double z) {
+      const double dx = shift(), dz = shift();
+      const bool is_inside = std::abs(x) < 1. && std::abs(z) < 1.;
+      return is_inside ? place(x + dx, z + dz) : place(x, z);
+    });
   }
 
 private:

@@ -156,7 +156,7 @@ inline float fast_cbrt(float a)
   float x;
   std::memcpy(&x, &bits, sizeof(x));
   const float cube = x * x * x;
-  return x * (cube + 2.f * a) / (2.f * cube + a);
+  return x * ((cube + 2.f * a) / (2.f * cube + a));
 }
 
 } // namespace internal
