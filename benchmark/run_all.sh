@@ -13,7 +13,7 @@
 #   LIMIT           seconds for a run (600)
 #   MAX_FACES       of the charts (7000000)
 #   HLSCM_DATA_DIR  the meshes of Debian's libcgal-demo (unpacked into CHARTS_DIR/meshes)
-#   HLSCM_BIN       folder of the built programs (they are built)
+#   HLSCM_BIN       folder of the built programs (what is missing is installed, and they are built)
 
 source "$(dirname "${BASH_SOURCE[0]}")/../scripts/common.sh"
 
@@ -31,6 +31,7 @@ max_faces="${MAX_FACES:-7000000}"
 cd "$root"
 
 if [ -z "${HLSCM_BIN:-}" ]; then
+  scripts/install_dependencies.sh --bench
   say "building"
   cmake --preset bench >&2
   cmake --build --preset bench --parallel "$(number_of_jobs)" >&2

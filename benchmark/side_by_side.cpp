@@ -39,6 +39,7 @@ int run_child(const Settings& settings)
   try {
     const std::vector<Method> methods = all_methods();
     measurement = find_method(methods, settings.method)->run(settings.charts.at(0));
+    measurement.numbers["threads"] = number_of_threads();
   } catch(const std::bad_alloc&) {
     measurement.status = "out of memory";
   } catch(const std::exception& error) {

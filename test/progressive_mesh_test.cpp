@@ -189,6 +189,12 @@ std::vector<Vertex_index> canonical_ring(const Vertex_rings& rings, Vertex_index
   return result;
 }
 
+std::uint32_t position_in_ring(const Vertex_rings& rings, Vertex_index v, Vertex_index neighbor)
+{
+  const Vertex_index* r = rings.ring(v);
+  return std::uint32_t(std::find(r, r + rings.degree(v), neighbor) - r);
+}
+
 std::string error_in_rings(const Vertex_rings& rings, const Indexed_triangle_mesh& mesh,
                            const std::vector<Halfedge_collapse>& collapses)
 {
@@ -227,8 +233,7 @@ TEST(Vertex_rings, follow_random_collapses)
     std::vector<Halfedge_collapse> done;
     EXPECT_EQ(error_in_rings(rings, input.mesh, done), "");
     for(const Halfedge_collapse& c : pm.collapses) {
-      const Vertex_index* r = rings.ring(c.removed);
-      rings.collapse(c.removed, std::uint32_t(std::find(r, r + rings.degree(c.removed), c.kept) - r));
+      rings.collapse(c.removed, position_in_ring(rings, c.removed, c.kept));
       done.push_back(c);
       if(done.size() % 16 == 0 || done.size() == pm.collapses.size()) {
         ASSERT_EQ(error_in_rings(rings, input.mesh, done), "");
@@ -598,9 +603,9 @@ std::string error_in_vsplit_choice(const SMM::Mesh_level& fine, const Progressiv
     };
     const double chosen = squared_distance_of(s->source);
     for(const std::uint32_t t : cursor.last_changed_triangles()) {
-      const auto [a, b, c] = cursor.triangles()[t];
-      const Triangle_indices local = {Vertex_index(fine.position(a)), Vertex_index(fine.position(b)),
-                                      Vertex_index(fine.position(c))};
+      Triangle_indices local = cursor.triangles()[t];
+      for(Vertex_index& v : local)
+        v = Vertex_index(fine.position(v));
       if(squared_distance_of(local) < chosen - 1e-5 * size) // single precision
         return "vertex " + std::to_string(s->vertex) + " has a nearer triangle";
     }
@@ -737,8 +742,7 @@ TEST(Flat_collapse_engine, strict_order_takes_the_cheapest)
       if(is_last)
         break;
       const auto [removed, kept] = pm.collapses[i];
-      const Vertex_index* r = rings.ring(removed);
-      rings.collapse(removed, std::uint32_t(std::find(r, r + rings.degree(removed), kept) - r));
+      rings.collapse(removed, position_in_ring(rings, removed, kept));
       is_gone[removed] = true;
     }
   }
@@ -906,7 +910,7 @@ TEST(Build_progressive_mesh, numbers_as_the_mesh_does)
   SMM::Progressive_mesh_options options;
   options.is_locked = random_locks(n, 0.1, seed);
   options.target_vertices = 100;
-  for(const SMM::Collapse_order order : {SMM::Collapse_order::BATCHED, SMM::Collapse_order::STRICT}) {
+  for(const auto order : {SMM::Collapse_order::BATCHED, SMM::Collapse_order::STRICT}) {
     options.order = order;
     const SMM::Progressive_surface surface = SMM::build_progressive_mesh(mesh, options);
     const Progressive_mesh& pm = surface.progressive_mesh;
@@ -930,6 +934,32 @@ TEST(Build_progressive_mesh, numbers_as_the_mesh_does)
   EXPECT_EQ(surface.error, "");
   EXPECT_EQ(error_in_progressive_mesh({surface.points, surface.progressive_mesh.triangles},
                                       surface.progressive_mesh), "");
+}
+
+// Counts the vertices as they are, by the price of their place.
+struct Price_of_place
+{
+  template <class Profile, class Placement>
+  SMS::internal::Optional<double> operator()(const Profile& profile, const Placement&) const
+  {
+    return std::abs(profile.p0().x() - 1000.);
+  }
+};
+
+TEST(Build_progressive_mesh, policies_of_users_see_the_coordinates_of_the_mesh)
+{
+  const Surface_mesh mesh
+    = SMM::internal::surface_mesh_of(translated(shuffled(grid(12, 12), seed), 1000., 0., 0.));
+  SMM::Progressive_mesh_options options;
+  options.order = SMM::Collapse_order::STRICT;
+  options.target_vertices = 169 - 20;
+  const SMM::Progressive_surface surface
+    = SMM::build_progressive_mesh(mesh, options, Price_of_place(),
+                                  SMS::internal::Accept_all_filter());
+  EXPECT_EQ(surface.error, "");
+  ASSERT_EQ(surface.progressive_mesh.collapses.size(), 20u);
+  for(const Halfedge_collapse& c : surface.progressive_mesh.collapses)
+    EXPECT_LE(surface.points[c.removed].x(), 1001.); // the first two of 13 columns
 }
 
 TEST(Build_progressive_mesh, refuses_bad_data_in_a_sentence)

@@ -72,7 +72,7 @@ private:
         "flips", "degenerate", "quasi_conformal_mean", "quasi_conformal_99",
         "area_scale_range", "stretch_L2", "residual",
         "collapses", "coarse_vertices", "coarse_quality_mean", "coarse_distance_mean",
-        "mesh_memory_mb", "peak_memory_mb", "bytes_per_face"};
+        "mesh_memory_mb", "peak_memory_mb", "bytes_per_face", "threads"};
     // clang-format on
     return names;
   }

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -40,16 +41,27 @@ inline double peak_memory_mb()
   return double(usage.ru_maxrss) * 1024e-6;
 }
 
+// The number of threads that this process has.
+inline double number_of_threads()
+{
+  std::ifstream status("/proc/self/status");
+  for(std::string line; std::getline(status, line);)
+    if(line.compare(0, 8, "Threads:") == 0)
+      return std::strtod(line.c_str() + 8, nullptr);
+  return unknown;
+}
+
 namespace internal {
 
-// Becomes another run of this program, which ends with its parent at the latest. The libraries
-// below get one thread each.
+// Becomes another run of this program, which ends with its parent at the latest. All libraries get
+// one thread: CHOLMOD asks for four of OpenMP's, whatever OMP_NUM_THREADS says.
 [[noreturn]] inline void become(std::vector<std::string> arguments, int output,
                                 const Limits& limits)
 {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   dup2(output, STDOUT_FILENO);
-  for(const char* variable : {"OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"})
+  for(const char* variable :
+      {"OMP_NUM_THREADS", "OMP_THREAD_LIMIT", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"})
     setenv(variable, "1", 1);
   if(limits.gigabytes > 0) {
     const rlim_t bytes = rlim_t(limits.gigabytes * 1e9);

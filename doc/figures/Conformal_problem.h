@@ -4,29 +4,21 @@
 #ifndef HLSCM_FIGURES_CONFORMAL_PROBLEM_H
 #define HLSCM_FIGURES_CONFORMAL_PROBLEM_H
 
+#include "Chart.h"
+
 #include <CGAL/Multigrid/Conjugate_gradient.h>
 #include <CGAL/Multigrid/Monogrid_preconditioners.h>
 #include <CGAL/Multigrid/Sparse_cholesky.h>
 #include <CGAL/Surface_mesh_parameterization/Conformal_operator.h>
 
-#include <complex>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 namespace figures {
 
-namespace SMM = CGAL::Surface_mesh_multiresolution;
 namespace SMP = CGAL::Surface_mesh_parameterization;
-
-typedef std::complex<double> Complex;
-typedef std::vector<Complex> Uv; // u + iv of each vertex
-
-struct Pin
-{
-  SMM::Vertex_index vertex;
-  Complex value;
-};
 
 // The conformal energy of a mesh under pins.
 class Conformal_problem
@@ -49,6 +41,31 @@ public:
   Uv start() const
   {
     Uv z(m_operator.matrix.size(), 0.);
+    for(const Pin& pin : m_pins)
+      z[pin.vertex] = pin.value;
+    return z;
+  }
+
+  // The orthogonal projection to the plane through the first two pins in which `mesh` is the
+  // widest, turned and scaled so that these pins come to their places.
+  Uv projection(const SMM::Indexed_triangle_mesh& mesh) const
+  {
+    typedef Kernel::Vector_3 Vector;
+      const auto origin = mesh.points[m_pins[0].vertex];
+    const Vector e = mesh.points[m_pins[1].vertex] - origin;
+    const auto aside = [&e](const Vector& v) { return v - (v * e) / (e * e) * e; };
+    Vector f = aside(Vector(1., 2., 3.)); // by iteration, the widest direction beside e
+    for(int k = 0; k < 50; ++k) {
+      Vector sum(0., 0., 0.);
+      for(const auto& p : mesh.points)
+        sum = sum + ((p - origin) * f) * aside(p - origin);
+      f = sum / std::sqrt(sum * sum);
+    }
+    const double length = std::sqrt(e * e);
+    Uv z;
+    for(const auto& p : mesh.points)
+      z.push_back(m_pins[0].value + (m_pins[1].value - m_pins[0].value)
+                  * Complex((p - origin) * e / length, (p - origin) * f) / length);
     for(const Pin& pin : m_pins)
       z[pin.vertex] = pin.value;
     return z;

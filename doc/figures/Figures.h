@@ -4,21 +4,14 @@
 #ifndef HLSCM_FIGURES_FIGURES_H
 #define HLSCM_FIGURES_FIGURES_H
 
-#include <CGAL/Surface_mesh_multiresolution/Indexed_triangle_mesh.h>
+#include "Chart.h"
 
 #include <filesystem>
 #include <string>
 
 namespace figures {
 
-// A disk of triangles, and what to call it in a caption.
-struct Chart
-{
-  std::string name;
-  CGAL::Surface_mesh_multiresolution::Indexed_triangle_mesh mesh;
-};
-
-// Each draws one figure into the file and returns its caption, with the measured energies.
+// Each draws one figure into the file and returns its caption, with what was measured.
 std::string draw_bump_figure(const std::filesystem::path& file);
 std::string draw_monogrid_figure(const Chart& chart, const std::filesystem::path& file);
 std::string draw_levels_figure(const Chart& chart, const std::filesystem::path& file);

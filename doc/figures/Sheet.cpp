@@ -41,6 +41,7 @@ Drawn_surface drawn(const SMM::Indexed_triangle_mesh& mesh, const Uv& uv, const 
   for(const Complex& z : uv)
     surface.uv.push_back({z.real(), z.imag()});
   surface.triangles = mesh.triangles;
+  hlscm::find_border(surface);
   return surface;
 }
 
@@ -109,6 +110,38 @@ void Sheet::draw_domain(const Panel& panel, const Drawn_surface& surface)
   hlscm::Uv_box box;
   box.add(surface);
   hlscm::draw_domain(m_canvas, panel, surface, box, silent());
+}
+
+void Sheet::draw_relief(const View& view, const Panel& panel, const Drawn_surface& surface)
+{
+  using namespace hlscm; // operators
+  constexpr Colour base{0.97, 0.95, 0.91}, border_colour{0.25, 0.25, 0.27};
+  constexpr double border_width = 1.3;
+  Uv_box box;
+  box.add(surface);
+  const double scale = (std::min)(panel.width / box.width(), panel.height / box.height());
+  const auto place = [&](std::uint32_t v, double depth) {
+    const Vector_2& p = surface.uv[v];
+    return Canvas::Point{
+      panel.left + panel.width / 2. + scale * (p[0] - (box.low[0] + box.high[0]) / 2.),
+      panel.top + panel.height / 2. - scale * (p[1] - (box.low[1] + box.high[1]) / 2.), depth};
+  };
+  std::vector<Vector_3> normals(surface.points.size(), Vector_3{});
+  for(const auto& t : surface.triangles)
+    for(const std::uint32_t v : t)
+      normals[v] = normals[v] + cross(surface.points[t[1]] - surface.points[t[0]],
+                                      surface.points[t[2]] - surface.points[t[0]]);
+  const Vector_3 light = -0.35 * view.right() + 0.45 * view.up() + 0.82 * view.toward();
+  const auto brightness = [&](const Vector_3& n) { // from 0.25 away from the light to 1
+    return 0.25 + 0.375 * (1. + dot(light, n) / std::sqrt((std::max)(dot(n, n), 1e-300)));
+  };
+  for(const auto& t : surface.triangles)
+    m_canvas.draw_triangle({place(t[0], 0.), place(t[1], 0.), place(t[2], 0.)},
+                           [&](const std::array<double, 3>& b) {
+      return brightness(b[0] * normals[t[0]] + b[1] * normals[t[1]] + b[2] * normals[t[2]]) * base;
+    });
+  for(const auto& edge : surface.border)
+    m_canvas.draw_segment(place(edge[0], 1.), place(edge[1], 1.), border_width, border_colour);
 }
 
 void Sheet::label(const Panel& panel, const std::string& text)

@@ -5,7 +5,7 @@
 #define HLSCM_FIGURES_SHEET_H
 
 #include "Canvas.h"
-#include "Conformal_problem.h"
+#include "Chart.h"
 #include "Domain_picture.h"
 #include "Drawn_surface.h"
 #include "Surface_picture.h"
@@ -51,7 +51,12 @@ public:
 
   void draw_surface(View view, const Panel& panel, const Drawn_surface& surface, Pattern pattern);
   void draw_edges(View view, const Panel& panel, const Drawn_surface& surface);
+
+  // Triangles coloured by distortion, flipped ones marked red.
   void draw_domain(const Panel& panel, const Drawn_surface& surface);
+
+  // The domain with the light and shade of the surface.
+  void draw_relief(const View& view, const Panel& panel, const Drawn_surface& surface);
 
   // Writes `text` above the left end of `panel`.
   void label(const Panel& panel, const std::string& text);

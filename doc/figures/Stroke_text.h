@@ -34,13 +34,13 @@ inline const char* strokes(char c)
   case '0': return "100105163645413010";
   case '1': return "0426 2620";
   case '2': return "05163645440040";
-  case '3': return "0516364544332333424130100123";
+  case '3': return "05163645443323 334241301001";
   case '4': return "3036024242";
   case '5': return "460603334241301001";
   case '6': return "453616050110304142330302";
   case '7': return "064610";
   case '8': return "1304051636454433130201103041423313";
-  case '9': return "011030414536160504134343";
+  case '9': return "0110304145361605041343";
   default: return "";
   }
 }

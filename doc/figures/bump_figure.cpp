@@ -3,13 +3,14 @@
 
 // Figure 1 of Ray and Lévy 2003: a bump that the angular-defect filter keeps, or that is lost.
 
+#include "Conformal_problem.h"
 #include "Figures.h"
 #include "Sheet.h"
 #include "numbers.h"
 #include "surfaces.h"
 
-#include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
 #include <CGAL/Surface_mesh_multiresolution/Mesh_hierarchy.h>
+#include <CGAL/Surface_mesh_multiresolution/build_progressive_mesh.h>
 
 namespace figures {
 
@@ -62,17 +63,16 @@ struct Coarse_level
 template <class Cost, class Filter>
 SMM::Progressive_mesh decimate(const Fine_level& fine, const Cost& cost, const Filter& filter)
 {
-  std::vector<bool> is_locked(fine.mesh.points.size(), false);
-  for(const SMM::Vertex_index v : fine.corners)
-    is_locked[v] = true;
-  SMM::Indexed_triangle_mesh normalized = fine.mesh;
-  SMM::normalize(normalized);
-  SMM::Flat_collapse_options options;
+  SMM::Progressive_mesh_options options;
   options.target_vertices = coarse_vertices;
   options.order = SMM::Collapse_order::STRICT;
-  SMM::Flat_collapse_engine<Cost, Filter> engine(
-    normalized, SMM::internal::Vertex_rings(normalized), is_locked, cost, filter);
-  return engine.run(options);
+  options.is_locked.assign(fine.mesh.points.size(), false);
+  for(const SMM::Vertex_index v : fine.corners)
+    options.is_locked[v] = true;
+  SMM::Indexed_triangle_mesh normalized = fine.mesh;
+  SMM::normalize(normalized);
+  return SMM::build_progressive_mesh(surface_mesh(normalized), options, cost, filter)
+    .progressive_mesh;
 }
 
 // As in the paper, a vertex gets its first value from the nearest triangle when it is split off.

@@ -4,7 +4,8 @@
 #ifndef HLSCM_FIGURES_SURFACES_H
 #define HLSCM_FIGURES_SURFACES_H
 
-#include <CGAL/Surface_mesh_multiresolution/Indexed_triangle_mesh.h>
+#include "Chart.h"
+
 #include <CGAL/number_utils.h>
 
 #include <cmath>
@@ -18,10 +19,9 @@ namespace figures {
 // The vertices place(x, z), row by row, for x and z in [-1, 1], as `cells` x `cells` squares whose
 // diagonals point to the centre. Seen from +y the triangles are counterclockwise.
 template <class Place>
-CGAL::Surface_mesh_multiresolution::Indexed_triangle_mesh square_grid(unsigned int cells,
-                                                                      const Place& place)
+SMM::Indexed_triangle_mesh square_grid(unsigned int cells, const Place& place)
 {
-  CGAL::Surface_mesh_multiresolution::Indexed_triangle_mesh mesh;
+  SMM::Indexed_triangle_mesh mesh;
   for(unsigned int j = 0; j <= cells; ++j)
     for(unsigned int i = 0; i <= cells; ++i)
       mesh.points.push_back(place(2. * i / cells - 1., 2. * j / cells - 1.));
@@ -60,8 +60,7 @@ public:
   double height() const { return -m_profile.back().second; }
 
   // On a grid whose inner vertices are moved by up to a quarter of a cell, differently for each seed.
-  CGAL::Surface_mesh_multiresolution::Indexed_triangle_mesh mesh(unsigned int cells,
-                                                                 std::uint32_t seed) const
+  SMM::Indexed_triangle_mesh mesh(unsigned int cells, std::uint32_t seed) const
   {
     std::minstd_rand random(seed);
     const auto shift = [&] { // not by a distribution of the standard: those differ
@@ -76,7 +75,7 @@ public:
 
 private:
   // Rings of the grid become rings of the bump, as evenly as the profile is long.
-  CGAL::Simple_cartesian<double>::Point_3 place(double x, double z) const
+  Kernel::Point_3 place(double x, double z) const
   {
     constexpr double foot = 0.6, unmoved = 0.95; // rings of the grid
     const double ring = std::hypot(x, z);
@@ -97,12 +96,12 @@ private:
 };
 
 // Hills, for a machine without a real mesh.
-inline CGAL::Surface_mesh_multiresolution::Indexed_triangle_mesh hills(unsigned int cells)
+inline SMM::Indexed_triangle_mesh hills(unsigned int cells)
 {
   return square_grid(cells, [](double x, double z) {
     const double y = 0.35 * std::exp(-8. * ((x - 0.2) * (x - 0.2) + (z + 0.3) * (z + 0.3)))
                    + 0.12 * std::sin(5. * x + 1.) * std::cos(4. * z) + 0.05 * std::sin(13. * z - 9. * x);
-    return CGAL::Simple_cartesian<double>::Point_3(x, y, z);
+    return Kernel::Point_3(x, y, z);
   });
 }
 

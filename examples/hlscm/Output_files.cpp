@@ -153,6 +153,11 @@ Output_file& Output_files::create(const fs::path& target)
 {
   std::lock_guard<std::mutex> lock(m_mutex);
   m_files.push_back(std::make_unique<Output_file>(target));
+  for(const auto& other : m_files) {
+    if(other != m_files.back() && other->m_target == m_files.back()->m_target) {
+      throw Program_error(target.string(), "two outputs have this name, choose another for one");
+    }
+  }
   return *m_files.back();
 }
 

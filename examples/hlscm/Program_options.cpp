@@ -207,9 +207,6 @@ void check(const Program_options& o)
   if(o.pins.size() == 1) {
     throw CLI::ValidationError("--pin", "one pin does not fix a map, give at least two or none");
   }
-  if(o.report == o.output) {
-    throw CLI::ValidationError("--report", "the report and the output are the same file");
-  }
 }
 
 } // namespace

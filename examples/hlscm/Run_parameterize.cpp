@@ -43,9 +43,11 @@ struct Run_files
 {
   explicit Run_files(const Program_options& options)
   {
-    std::error_code ignored;
-    if(std::filesystem::equivalent(options.input, options.output, ignored)) {
-      throw Program_error(options.output, "the output is the input, choose another name");
+    for(const std::string& name : {options.output, options.report}) {
+      std::error_code ignored;
+      if(std::filesystem::equivalent(options.input, name, ignored)) {
+        throw Program_error(name, "the output is the input, choose another name");
+      }
     }
     if(!options.pictures.empty()) {
       pictures.emplace(all, options.pictures);
@@ -162,8 +164,9 @@ void add_warnings(Run_report& report)
   const auto& solver = report.solver;
   report.warnings.insert(report.warnings.end(), solver.warnings.begin(), solver.warnings.end());
   if(report.distortion.flipped_faces > 0) {
-    report.warnings.push_back(std::to_string(report.distortion.flipped_faces) + " of "
-                              + std::to_string(solver.faces) + " triangles are flipped in the map");
+    report.warnings.push_back("flipped triangles in the map: "
+                              + std::to_string(report.distortion.flipped_faces) + " of "
+                              + std::to_string(solver.faces));
   }
 }
 

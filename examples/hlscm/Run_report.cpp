@@ -136,8 +136,13 @@ std::string to_table(const Run_report& report, const Program_options& options)
   Table table;
   table.add("input", options.input, ": ", s.vertices, " vertices, ", s.faces, " faces, ", s.borders,
             s.borders == 1 ? " border" : " borders");
-  table.add("method", s.method, ", ", s.iterations,
-            s.iterations == 1 ? " iteration" : " iterations", " on the finest level");
+  if(s.method == "direct") {
+    table.add("method", s.method);
+  } else {
+    table.add("method", s.method, ", ", s.iterations,
+              s.iterations == 1 ? " iteration" : " iterations", " on the finest level, ",
+              s.converged ? "converged" : "tolerance not reached");
+  }
   table.add("levels", levels_text(report));
   table.add("pins", pins_text(report));
   table.add("energy", s.energy, ", about ", s.energy_gap_estimate, " above the minimum");

@@ -26,8 +26,9 @@ typedef SMP::HLSCM_parameterizer_3<Surface_mesh> Parameterizer;
 typedef Parameterizer::Point_2 Point_2;
 typedef std::vector<std::complex<double>> Parameters;
 
-// A run: the parameters in the order of vertices(mesh), which are `untouched` where none were set.
-struct Run
+// What came of a run: among others the parameters in the order of vertices(mesh), `untouched` where
+// none were set.
+struct Outcome
 {
   SMP::Error_code error = SMP::OK;
   SMP::HLSCM_report report;
@@ -68,7 +69,7 @@ inline Uv_map to_uv_map(Surface_mesh& mesh, const Parameters& uv)
 // Vertices by their positions in vertices(mesh), and where they go.
 typedef std::vector<std::pair<std::size_t, std::complex<double>>> Pins;
 
-inline Run parameterize(Surface_mesh& mesh, const SMP::HLSCM_options& options,
+inline Outcome parameterize(Surface_mesh& mesh, const SMP::HLSCM_options& options,
                         const Pins& pins = Pins(),
                         Surface_mesh::Halfedge_index bhd = Surface_mesh::null_halfedge())
 {
@@ -80,7 +81,7 @@ inline Run parameterize(Surface_mesh& mesh, const SMP::HLSCM_options& options,
   if(!pins.empty())
     parameterizer.set_pins(vertex_pins);
   Uv_map uvmap = new_uv_map(mesh);
-  Run run;
+  Outcome run;
   run.error = parameterizer.parameterize(
     mesh, bhd == Surface_mesh::null_halfedge() ? border_halfedge(mesh) : bhd, uvmap);
   run.report = parameterizer.report();
@@ -129,7 +130,7 @@ inline double difference(const Parameters& uv, const Parameters& expected)
 // The hierarchical method beside the sparse direct one on the same system.
 struct Comparison
 {
-  Run hierarchical, direct;
+  Outcome hierarchical, direct;
   std::size_t hierarchical_flips = 0, direct_flips = 0;
   double hierarchical_energy = 0., direct_energy = 0.; // the minimised one
 
@@ -183,7 +184,7 @@ inline std::string row_of(const std::string& name, const Comparison& c, double t
 // must lie within the tolerance of the direct one, and it may not have more flipped faces.
 inline std::string error_in_comparison(const Comparison& c, double tolerance)
 {
-  for(const Run* run : {&c.hierarchical, &c.direct}) {
+  for(const Outcome* run : {&c.hierarchical, &c.direct}) {
     if(run->error != SMP::OK)
       return run->report.method + " failed: " + run->report.message;
     if(!run->report.converged)

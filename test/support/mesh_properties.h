@@ -307,7 +307,8 @@ inline std::vector<Triangle_indices> living_triangles(const Progressive_mesh_cur
 }
 
 // The mesh that the cursor shows is the one that plain replay gives.
-inline std::string error_at_cursor(const Progressive_mesh& pm, const Progressive_mesh_cursor& cursor)
+inline std::string error_at_cursor(const Progressive_mesh& pm,
+                                   const Progressive_mesh_cursor& cursor)
 {
   using CGAL::Surface_mesh_multiresolution::triangles_after;
   const auto seen = living_triangles(cursor);

@@ -47,16 +47,19 @@ part anywhere are marked.
 */
 struct Sliced_pattern
 {
-  static constexpr std::size_t slice_rows = 8;
-  static constexpr std::size_t sorting_window = 256; // rows that are sorted by length together
+  static constexpr std::size_t slice_rows = 8;       ///< rows of a slice
+  static constexpr std::size_t sorting_window = 256; ///< rows that are sorted by length together
 
-  std::size_t rows = 0;
-  std::vector<std::uint32_t> row_of_slot;  // padded with row 0, whose slot is never written
-  std::vector<std::uint32_t> slice_begin;  // in units of slice_rows entries; one more than slices
-  std::vector<std::uint32_t> imaginary;    // begin of the imaginary parts, or `none`
-  std::vector<std::uint32_t> column;
+  std::size_t rows = 0;                   ///< rows of the matrix
+  std::vector<std::uint32_t> row_of_slot; ///< padded with row 0, whose slot is never written
+  /// In units of `slice_rows` entries; one more than slices.
+  std::vector<std::uint32_t> slice_begin;
+  /// The begin of each slice's imaginary parts, in the same units, or `none`.
+  std::vector<std::uint32_t> imaginary;
+  std::vector<std::uint32_t> column; ///< the column of each entry
 
-  static constexpr std::uint32_t none = std::uint32_t(-1);
+  static constexpr std::uint32_t none = std::uint32_t(-1); ///< no imaginary parts
+  /// Returns the number of slices.
   std::size_t slices() const { return imaginary.size(); }
 };
 
@@ -70,10 +73,13 @@ template <class Real>
 class Hermitian_matrix
 {
 public:
-  typedef std::complex<Real> Complex;
+  typedef std::complex<Real> Complex; ///< an entry
 
+  /// Returns the number of rows; 0 for a matrix that was not built.
   std::size_t size() const { return m_pattern == nullptr ? 0 : m_pattern->rows; }
+  /// Returns the diagonal, by rows.
   const std::vector<Real>& diagonal() const { return m_diagonal; }
+  /// Returns the pattern. Precondition: the matrix was built.
   const Sliced_pattern& pattern() const { return *m_pattern; }
 
   /// Calls `use(i, s)` for every row i with \f$ s = \sum_{j \ne i} H_{ij} x_j \f$; rows come in the
@@ -87,8 +93,8 @@ public:
     for_each_row_sum(x, [&](std::size_t i, Complex s) { y[i] = m_diagonal[i] * x[i] + s; });
   }
 
-  /// Calls `use(j, H_ij)` for the entries of row `i` beside the diagonal, stored zeros left out.
-  /// The rows' slots must have been indexed by `slot_of_row()`.
+  /// Calls `use(j, H_ij)` for the entries beside the diagonal of the row i in `slot`, stored zeros
+  /// left out. `slot_of_row()` tells where a row is.
   template <class Use>
   void for_each_entry(std::size_t slot, const Use& use) const;
 

@@ -55,7 +55,7 @@ template <class Real>
 class Symmetric_gauss_seidel_preconditioner
 {
 public:
-  typedef std::complex<Real> Complex;
+  typedef std::complex<Real> Complex; ///< an entry
 
   /// Constructs it for a matrix, whose entries it copies into rows.
   explicit Symmetric_gauss_seidel_preconditioner(const Hermitian_matrix<Real>& h);

@@ -31,9 +31,9 @@ template <class Transfer, class CoarsestSolver>
 class Multigrid_levels
 {
 public:
-  typedef std::complex<float> Complex;
-  typedef Complex_vector<float> Vector;
-  typedef Hermitian_matrix<float> Matrix;
+  typedef std::complex<float> Complex;    ///< an entry
+  typedef Complex_vector<float> Vector;   ///< a vector of a level
+  typedef Hermitian_matrix<float> Matrix; ///< the matrix of a level
 
   /// Adds a level that is finer than those before it. Level 0 has no transfer.
   void add_level(Matrix matrix, std::vector<float> inverse_diagonal, const Transfer* from_coarser)
@@ -76,10 +76,18 @@ public:
 
   /// \name The operations of a cycle
   /// @{
+
+  /// Takes `steps` steps of `chebyshev_steps()` on the system of `level`.
   void smooth(std::size_t level, unsigned int steps);
+  /// Sets the right-hand side of `level - 1` to the restricted residual of `level`, its unknowns
+  /// to 0.
   void restrict_residual(std::size_t level);
+  /// Adds the prolonged unknowns of `level - 1` to those of `level`.
   void correct(std::size_t level);
+  /// Solves the system of level 0.
   void solve_coarsest();
+  /// Approximates the solution on `level` by up to `steps` steps of the flexible conjugate gradient
+  /// method preconditioned by `coarse_cycle()`, fewer if the residual has fallen to a quarter.
   template <class Coarse_cycle>
   void accelerate(std::size_t level, unsigned int steps, const Coarse_cycle& coarse_cycle);
   /// @}

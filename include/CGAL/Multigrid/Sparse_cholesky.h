@@ -47,10 +47,10 @@ private:
   Eigen::VectorXcd m_right, m_left;
 };
 
-#ifdef CGAL_HLSCM_USE_CHOLMOD
 /// \ingroup PkgHLSCMMultigrid
 /// The factorization for large systems: CHOLMOD's supernodal one if the macro
 /// `CGAL_HLSCM_USE_CHOLMOD` is defined, Eigen's otherwise.
+#ifdef CGAL_HLSCM_USE_CHOLMOD
 typedef Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<std::complex<double>>> Large_factorization;
 #else
 typedef Eigen::SimplicialLDLT<Eigen::SparseMatrix<std::complex<double>>> Large_factorization;

@@ -28,19 +28,21 @@ Copies share the values; vertices that were never written have 0.
 class Flat_vertex_cost_map
 {
 public:
-  typedef Vertex_index key_type;
-  typedef float value_type;
-  typedef float reference;
-  typedef boost::read_write_property_map_tag category;
+  typedef Vertex_index key_type;                       ///< a vertex
+  typedef float value_type;                            ///< its number
+  typedef float reference;                             ///< what `get()` returns
+  typedef boost::read_write_property_map_tag category; ///< how the map may be used
 
   /// Constructs an empty map.
   Flat_vertex_cost_map() : m_values(std::make_shared<std::vector<float>>()) {}
 
+  /// Returns the number of `v`.
   friend float get(const Flat_vertex_cost_map& map, Vertex_index v)
   {
     return v < map.m_values->size() ? (*map.m_values)[v] : 0.f;
   }
 
+  /// Sets the number of `v`.
   friend void put(const Flat_vertex_cost_map& map, Vertex_index v, float value)
   {
     if(v >= map.m_values->size())
@@ -61,7 +63,9 @@ policies get from a `Flat_collapse_profile`.
 class Flat_surface
 {
 public:
+  /// Constructs a view of nothing.
   Flat_surface() {}
+  /// Constructs a view of a mesh and its connectivity, which must live as long as the view.
   Flat_surface(const Indexed_triangle_mesh& mesh, const internal::Vertex_rings& rings)
     : m_mesh(&mesh), m_rings(&rings) {}
 
@@ -95,22 +99,26 @@ points, the triangles at the edge and around it, the link, and the point map; no
 class Flat_collapse_profile
 {
 public:
-  typedef Flat_surface Triangle_mesh;
-  typedef Simple_cartesian<double> Geom_traits;
-  typedef Geom_traits::FT FT;
-  typedef Geom_traits::Point_3 Point;
-  typedef const Point& Point_reference;
-  typedef Vertex_index vertex_descriptor;
+  typedef Flat_surface Triangle_mesh;           ///< the mesh
+  typedef Simple_cartesian<double> Geom_traits; ///< the kernel
+  typedef Geom_traits::FT FT;                   ///< a number
+  typedef Geom_traits::Point_3 Point;           ///< a point
+  typedef const Point& Point_reference;         ///< a point of the mesh
+  typedef Vertex_index vertex_descriptor;       ///< a vertex
+  /// The map from vertices to points.
   typedef CGAL::Pointer_property_map<Point>::const_type Vertex_point_map;
-  typedef Vertex_point_map VertexPointMap;
+  typedef Vertex_point_map VertexPointMap; ///< the same
 
   /// A triangle of the two stars; `v1` is the vertex that moves, as in CGAL's profile.
   struct Triangle
   {
-    vertex_descriptor v0, v1, v2;
+    vertex_descriptor v0; ///< the vertex before
+    vertex_descriptor v1; ///< the vertex that moves
+    vertex_descriptor v2; ///< the vertex after
   };
-  typedef std::vector<Triangle> Triangle_vector;
-  typedef std::vector<vertex_descriptor> vertex_descriptor_vector;
+  typedef std::vector<Triangle> Triangle_vector;                   ///< triangles
+  typedef std::vector<vertex_descriptor> vertex_descriptor_vector; ///< vertices
+  /// The measures of a collapse that the policies of this package use.
   typedef Surface_mesh_simplification::internal::Halfedge_collapse Collapse;
 
   /// An optional point that is either that of the kept vertex or none: policies may take it as it
@@ -120,10 +128,15 @@ public:
   public:
     /// No placement.
     Placement() {}
+    /// The placement at `point`, which must live as long.
     explicit Placement(const Point& point) : m_point(&point) {}
+    /// Returns whether there is a point.
     explicit operator bool() const { return m_point != nullptr; }
+    /// Returns the point.
     const Point& operator*() const { return *m_point; }
+    /// Returns the point.
     const Point* operator->() const { return m_point; }
+    /// Returns the same as CGAL's policies have it.
     operator Surface_mesh_simplification::internal::Optional<Point>() const
     {
       typedef Surface_mesh_simplification::internal::Optional<Point> Optional;
@@ -134,6 +147,7 @@ public:
     const Point* m_point = nullptr;
   };
 
+  /// Constructs a profile on a surface, of no collapse yet.
   explicit Flat_collapse_profile(const Flat_surface& surface) : m_surface(surface) {}
 
   /// Describes the collapse of `removed` into its ring vertex number `k`.
@@ -144,15 +158,23 @@ public:
     m_kept = m_surface.rings().ring(removed)[k];
   }
 
+  /// Returns the vertex that goes.
   vertex_descriptor v0() const { return m_removed; }
+  /// Returns the vertex that stays.
   vertex_descriptor v1() const { return m_kept; }
+  /// Returns the point of `v0()`.
   const Point& p0() const { return m_surface.points()[m_removed]; }
+  /// Returns the point of `v1()`.
   const Point& p1() const { return m_surface.points()[m_kept]; }
   /// Returns the placement of every collapse of the flat engine: `p1()`.
   Placement placement() const { return Placement(p1()); }
+  /// Returns the mesh.
   const Flat_surface& surface_mesh() const { return m_surface; }
+  /// Returns the mesh.
   const Flat_surface& surface() const { return m_surface; }
+  /// Returns the map from vertices to points.
   Vertex_point_map vertex_point_map() const { return Vertex_point_map(m_surface.points().data()); }
+  /// Returns the kernel.
   const Geom_traits& geom_traits() const { return m_traits; }
 
   /// Returns the opposite vertex of the triangle to the left of (v0, v1), if there is one.
@@ -162,9 +184,13 @@ public:
   {
     return right_face_exists() ? ring_vertex(m_k + degree() - 1) : no_vertex;
   }
+  /// Returns whether the halfedge (v0, v1) is on the border.
   bool is_v0_v1_a_border() const { return is_open() && m_k + 1 == degree(); }
+  /// Returns whether the halfedge (v1, v0) is on the border.
   bool is_v1_v0_a_border() const { return is_open() && m_k == 0; }
+  /// Returns whether there is a triangle to the left of (v0, v1).
   bool left_face_exists() const { return !is_v0_v1_a_border(); }
+  /// Returns whether there is a triangle to the right of (v0, v1).
   bool right_face_exists() const { return !is_v1_v0_a_border(); }
 
   /// Returns the triangles of both stars, those of the edge first; allocates.
@@ -175,6 +201,7 @@ public:
 
   /// Returns the measures that the policies of this package use; filled by the engine.
   const Collapse& collapse() const { return m_collapse; }
+  /// Gives the engine access to them.
   Collapse& collapse() { return m_collapse; }
 
 private:

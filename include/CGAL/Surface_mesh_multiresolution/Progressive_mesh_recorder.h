@@ -97,8 +97,8 @@ public:
 
   /// Prepares to record what happens to `mesh`. Linear time.
   ///
-  /// \param is_locked for each vertex, in the order of `vertices(mesh)`, whether it must stay; empty
-  ///        for none
+  /// \param is_locked for each vertex, in the order of `vertices(mesh)`, whether it must stay;
+  ///        empty for none
   /// \param cost the cost that is told of collapses
   explicit Progressive_mesh_recorder(const TriangleMesh& mesh,
                                      const std::vector<bool>& is_locked = {},

@@ -71,17 +71,36 @@ inline std::string point_error(const std::vector<Indexed_triangle_mesh::Point_3>
   return {};
 }
 
-// Decimates `mesh`, a copy in any order, and appends the collapses in that order to `result`.
-inline std::string decimate(Indexed_triangle_mesh mesh, const Progressive_mesh_options& options,
-                            Progressive_mesh& result)
+// The arrays of a mesh without its collapses, or what is wrong with it.
+template <class TriangleMesh>
+Progressive_surface copy_surface(const TriangleMesh& mesh)
 {
-  if(!(normalize(mesh) > 0.))
-    return "all edges are without length";
+  Progressive_surface result;
+  result.points = copy_points(mesh);
+  result.error = point_error(result.points);
+  result.progressive_mesh.number_of_vertices = result.points.size();
+  if(is_triangle_mesh(mesh)) {
+    const auto position = get(dynamic_vertex_property_t<Vertex_index>(), mesh);
+    number_vertices(mesh, position);
+    result.progressive_mesh.triangles = copy_triangles(mesh, position);
+  } else {
+    result.error = "not all faces are triangles; triangulate the mesh first";
+  }
+  return result;
+}
+
+// Appends the collapses of `mesh`, which has the vertices of `result` at any place and size.
+template <class Cost, class Filter>
+void decimate(Indexed_triangle_mesh mesh, const Progressive_mesh_options& options,
+              const Cost& cost, const Filter& filter, Progressive_surface& result)
+{
+  CGAL_precondition(options.is_locked.empty()
+                    || options.is_locked.size() == result.points.size());
   const std::vector<Vertex_index> source = sort_spatially(mesh);
   Vertex_rings rings(mesh);
-  const std::string error = ring_error(rings, source);
-  if(!error.empty())
-    return error;
+  result.error = ring_error(rings, source);
+  if(!result.error.empty())
+    return;
   std::vector<bool> is_locked(options.is_locked.size());
   for(std::size_t v = 0; v < is_locked.size(); ++v)
     is_locked[v] = options.is_locked[source[v]];
@@ -89,13 +108,11 @@ inline std::string decimate(Indexed_triangle_mesh mesh, const Progressive_mesh_o
   flat.target_vertices = options.target_vertices;
   flat.order = options.order;
   flat.progress = options.progress;
-  Flat_collapse_engine<> engine(mesh, std::move(rings), is_locked, hierarchy_collapse_cost(),
-                                hierarchy_collapse_filter(options.angular_defect_bound));
+  Flat_collapse_engine<Cost, Filter> engine(mesh, std::move(rings), is_locked, cost, filter);
   Progressive_mesh pm = engine.run(flat);
   for(const Halfedge_collapse& c : pm.collapses)
-    result.collapses.push_back({source[c.removed], source[c.kept]});
-  result.batch_ends = std::move(pm.batch_ends);
-  return {};
+    result.progressive_mesh.collapses.push_back({source[c.removed], source[c.kept]});
+  result.progressive_mesh.batch_ends = std::move(pm.batch_ends);
 }
 
 } // namespace internal
@@ -106,7 +123,7 @@ inline std::string decimate(Indexed_triangle_mesh mesh, const Progressive_mesh_o
 Returns a progressive mesh of `mesh`, made by `Flat_collapse_engine` with its default policies.
 
 \tparam TriangleMesh a model of `FaceListGraph` with a point property
-\param mesh a triangle mesh, which is not changed
+\param mesh a triangle mesh of any size and place, which is not changed
 \param options where to stop, and what must stay
 
 Bad data (faces that are no triangles, vertices without a face or with several fans of faces,
@@ -119,22 +136,40 @@ Progressive_surface
 build_progressive_mesh(const TriangleMesh& mesh,
                        const Progressive_mesh_options& options = Progressive_mesh_options())
 {
-  Progressive_surface result;
-  result.points = internal::copy_points(mesh);
-  result.progressive_mesh.number_of_vertices = result.points.size();
-  CGAL_precondition(options.is_locked.empty()
-                    || options.is_locked.size() == result.points.size());
-  if(!is_triangle_mesh(mesh)) {
-    result.error = "not all faces are triangles; triangulate the mesh first";
+  Progressive_surface result = internal::copy_surface(mesh);
+  if(!result.error.empty())
     return result;
-  }
-  const auto position = get(dynamic_vertex_property_t<Vertex_index>(), mesh);
-  internal::number_vertices(mesh, position);
-  result.progressive_mesh.triangles = internal::copy_triangles(mesh, position);
-  result.error = internal::point_error(result.points);
+  Indexed_triangle_mesh copy = {result.points, result.progressive_mesh.triangles};
+  if(normalize(copy) > 0.)
+    internal::decimate(std::move(copy), options, hierarchy_collapse_cost(),
+                       hierarchy_collapse_filter(options.angular_defect_bound), result);
+  else
+    result.error = "all edges are without length";
+  return result;
+}
+
+/*!
+\ingroup PkgHLSCMMultiresolution
+
+Returns a progressive mesh of `mesh`, made by `Flat_collapse_engine` with the given policies, which
+see the coordinates of `mesh` (those of this package want edge lengths of about 1, that is between
+1e-6 and 1e6) and a `Flat_collapse_profile`. `options.angular_defect_bound` is not used.
+
+\tparam TriangleMesh a model of `FaceListGraph` with a point property
+\tparam Cost a model of `GetCost`
+\tparam Filter a model of `PlacementFilter`
+
+Bad data: as above.
+*/
+template <class TriangleMesh, class Cost, class Filter>
+Progressive_surface build_progressive_mesh(const TriangleMesh& mesh,
+                                           const Progressive_mesh_options& options,
+                                           const Cost& cost, const Filter& filter)
+{
+  Progressive_surface result = internal::copy_surface(mesh);
   if(result.error.empty())
-    result.error = internal::decimate({result.points, result.progressive_mesh.triangles}, options,
-                                      result.progressive_mesh);
+    internal::decimate({result.points, result.progressive_mesh.triangles}, options, cost, filter,
+                       result);
   return result;
 }
 

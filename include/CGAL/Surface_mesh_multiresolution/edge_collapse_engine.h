@@ -105,7 +105,7 @@ Edges without length are collapsed first, whatever the target.
 \param is_locked for each vertex whether it must stay; empty for none
 \param options where to stop, and what is a feature
 
-Expected O(n log n) time; about thirty times slower than the flat engine.
+Expected O(n log n) time.
 */
 inline Progressive_mesh progressive_mesh_by_edge_collapse(const Indexed_triangle_mesh& mesh,
                                                           const std::vector<bool>& is_locked,

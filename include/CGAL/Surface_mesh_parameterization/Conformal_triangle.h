@@ -37,7 +37,8 @@ non-negative.
 class Conformal_triangle
 {
 public:
-  typedef std::complex<double> Complex;
+  typedef std::complex<double> Complex; ///< a value, or a vector in the plane of the triangle
+  /// The point type.
   typedef Surface_mesh_multiresolution::Indexed_triangle_mesh::Point_3 Point_3;
 
   /// Constructs the triangle.

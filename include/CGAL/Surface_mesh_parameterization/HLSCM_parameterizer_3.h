@@ -71,17 +71,21 @@ class HLSCM_parameterizer_3
 public:
   /// The mesh.
   typedef TriangleMesh_ TriangleMesh;
-  typedef TriangleMesh_ Triangle_mesh;
+  typedef TriangleMesh_ Triangle_mesh; ///< the same, by the name that CGAL 5.5 and later use
   /// What pins vertices.
   typedef typename Default::Get<BorderParameterizer_, internal::Far_border_pins>::type
     Border_parameterizer;
   /// What solves the coarsest level.
   typedef SolverTraits_ Solver_traits;
 
+  /// A vertex of the mesh.
   typedef typename boost::graph_traits<TriangleMesh>::vertex_descriptor vertex_descriptor;
+  /// A halfedge of the mesh.
   typedef typename boost::graph_traits<TriangleMesh>::halfedge_descriptor halfedge_descriptor;
+  /// The map of the mesh from vertices to points.
   typedef typename boost::property_map<TriangleMesh, boost::vertex_point_t>::const_type
     Vertex_point_map;
+  /// The kernel of these points.
   typedef typename Kernel_traits<
     typename boost::property_traits<Vertex_point_map>::value_type>::Kernel Kernel;
   /// A parameter (u, v).

@@ -49,8 +49,9 @@ public:
   // Whether the work, of which the stretch [begin, end] of the whole is done to `part`, goes on.
   bool operator()(double begin, double end, double part)
   {
+    m_done = (std::max)(m_done, begin + (end - begin) * part); // estimates may go back
     if(m_function && !m_is_cancelled)
-      m_is_cancelled = !m_function(begin + (end - begin) * part);
+      m_is_cancelled = !m_function(m_done);
     return !m_is_cancelled;
   }
 
@@ -58,6 +59,7 @@ public:
 
 private:
   const std::function<bool(double)>& m_function;
+  double m_done = 0.;
   bool m_is_cancelled = false;
 };
 
@@ -108,6 +110,10 @@ private:
                                     Multigrid::Complex_vector<Real>& z);
   void observe(std::size_t l, const Vector& z) const;
   void conclude(const Multigrid::Iteration_report& result, const char* remedy);
+  double energy_unit() const
+  {
+    return m_options.weights == Conformal_weights::EXACT ? 1. : 1. / (m_chart.scale * m_chart.scale);
+  }
   std::size_t maximal_iterations(std::size_t method_default) const
   {
     return m_options.maximal_iterations > 0 ? m_options.maximal_iterations : method_default;
@@ -185,8 +191,10 @@ void Conformal_solver<CoarsestSolver>::build_levels()
 }
 
 // The weights of the triangles of each level. CGAL's energy weights a triangle by eight times its
-// area; coarse triangles, which are larger, get the mean weight of the fine ones that they stand
-// for, so that the energy of a level resembles that of the finest.
+// area, here in the unit of the normalized chart, since squares of that of the input may not exist
+// in single precision; `energy_unit()` makes up for it. Coarse triangles, which are larger, get the
+// mean weight of the fine ones that they stand for, so that the energy of a level resembles that of
+// the finest.
 template <class CoarsestSolver>
 std::vector<std::vector<double>> Conformal_solver<CoarsestSolver>::triangle_weights() const
 {
@@ -197,7 +205,7 @@ std::vector<std::vector<double>> Conformal_solver<CoarsestSolver>::triangle_weig
   Vector density(mesh.points.size(), 0.); // weight and number of the triangles at each vertex
   for(const auto& t : mesh.triangles) {
     const Conformal_triangle triangle(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
-    weights.back().push_back(8. * triangle.area() / (m_chart.scale * m_chart.scale));
+    weights.back().push_back(8. * triangle.area());
     for(const auto v : t)
       density[v] += Complex(weights.back().back(), 1.);
   }
@@ -281,7 +289,7 @@ void Conformal_solver<CoarsestSolver>::conclude(const Multigrid::Iteration_repor
   m_report.iterations = result.iterations;
   m_report.converged = result.converged;
   m_report.cancelled = result.cancelled;
-  m_report.energy_gap_estimate = result.energy_gap;
+  m_report.energy_gap_estimate = energy_unit() * result.energy_gap;
   if(result.cancelled || result.converged || is_cascade())
     return;
   m_chart.fail(ERROR_CANNOT_SOLVE_LINEAR_SYSTEM, "the tolerance was not met after "
@@ -393,7 +401,7 @@ void Conformal_solver<CoarsestSolver>::solve_hierarchy(Vector& z)
     }
     m_report.levels[l].iterations = result.iterations;
     m_report.levels[l].seconds = watch.lap();
-    if(!m_progress(0.75, 1., double(l) / double(count)))
+    if(!m_progress(0.75, 0.8, double(l) / double(count)))
       return;
     observe(l, z);
   }
@@ -422,8 +430,12 @@ typename Conformal_solver<CoarsestSolver>::Vector Conformal_solver<CoarsestSolve
   case Conformal_method::LSCM: solve_monogrid(z); break;
   default: solve_hierarchy(z);
   }
-  if(!is_stopped())
-    m_report.energy = m_finest.energy(z);
+  if(!is_stopped() && m_progress(0.75, 1., 1.) && !is_hierarchical())
+    observe(0, z);
+  if(is_stopped())
+    m_report.converged = false;
+  else
+    m_report.energy = energy_unit() * m_finest.energy(z);
   m_report.seconds_solve += m_watch.lap();
   return z;
 }

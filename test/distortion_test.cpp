@@ -1,0 +1,519 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The measures on maps whose distortion is known, flips against exact integers, overlaps against
+// the areas of intersection of all pairs of triangles.
+
+#include <support/conformal_maps.h>
+#include <support/mesh_properties.h>
+
+#include <Eigen/Dense>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace distortion_test {
+
+using namespace test_support;
+using SMP::Distortion_measures;
+
+typedef std::complex<double> Complex;
+
+// The map p -> f(x + iy) of a planar mesh.
+template <class F>
+Parameters map_of(const Indexed_triangle_mesh& mesh, const F& f)
+{
+  Parameters uv;
+  for(const Point_3& p : mesh.points)
+    uv.push_back(f(Complex(p.x(), p.y())));
+  return uv;
+}
+
+bool has_overlap(const Indexed_triangle_mesh& arrays, const Parameters& uv)
+{
+  Surface_mesh mesh = to_surface_mesh(arrays);
+  return SMP::has_global_overlap(mesh, to_uv_map(mesh, uv));
+}
+
+Distortion_measures measure(const Indexed_triangle_mesh& arrays, const Parameters& uv)
+{
+  Surface_mesh mesh = to_surface_mesh(arrays);
+  return test_support::measure(mesh, uv);
+}
+
+std::size_t number_of_flipped_faces(const Indexed_triangle_mesh& arrays, const Parameters& uv)
+{
+  Surface_mesh mesh = to_surface_mesh(arrays);
+  std::vector<Surface_mesh::Face_index> flipped;
+  SMP::flipped_faces(mesh, to_uv_map(mesh, uv), std::back_inserter(flipped));
+  return flipped.size();
+}
+
+double area_of(const Indexed_triangle_mesh& mesh)
+{
+  double sum = 0.;
+  for(const auto& t : mesh.triangles)
+    sum += 0.5 * std::sqrt(CGAL::cross_product(mesh.points[t[1]] - mesh.points[t[0]],
+                                               mesh.points[t[2]] - mesh.points[t[0]])
+                             .squared_length());
+  return sum;
+}
+
+Indexed_triangle_mesh plane() { return irregular_grid(20, 15, 1); }
+
+// A rotation and a similarity of the mesh: no measure but the energy knows of them, and the energy
+// does not either.
+std::vector<Indexed_triangle_mesh> in_various_places(const Indexed_triangle_mesh& mesh)
+{
+  const CGAL::Aff_transformation_3<CGAL::Simple_cartesian<double>> rotation(
+    0.36, 0.48, -0.8, -0.8, 0.6, 0., 0.48, 0.64, 0.6);
+  const auto rotated = moved(mesh, [&](const Point_3& p) { return rotation.transform(p); });
+  return {mesh, rotated, scaled(rotated, 1e-30), scaled(rotated, 1e30),
+          translated(rotated, 1e5, -2e5, 3e5)};
+}
+
+// --- Linear maps
+
+// All measures of the map whose Jacobian is `j` everywhere.
+void expect_measures_of(const Eigen::Matrix2d& j)
+{
+  const Eigen::Vector2d s = j.jacobiSvd().singularValues();
+  const double det = j.determinant(), area = area_of(plane());
+  const Parameters uv = map_of(plane(), [&](Complex w) {
+    return Complex(j(0, 0) * w.real() + j(0, 1) * w.imag() + 3.,
+                   j(1, 0) * w.real() + j(1, 1) * w.imag() - 1.);
+  });
+  for(const auto& mesh : in_various_places(plane())) {
+    const Distortion_measures d = measure(mesh, uv);
+    const double ratio = s(0) / s(1), tolerance = 1e-8 * ratio;
+    EXPECT_NEAR(d.conformal_energy, 0.5 * area * std::pow(s(0) - s(1), 2), tolerance * area * s(0) * s(0));
+    EXPECT_NEAR(d.quasi_conformal_mean, ratio, tolerance * ratio);
+    EXPECT_NEAR(d.quasi_conformal_99, ratio, 1e-6 * ratio);
+    EXPECT_NEAR(d.quasi_conformal_max, ratio, tolerance * ratio);
+    EXPECT_NEAR(d.area_scale_range, 1., tolerance);
+    EXPECT_NEAR(d.stretch_L2,
+                std::sqrt(0.5 * (1. / (s(0) * s(0)) + 1. / (s(1) * s(1))) * det), tolerance * ratio);
+    EXPECT_NEAR(d.stretch_Linf, std::sqrt(det) / s(1), tolerance * ratio);
+    EXPECT_EQ(d.flipped_faces, 0u);
+    EXPECT_EQ(d.degenerate_faces, 0u);
+  }
+}
+
+TEST(Measures, of_a_similarity)
+{
+  expect_measures_of((Eigen::Matrix2d() << 1., 0., 0., 1.).finished());
+  expect_measures_of((Eigen::Matrix2d() << 30., -40., 40., 30.).finished());
+  expect_measures_of((Eigen::Matrix2d() << 3e-5, -4e-5, 4e-5, 3e-5).finished());
+}
+
+TEST(Measures, of_a_map_that_doubles_u)
+{
+  expect_measures_of((Eigen::Matrix2d() << 2., 0., 0., 1.).finished());
+  const Distortion_measures d
+    = measure(plane(), map_of(plane(), [](Complex w) { return w + w.real(); }));
+  EXPECT_NEAR(d.conformal_energy, 0.5 * area_of(plane()), 1e-9);
+  EXPECT_NEAR(d.quasi_conformal_mean, 2., 1e-12);
+  EXPECT_NEAR(d.stretch_L2, std::sqrt(1.25), 1e-12);
+  EXPECT_NEAR(d.stretch_Linf, std::sqrt(2.), 1e-12);
+}
+
+TEST(Measures, of_random_linear_maps)
+{
+  Random random(1);
+  for(int trial = 0; trial < 20; ++trial) {
+    Eigen::Matrix2d j;
+    for(double& entry : j.reshaped())
+      entry = uniform(random, -1., 1.);
+    if(j.determinant() < 0.)
+      j.row(0) *= -1.;
+    expect_measures_of(j);
+  }
+}
+
+TEST(Measures, of_a_mirrored_map)
+{
+  const Distortion_measures d
+    = measure(plane(), map_of(plane(), [](Complex w) { return std::conj(w); }));
+  EXPECT_EQ(d.flipped_faces, plane().triangles.size());
+  EXPECT_NEAR(d.conformal_energy, 2. * area_of(plane()), 1e-9); // (1 - (-1))^2 / 2
+  EXPECT_EQ(d.quasi_conformal_max, 0.); // no face is regular
+  EXPECT_EQ(d.stretch_L2, 0.);
+}
+
+// --- Maps that differ from face to face
+
+// Separate right triangles with the legs a, a in space and s1 a, s2 a in the plane.
+struct Stretched
+{
+  double leg, sigma_1, sigma_2;
+  int number;
+};
+
+Distortion_measures measure(const std::vector<Stretched>& groups)
+{
+  Indexed_triangle_mesh mesh;
+  Parameters uv;
+  for(const auto& [leg, sigma_1, sigma_2, number] : groups)
+    for(int i = 0; i < number; ++i) {
+      const auto v = Vertex_index(mesh.points.size());
+      mesh.triangles.push_back({v, v + 1, v + 2});
+      mesh.points.insert(mesh.points.end(),
+                         {Point_3(7., i, 0.), Point_3(7., i + leg, 0.), Point_3(7., i, leg)});
+      const Complex corner(0.3 * i, 0.1);
+      uv.insert(uv.end(), {corner, corner + sigma_1 * leg, corner + Complex(0., sigma_2 * leg)});
+    }
+  return measure(mesh, uv);
+}
+
+TEST(Measures, are_weighted_by_area)
+{
+  // Areas 1/2, 2 and 8: together 50 + 20 + 8
+  const Distortion_measures d
+    = measure({{1., 1., 1., 100}, {2., 3., 1., 10}, {4., 1., 0.2, 1}});
+  EXPECT_NEAR(d.quasi_conformal_mean, (50. * 1. + 20. * 3. + 8. * 5.) / 78., 1e-12);
+  EXPECT_NEAR(d.quasi_conformal_max, 5., 1e-12);
+  EXPECT_NEAR(d.area_scale_range, 3. / 0.2, 1e-10);
+  EXPECT_NEAR(d.conformal_energy, 0.5 * (20. * 4. + 8. * 0.64), 1e-10);
+  const double scale = (50. + 60. + 1.6) / 78.;
+  EXPECT_NEAR(d.stretch_L2, std::sqrt(scale * (50. + 20. * (1. / 9. + 1.) / 2. + 8. * 26. / 2.) / 78.),
+              1e-12);
+  EXPECT_NEAR(d.stretch_Linf, 5. * std::sqrt(scale), 1e-12);
+}
+
+TEST(Measures, quantile_holds_99_percent_of_the_area)
+{
+  // The third group is 2 % of the faces, but 0.5 % of the area.
+  EXPECT_NEAR(measure({{1., 1., 1., 92}, {1., 3., 1., 7}, {0.5, 9., 1., 2}}).quasi_conformal_99,
+              3., 1e-6);
+  // Here it is 1 % of the faces and 13 % of the area.
+  EXPECT_NEAR(measure({{1., 1., 1., 92}, {1., 3., 1., 7}, {4., 9., 1., 1}}).quasi_conformal_99,
+              9., 1e-6);
+}
+
+TEST(Measures, leave_faces_without_area_out)
+{
+  const std::vector<Stretched> good = {{1., 1.5, 1., 10}};
+  const Distortion_measures expected = measure(good);
+  Indexed_triangle_mesh mesh;
+  Parameters uv;
+  for(int i = 0; i < 10; ++i) {
+    mesh.points.insert(mesh.points.end(), {Point_3(i, 0, 0), Point_3(i + 1., 0, 0), Point_3(i, 1, 0)});
+    uv.insert(uv.end(), {Complex(2. * i, 0.), Complex(2. * i + 1.5, 0.), Complex(2. * i, 1.)});
+  }
+  // One without area in space, one without area in the plane, one with a hole in its numbers
+  mesh.points.insert(mesh.points.end(), {Point_3(0, 9, 0), Point_3(1, 9, 0), Point_3(2, 9, 0)});
+  uv.insert(uv.end(), {Complex(0., 9.), Complex(1., 9.), Complex(0., 10.)});
+  mesh.points.insert(mesh.points.end(), {Point_3(0, 7, 0), Point_3(1, 7, 0), Point_3(0, 8, 0)});
+  uv.insert(uv.end(), {Complex(0., 7.), Complex(1., 7.), Complex(2., 7.)});
+  mesh.points.insert(mesh.points.end(), {Point_3(0, 5, 0), Point_3(1, 5, 0), Point_3(0, 6, 0)});
+  uv.insert(uv.end(), {Complex(0., 5.), Complex(1., 5.), Complex(0., std::nan(""))});
+  for(Vertex_index v = 0; v < mesh.points.size(); v += 3)
+    mesh.triangles.push_back({v, v + 1, v + 2});
+  const Distortion_measures d = measure(mesh, uv);
+  EXPECT_EQ(d.flipped_faces, 0u);
+  EXPECT_EQ(d.degenerate_faces, 2u);
+  EXPECT_NEAR(d.quasi_conformal_mean, expected.quasi_conformal_mean, 1e-12);
+  EXPECT_NEAR(d.quasi_conformal_max, expected.quasi_conformal_max, 1e-12);
+  EXPECT_NEAR(d.area_scale_range, expected.area_scale_range, 1e-12);
+  EXPECT_NEAR(d.stretch_L2, expected.stretch_L2, 1e-12);
+  EXPECT_NEAR(d.stretch_Linf, expected.stretch_Linf, 1e-12);
+  EXPECT_FALSE(has_overlap(mesh, uv));
+}
+
+TEST(Measures, of_nothing)
+{
+  Surface_mesh mesh;
+  const Uv_map uvmap = new_uv_map(mesh);
+  EXPECT_EQ(SMP::measure_distortion(mesh, uvmap).stretch_L2, 0.);
+  EXPECT_FALSE(SMP::has_global_overlap(mesh, uvmap));
+}
+
+// --- The energy, by gradients
+
+TEST(Energy, is_dirichlet_minus_area)
+{
+  Random random(2);
+  for(auto mesh : {with_hills(plane(), 5., 3), with_slivers(with_hills(plane(), 5., 3), 20.)}) {
+    Parameters uv = map_of(mesh, [](Complex w) { return w; });
+    for(Complex& z : uv)
+      z += Complex(uniform(random, -1., 1.), uniform(random, -1., 1.)); // some faces flip
+    double dirichlet = 0., area = 0.;
+    for(const auto& t : mesh.triangles) {
+      const auto e1 = mesh.points[t[1]] - mesh.points[t[0]], e2 = mesh.points[t[2]] - mesh.points[t[0]];
+      const Complex d1 = uv[t[1]] - uv[t[0]], d2 = uv[t[2]] - uv[t[0]];
+      const double twice = std::sqrt(CGAL::cross_product(e1, e2).squared_length());
+      dirichlet += 0.25 / twice * ((e2 * e2) * std::norm(d1) + (e1 * e1) * std::norm(d2)
+                                   - 2. * (e1 * e2) * (std::conj(d1) * d2).real());
+      area += 0.5 * (std::conj(d1) * d2).imag();
+    }
+    const Distortion_measures d = measure(mesh, uv);
+    EXPECT_GT(d.flipped_faces, 0u);
+    EXPECT_NEAR(d.conformal_energy, dirichlet - area, 1e-10 * dirichlet);
+  }
+}
+
+// --- Flips
+
+// Orientation tests of points that lie within 2^-47 of a line (Kettner et al. 2008, figure 2), against
+// integers of 128 bits.
+TEST(Flips, are_exact)
+{
+  const double unit = 0x1p-53;
+  Indexed_triangle_mesh mesh;
+  Parameters uv;
+  std::size_t flipped = 0, degenerate = 0, wrong_if_rounded = 0;
+  for(int i = 0; i < 64; ++i)
+    for(int j = 0; j < 64; ++j) {
+      const double p[6] = {0.5 + i * unit, 0.5 + j * unit, 12., 12., 24., 24.};
+      __int128 n[6];
+      for(int k = 0; k < 6; ++k)
+        n[k] = __int128(std::ldexp(p[k], 53));
+      const __int128 exact = (n[2] - n[0]) * (n[5] - n[1]) - (n[4] - n[0]) * (n[3] - n[1]);
+      const double rounded = (p[2] - p[0]) * (p[5] - p[1]) - (p[4] - p[0]) * (p[3] - p[1]);
+      flipped += exact < 0 ? 1 : 0;
+      degenerate += exact == 0 ? 1 : 0;
+      wrong_if_rounded += (exact < 0) != (rounded < 0.) ? 1 : 0;
+      const auto v = Vertex_index(mesh.points.size());
+      mesh.triangles.push_back({v, v + 1, v + 2});
+      mesh.points.insert(mesh.points.end(), {Point_3(0, 0, 0), Point_3(1, 0, 0), Point_3(0, 1, 0)});
+      uv.insert(uv.end(), {Complex(p[0], p[1]), Complex(p[2], p[3]), Complex(p[4], p[5])});
+    }
+  EXPECT_GT(wrong_if_rounded, 100u); // or this test would not test anything
+  EXPECT_EQ(measure(mesh, uv).flipped_faces, flipped);
+  EXPECT_EQ(measure(mesh, uv).degenerate_faces, degenerate);
+  EXPECT_EQ(number_of_flipped_faces(mesh, uv), flipped);
+}
+
+TEST(Flips, are_named)
+{
+  const auto arrays = plane();
+  Surface_mesh mesh = to_surface_mesh(arrays);
+  // An inner vertex drawn across one of its neighbours' links
+  const std::size_t v = 10 * 21 + 10;
+  Parameters uv = map_of(arrays, [](Complex w) { return w; });
+  uv[v] += Complex(2.5, 0.);
+  std::vector<Surface_mesh::Face_index> flipped, expected;
+  SMP::flipped_faces(mesh, to_uv_map(mesh, uv), std::back_inserter(flipped));
+  for(std::size_t t = 0; t < arrays.triangles.size(); ++t) {
+    const auto [a, b, c] = arrays.triangles[t];
+    if((std::conj(uv[b] - uv[a]) * (uv[c] - uv[a])).imag() < 0.)
+      expected.push_back(Surface_mesh::Face_index(Vertex_index(t)));
+  }
+  EXPECT_GE(expected.size(), 1u);
+  EXPECT_EQ(flipped, expected);
+  EXPECT_TRUE(has_overlap(arrays, uv));
+}
+
+// --- Overlaps
+
+TEST(Overlap, none_in_planar_charts)
+{
+  for(const auto& [name, mesh] : planar_charts(1)) {
+    const Complex turn = std::polar(1., 0.3);
+    EXPECT_FALSE(has_overlap(mesh, map_of(mesh, [&](Complex w) { return turn * w; }))) << name;
+    EXPECT_FALSE(has_overlap(mesh, map_of(mesh, [&](Complex w) { return std::conj(turn * w); })))
+      << name << ", mirrored";
+  }
+}
+
+TEST(Overlap, of_a_fold)
+{
+  const auto mesh = plane();
+  EXPECT_TRUE(has_overlap(mesh, map_of(mesh, [](Complex w) {
+    return Complex(std::abs(w.real() - 10.5), w.imag());
+  })));
+}
+
+// A ribbon around the origin whose radius grows by `growth` a turn; it is 1 wide.
+Parameters spiral(const Indexed_triangle_mesh& ribbon, double turns, double growth)
+{
+  return map_of(ribbon, [=](Complex w) {
+    const double part = w.real() / 100.;
+    return std::polar(5. - w.imag() + growth * turns * part, 2. * CGAL_PI * turns * part);
+  });
+}
+
+TEST(Overlap, of_a_spiral_without_flips)
+{
+  const auto ribbon = with_slivers(grid(100, 3), 3.);
+  for(const double growth : {0.5, 0.9}) {
+    EXPECT_EQ(number_of_flipped_faces(ribbon, spiral(ribbon, 1.3, growth)), 0u);
+    EXPECT_TRUE(has_overlap(ribbon, spiral(ribbon, 1.3, growth))) << growth;
+  }
+  EXPECT_FALSE(has_overlap(ribbon, spiral(ribbon, 1.3, 1.5)));
+  EXPECT_FALSE(has_overlap(ribbon, spiral(ribbon, 0.9, 0.)));
+  EXPECT_TRUE(has_overlap(ribbon, spiral(ribbon, 1.001, 0.)));
+  EXPECT_TRUE(has_overlap(ribbon, spiral(ribbon, 3., 0.2)));
+}
+
+// The ends of a ribbon meet exactly, as at a seam: they touch, and do not overlap.
+TEST(Overlap, none_where_borders_touch)
+{
+  const Vertex_index columns = 100, rows = 3;
+  const auto ribbon = with_slivers(grid(columns, rows), 3.);
+  Parameters uv = spiral(ribbon, 1., 0.);
+  for(Vertex_index j = 0; j <= rows; ++j)
+    uv[j * (columns + 1) + columns] = uv[j * (columns + 1)];
+  EXPECT_FALSE(has_overlap(ribbon, uv));
+  uv[columns] = std::polar(1., 1e-9) * uv[0]; // a bit too far
+  EXPECT_TRUE(has_overlap(ribbon, uv));
+  uv[columns] = std::polar(1., -1e-9) * uv[0];
+  EXPECT_FALSE(has_overlap(ribbon, uv));
+}
+
+// A tooth of the border that touches another part of the border with its tip
+TEST(Overlap, none_where_a_tip_touches)
+{
+  Indexed_triangle_mesh mesh;
+  mesh.points = {Point_3(0, 0, 0), Point_3(4, 0, 0), Point_3(4, 1, 0), Point_3(0, 1, 0),
+                 Point_3(4, 2, 0), Point_3(2, 2, 0)};
+  mesh.triangles = {{0, 1, 3}, {1, 2, 3}, {2, 4, 5}};
+  // The triangle (2, 4, 5) is bent over the edge (2, 3): its tip 5 touches it, or goes through.
+  const auto uv_with_tip = [&](Complex tip) {
+    Parameters uv = map_of(mesh, [](Complex w) { return w; });
+    uv[4] = Complex(3., 2.);
+    uv[2] = Complex(4., 1.);
+    uv[5] = tip;
+    return uv;
+  };
+  EXPECT_FALSE(has_overlap(mesh, uv_with_tip({2., 1.25})));
+  EXPECT_FALSE(has_overlap(mesh, uv_with_tip({2., 1.})));
+  EXPECT_TRUE(has_overlap(mesh, uv_with_tip({2., 0.75})));
+}
+
+// z^2, bent a bit so that the border crosses itself: every point near the middle is covered twice, by
+// faces of which none is flipped.
+TEST(Overlap, around_a_branch_point)
+{
+  const auto mesh = disk(4, 60);
+  const Parameters uv = map_of(mesh, [](Complex w) { return w * w + 0.3 * w * std::abs(w); });
+  EXPECT_EQ(number_of_flipped_faces(mesh, uv), 0u);
+  EXPECT_TRUE(has_overlap(mesh, uv));
+}
+
+// Turning a ring inside out makes the inner border the outer one.
+TEST(Overlap, none_in_a_ring_inside_out)
+{
+  Indexed_triangle_mesh ring = disk(8, 40);
+  std::vector<bool> is_kept(ring.points.size(), true);
+  is_kept[0] = false;
+  ring = without_vertices(ring, is_kept);
+  EXPECT_FALSE(has_overlap(ring, map_of(ring, [](Complex w) { return w; })));
+  EXPECT_FALSE(has_overlap(ring, map_of(ring, [](Complex w) { return 1. / w; })));
+}
+
+TEST(Overlap, of_several_charts)
+{
+  const auto ring = [] {
+    const Indexed_triangle_mesh mesh = disk(8, 40);
+    std::vector<bool> is_kept(mesh.points.size(), true);
+    is_kept[0] = false;
+    return without_vertices(mesh, is_kept);
+  }();
+  const auto add = [](Indexed_triangle_mesh a, const Indexed_triangle_mesh& b) {
+    const auto shift = Vertex_index(a.points.size());
+    a.points.insert(a.points.end(), b.points.begin(), b.points.end());
+    for(const auto& t : b.triangles)
+      a.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+    return a;
+  };
+  const auto disk = round_disk(5); // of radius 1; the ring is from 1 to 8
+  const auto identity = [](Complex w) { return w; };
+  const auto overlaps = [&](const Indexed_triangle_mesh& mesh) {
+    return has_overlap(mesh, map_of(mesh, identity));
+  };
+  EXPECT_FALSE(overlaps(add(ring, translated(disk, 20., 0., 0.))));     // beside
+  EXPECT_FALSE(overlaps(add(ring, scaled(disk, 0.5))));                 // in the hole
+  EXPECT_TRUE(overlaps(add(ring, translated(disk, 4., 0., 0.))));       // within the ring
+  EXPECT_TRUE(overlaps(add(ring, translated(disk, 8., 0., 0.))));       // across its border
+  EXPECT_TRUE(overlaps(add(ring, ring)));                               // on it
+  // One of them mirrored
+  const auto both = add(ring, disk);
+  for(const double shift : {20., 3.}) {
+    Parameters uv = map_of(both, identity);
+    for(std::size_t v = ring.points.size(); v < uv.size(); ++v)
+      uv[v] = std::conj(uv[v]) + shift;
+    EXPECT_EQ(has_overlap(both, uv), shift < 10.);
+  }
+}
+
+// The area that two triangles have in common, by clipping.
+double common_area(std::vector<Complex> a, std::vector<Complex> b)
+{
+  const auto cross = [](Complex p, Complex q, Complex r) { return (std::conj(q - p) * (r - p)).imag(); };
+  for(auto* t : {&a, &b})
+    if(cross((*t)[0], (*t)[1], (*t)[2]) < 0.)
+      std::swap((*t)[1], (*t)[2]);
+  for(int side = 0; side < 3; ++side) {
+    const Complex p = b[side], q = b[(side + 1) % 3];
+    std::vector<Complex> kept;
+    for(std::size_t i = 0; i < a.size(); ++i) {
+      const Complex r = a[i], s = a[(i + 1) % a.size()];
+      const double dr = cross(p, q, r), ds = cross(p, q, s);
+      if(dr >= 0.)
+        kept.push_back(r);
+      if((dr > 0.) != (ds > 0.) && dr != ds)
+        kept.push_back(r + dr / (dr - ds) * (s - r));
+    }
+    a.swap(kept);
+  }
+  double twice = 0.;
+  for(std::size_t i = 1; i + 1 < a.size(); ++i)
+    twice += cross(a[0], a[i], a[i + 1]);
+  return 0.5 * twice;
+}
+
+double greatest_common_area(const Indexed_triangle_mesh& mesh, const Parameters& uv)
+{
+  double greatest = 0.;
+  for(std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    for(std::size_t j = 0; j < i; ++j) {
+      std::vector<Complex> corners[2];
+      for(int c = 0; c < 3; ++c) {
+        corners[0].push_back(uv[mesh.triangles[i][c]]);
+        corners[1].push_back(uv[mesh.triangles[j][c]]);
+      }
+      greatest = (std::max)(greatest, common_area(corners[0], corners[1]));
+    }
+  return greatest;
+}
+
+// Random maps of small charts, of all kinds: with flips and without, bent until they meet themselves
+TEST(Overlap, is_a_common_area_of_two_faces)
+{
+  Random random(5);
+  int overlapping = 0, trials = 0, without_flips = 0;
+  for(std::uint64_t seed = 1; seed <= 100; ++seed) {
+    const auto mesh = with_jagged_border(with_holes(irregular_grid(12, 3, seed), seed % 3, seed),
+                                         0.5, seed);
+    const double bend = uniform(random, 0., 0.8), growth = uniform(random, 0., 0.3),
+                 noise = seed % 2 == 0 ? 0. : uniform(random, 0., 0.3);
+    const Parameters uv = map_of(mesh, [&](Complex w) {
+      const Complex jump(uniform(random, -noise, noise), uniform(random, -noise, noise));
+      return jump + (5. + growth * w.real() - w.imag()) * std::polar(1., bend * w.real());
+    });
+    const double area = greatest_common_area(mesh, uv);
+    if(area > 0. && area < 1e-9)
+      continue; // within the rounding errors of clipping
+    ++trials;
+    overlapping += area > 0. ? 1 : 0;
+    without_flips += area > 0. && number_of_flipped_faces(mesh, uv) == 0 ? 1 : 0;
+    EXPECT_EQ(has_overlap(mesh, uv), area > 0.) << "seed " << seed << " area " << area;
+    // The definition alone, without the shortcuts
+    Surface_mesh surface_mesh = to_surface_mesh(mesh);
+    const SMP::internal::Uv_view<Surface_mesh, Uv_map> view(surface_mesh,
+                                                            to_uv_map(surface_mesh, uv));
+    EXPECT_EQ(SMP::internal::has_overlapping_triangles(view), area > 0.) << "seed " << seed;
+  }
+  EXPECT_GE(trials, 90);
+  EXPECT_GE(overlapping, 20);
+  EXPECT_GE(without_flips, 5);
+  EXPECT_LE(overlapping, 80);
+}
+
+} // namespace distortion_test
