@@ -22,7 +22,7 @@ template <class Real>
 std::vector<Real> l1_inverse_diagonal(const Hermitian_matrix<Real>& h)
 {
   std::vector<Real> inverse(h.size());
-  for(std::size_t slot = 0; slot < h.size(); ++slot) {
+  for_each_index(h.size(), [&](std::size_t slot) {
     double sum = 0.;
     h.for_each_entry(slot, [&](std::uint32_t, std::complex<Real> value) {
       sum += std::sqrt(double(std::norm(value)));
@@ -30,7 +30,7 @@ std::vector<Real> l1_inverse_diagonal(const Hermitian_matrix<Real>& h)
     const std::size_t i = h.pattern().row_of_slot[slot];
     sum = 0.5 * (double(h.diagonal()[i]) + sum);
     inverse[i] = h.diagonal()[i] > 0 && sum > 0. ? Real(1. / sum) : Real(0);
-  }
+  });
   return inverse;
 }
 
@@ -59,20 +59,20 @@ void chebyshev_steps(const Hermitian_matrix<Real>& h, const std::vector<Real>& i
   z.resize(n);
   constexpr Real bound = Real(2);
   Real old_weight = 0, new_weight = Real(4) / (3 * bound);
-  for(std::size_t i = 0; i < n; ++i) {
+  for_each_index(n, [&](std::size_t i) {
     z[i] = new_weight * inverse_diagonal[i] * r[i];
     u[i] += z[i];
-  }
+  });
   for(unsigned int k = 2; k <= steps; ++k) {
     h.for_each_row_sum(z, [&](std::size_t i, std::complex<Real> s) {
       r[i] -= h.diagonal()[i] * z[i] + s;
     });
     old_weight = Real(2 * k - 3) / Real(2 * k + 1);
     new_weight = Real(8 * k - 4) / (Real(2 * k + 1) * bound);
-    for(std::size_t i = 0; i < n; ++i) {
+    for_each_index(n, [&](std::size_t i) {
       z[i] = old_weight * z[i] + new_weight * inverse_diagonal[i] * r[i];
       u[i] += z[i];
-    }
+    });
   }
 }
 

@@ -82,8 +82,8 @@ public:
   /// Returns the pattern. Precondition: the matrix was built.
   const Sliced_pattern& pattern() const { return *m_pattern; }
 
-  /// Calls `use(i, s)` for every row i with \f$ s = \sum_{j \ne i} H_{ij} x_j \f$; rows come in the
-  /// order of the slices.
+  /// Calls `use(i, s)` for every row i with \f$ s = \sum_{j \ne i} H_{ij} x_j \f$, in any order and
+  /// possibly at the same time.
   template <class Use>
   void for_each_row_sum(const Complex_vector<Real>& x, const Use& use) const;
 
@@ -191,20 +191,22 @@ void Hermitian_matrix<Real>::for_each_row_sum(const Complex_vector<Real>& x, con
 {
   const Sliced_pattern& p = *m_pattern;
   const Real* xp = reinterpret_cast<const Real*>(x.data());
-  for(std::size_t s = 0; s < p.slices(); ++s) {
-    const std::size_t begin = std::size_t(p.slice_begin[s]) * internal::slice_rows;
-    const std::size_t width = p.slice_begin[s + 1] - p.slice_begin[s];
-    Real sum[2 * internal::slice_rows];
-    internal::sum_slice(p.column.data() + begin, m_re.data() + begin, width, xp, sum);
-    if(p.imaginary[s] != Sliced_pattern::none)
-      internal::add_imaginary(p.column.data() + begin,
-                              m_im.data() + std::size_t(p.imaginary[s]) * internal::slice_rows,
-                              width, xp, sum);
-    const std::size_t slot = s * internal::slice_rows;
-    const std::size_t count = (std::min)(p.rows - slot, std::size_t(internal::slice_rows));
-    for(std::size_t r = 0; r < count; ++r)
-      use(std::size_t(p.row_of_slot[slot + r]), Complex(sum[2 * r], sum[2 * r + 1]));
-  }
+  Blocked_execution::blocked_for(p.slices(), 1024, [&](std::size_t first, std::size_t last) {
+    for(std::size_t s = first; s < last; ++s) {
+      const std::size_t begin = std::size_t(p.slice_begin[s]) * internal::slice_rows;
+      const std::size_t width = p.slice_begin[s + 1] - p.slice_begin[s];
+      Real sum[2 * internal::slice_rows];
+      internal::sum_slice(p.column.data() + begin, m_re.data() + begin, width, xp, sum);
+      if(p.imaginary[s] != Sliced_pattern::none)
+        internal::add_imaginary(p.column.data() + begin,
+                                m_im.data() + std::size_t(p.imaginary[s]) * internal::slice_rows,
+                                width, xp, sum);
+      const std::size_t slot = s * internal::slice_rows;
+      const std::size_t count = (std::min)(p.rows - slot, std::size_t(internal::slice_rows));
+      for(std::size_t r = 0; r < count; ++r)
+        use(std::size_t(p.row_of_slot[slot + r]), Complex(sum[2 * r], sum[2 * r + 1]));
+    }
+  });
 }
 
 template <class Real>

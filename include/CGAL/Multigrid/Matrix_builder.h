@@ -6,6 +6,10 @@
 
 #include <CGAL/Multigrid/Hermitian_matrix.h>
 
+#include <CGAL/Blocked_execution/blocked_for.h>
+
+#include <algorithm>
+#include <array>
 #include <memory>
 #include <utility>
 
@@ -21,36 +25,102 @@ class Matrix_builder
 {
 public:
   /// Returns the matrix of the given row lengths, whose row i is what `fill(i, row)` leaves in the
-  /// `Matrix_row`. A row may be shorter than announced, not longer. One call a row.
+  /// empty `Matrix_row` that it is given. A row may be shorter than announced, not longer. One call a
+  /// row, in any order and possibly at the same time.
   template <class Real, class Fill>
   static Hermitian_matrix<Real> build(const std::vector<std::uint32_t>& row_lengths,
                                       const Fill& fill);
 
 private:
+  static constexpr std::size_t rows = Sliced_pattern::slice_rows;
+  static constexpr std::size_t block_slices = 512;
+
   static void sort_slots(const std::vector<std::uint32_t>& lengths, Sliced_pattern& pattern);
+  static void sort_window(const std::vector<std::uint32_t>& lengths, std::size_t begin,
+                          std::size_t end, Sliced_pattern& pattern);
+  template <class Real>
+  static void store_row(const Matrix_row& row, std::uint32_t i, std::size_t slot,
+                        Sliced_pattern& pattern, Hermitian_matrix<Real>& matrix,
+                        std::vector<Real>& imaginary_of_block);
+  template <class Real>
+  static void join_imaginary(std::vector<std::vector<Real>>& blocks, Sliced_pattern& pattern,
+                             Hermitian_matrix<Real>& matrix);
 };
 
-// Rows of a window are sorted by length, longest first, so that slices need little padding.
+// Sorts the rows of a window by length, longest first, stably.
+inline void Matrix_builder::sort_window(const std::vector<std::uint32_t>& lengths,
+                                        std::size_t begin, std::size_t end,
+                                        Sliced_pattern& pattern)
+{
+  constexpr std::uint32_t longest = 31; // longer rows are rare and come first, in their order
+  std::array<std::uint32_t, longest + 2> first = {};
+  const auto place = [&](std::size_t i) { return longest - (std::min)(lengths[i], longest); };
+  for(std::size_t i = begin; i < end; ++i)
+    ++first[place(i) + 1];
+  for(std::uint32_t l = 0; l <= longest; ++l)
+    first[l + 1] += first[l];
+  for(std::size_t i = begin; i < end; ++i)
+    pattern.row_of_slot[begin + first[place(i)]++] = std::uint32_t(i);
+}
+
+// Rows of a window are sorted by length, so that slices need little padding.
 inline void Matrix_builder::sort_slots(const std::vector<std::uint32_t>& lengths,
                                        Sliced_pattern& pattern)
 {
   const std::size_t n = lengths.size();
-  const std::size_t slices = (n + Sliced_pattern::slice_rows - 1) / Sliced_pattern::slice_rows;
+  const std::size_t slices = Blocked_execution::number_of_blocks(n, rows);
   pattern.rows = n;
-  pattern.row_of_slot.assign(slices * Sliced_pattern::slice_rows, 0);
-  for(std::size_t i = 0; i < n; ++i)
-    pattern.row_of_slot[i] = std::uint32_t(i);
-  for(std::size_t begin = 0; begin < n; begin += Sliced_pattern::sorting_window) {
-    const std::size_t end = (std::min)(begin + Sliced_pattern::sorting_window, n);
-    std::stable_sort(pattern.row_of_slot.begin() + begin, pattern.row_of_slot.begin() + end,
-                     [&](std::uint32_t a, std::uint32_t b) { return lengths[a] > lengths[b]; });
-  }
+  pattern.row_of_slot.assign(slices * rows, 0);
+  Blocked_execution::blocked_for(n, Sliced_pattern::sorting_window,
+                                 [&](std::size_t begin, std::size_t end) {
+    sort_window(lengths, begin, end, pattern);
+  });
   pattern.slice_begin.assign(slices + 1, 0);
   for(std::size_t s = 0; s < slices; ++s) {
     std::uint32_t width = 0;
-    for(std::size_t slot = s * 8; slot < (std::min)(s * 8 + 8, n); ++slot)
+    for(std::size_t slot = s * rows; slot < (std::min)((s + 1) * rows, n); ++slot)
       width = (std::max)(width, lengths[pattern.row_of_slot[slot]]);
     pattern.slice_begin[s + 1] = pattern.slice_begin[s] + width;
+  }
+}
+
+template <class Real>
+void Matrix_builder::store_row(const Matrix_row& row, std::uint32_t i, std::size_t slot,
+                               Sliced_pattern& pattern, Hermitian_matrix<Real>& matrix,
+                               std::vector<Real>& imaginary_of_block)
+{
+  const std::size_t s = slot / rows, r = slot % rows;
+  const std::size_t width = pattern.slice_begin[s + 1] - pattern.slice_begin[s];
+  matrix.m_diagonal[i] = Real(row.diagonal);
+  for(std::size_t k = 0; k < width; ++k) {
+    const std::size_t at = (pattern.slice_begin[s] + k) * rows + r;
+    // Padding refers to the row itself, which is in the cache.
+    pattern.column[at] = k < row.entries.size() ? row.entries[k].column : i;
+    if(k >= row.entries.size())
+      continue;
+    matrix.m_re[at] = Real(row.entries[k].re);
+    if(row.entries[k].im == 0.)
+      continue;
+    if(pattern.imaginary[s] == Sliced_pattern::none) { // counted from the begin of the block
+      pattern.imaginary[s] = std::uint32_t(imaginary_of_block.size() / rows);
+      imaginary_of_block.resize(imaginary_of_block.size() + width * rows, Real(0));
+    }
+    imaginary_of_block[(pattern.imaginary[s] + k) * rows + r] = Real(row.entries[k].im);
+  }
+}
+
+// Puts the imaginary parts of the blocks one after the other.
+template <class Real>
+void Matrix_builder::join_imaginary(std::vector<std::vector<Real>>& blocks,
+                                    Sliced_pattern& pattern, Hermitian_matrix<Real>& matrix)
+{
+  for(std::size_t b = 0; b < blocks.size(); ++b) {
+    const std::uint32_t offset = std::uint32_t(matrix.m_im.size() / rows);
+    const std::size_t end = (std::min)((b + 1) * block_slices, pattern.slices());
+    for(std::size_t s = b * block_slices; s < end; ++s)
+      if(pattern.imaginary[s] != Sliced_pattern::none)
+        pattern.imaginary[s] += offset;
+    matrix.m_im.insert(matrix.m_im.end(), blocks[b].begin(), blocks[b].end());
   }
 }
 
@@ -60,38 +130,26 @@ Hermitian_matrix<Real> Matrix_builder::build(const std::vector<std::uint32_t>& r
 {
   auto pattern = std::make_shared<Sliced_pattern>();
   sort_slots(row_lengths, *pattern);
-  Hermitian_matrix<Real> matrix;
   const std::size_t slices = pattern->slice_begin.size() - 1;
-  constexpr std::size_t rows = Sliced_pattern::slice_rows;
   pattern->imaginary.assign(slices, Sliced_pattern::none);
   pattern->column.assign(pattern->slice_begin[slices] * rows, 0);
+  Hermitian_matrix<Real> matrix;
   matrix.m_re.assign(pattern->slice_begin[slices] * rows, Real(0));
   matrix.m_diagonal.assign(pattern->rows, Real(0));
-  Matrix_row row;
-  for(std::size_t slot = 0; slot < pattern->rows; ++slot) {
-    const std::size_t s = slot / rows, r = slot % rows;
-    const std::uint32_t i = pattern->row_of_slot[slot];
-    const std::size_t width = pattern->slice_begin[s + 1] - pattern->slice_begin[s];
-    row.diagonal = 0.;
-    row.entries.clear();
-    fill(i, row);
-    matrix.m_diagonal[i] = Real(row.diagonal);
-    // Padding refers to the row itself, which is in the cache.
-    for(std::size_t k = 0; k < width; ++k) {
-      const std::size_t at = (pattern->slice_begin[s] + k) * rows + r;
-      pattern->column[at] = k < row.entries.size() ? row.entries[k].column : i;
-      if(k >= row.entries.size())
-        continue;
-      matrix.m_re[at] = Real(row.entries[k].re);
-      if(row.entries[k].im == 0.)
-        continue;
-      if(pattern->imaginary[s] == Sliced_pattern::none) {
-        pattern->imaginary[s] = std::uint32_t(matrix.m_im.size() / rows);
-        matrix.m_im.resize(matrix.m_im.size() + width * rows, Real(0));
-      }
-      matrix.m_im[(pattern->imaginary[s] + k) * rows + r] = Real(row.entries[k].im);
+  std::vector<std::vector<Real>> imaginary(
+    Blocked_execution::number_of_blocks(slices, block_slices));
+  Blocked_execution::blocked_for(pattern->rows, block_slices * rows,
+                                 [&](std::size_t begin, std::size_t end) {
+    Matrix_row row;
+    for(std::size_t slot = begin; slot < end; ++slot) {
+      row.diagonal = 0.;
+      row.entries.clear();
+      fill(pattern->row_of_slot[slot], row);
+      store_row(row, pattern->row_of_slot[slot], slot, *pattern, matrix,
+                imaginary[begin / (block_slices * rows)]);
     }
-  }
+  });
+  join_imaginary(imaginary, *pattern, matrix);
   matrix.m_pattern = std::move(pattern);
   return matrix;
 }

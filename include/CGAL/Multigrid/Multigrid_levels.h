@@ -64,14 +64,16 @@ public:
     const double norm = std::sqrt(squared_norm(r));
     const Real down = norm > 0. ? Real(1. / norm) : Real(0), up = Real(norm);
     level.f.resize(r.size());
-    for(std::size_t i = 0; i < r.size(); ++i)
+    for_each_index(r.size(), [&](std::size_t i) {
       level.f[i] = Complex(float(r[i].real() * down), float(r[i].imag() * down));
+    });
     start_at_zero(l);
     cycle(*this, schedule, l);
     materialize(level);
     x.resize(r.size());
-    for(std::size_t i = 0; i < r.size(); ++i)
+    for_each_index(r.size(), [&](std::size_t i) {
       x[i] = std::complex<Real>(Real(level.u[i].real()) * up, Real(level.u[i].imag()) * up);
+    });
   }
 
   /// \name The operations of a cycle
@@ -133,15 +135,19 @@ void Multigrid_levels<Transfer, CoarsestSolver>::update_residual(Level& level)
 {
   if(level.has_residual)
     return;
-  const Vector* product = &level.u;
-  if(level.has_step)
-    product = &level.z;
-  else
-    level.r = level.f;
-  if(!level.is_zero)
-    level.matrix.for_each_row_sum(*product, [&](std::size_t i, Complex s) {
-      level.r[i] -= level.matrix.diagonal()[i] * (*product)[i] + s;
+  const Matrix& h = level.matrix;
+  if(level.has_step) // r - H z
+    h.for_each_row_sum(level.z, [&](std::size_t i, Complex s) {
+      level.r[i] -= h.diagonal()[i] * level.z[i] + s;
     });
+  else if(level.is_zero)
+    level.r = level.f;
+  else {
+    level.r.resize(level.f.size());
+    h.for_each_row_sum(level.u, [&](std::size_t i, Complex s) {
+      level.r[i] = level.f[i] - (h.diagonal()[i] * level.u[i] + s);
+    });
+  }
   level.has_residual = true;
 }
 
@@ -176,8 +182,7 @@ void Multigrid_levels<Transfer, CoarsestSolver>::correct(std::size_t l)
   materialize(m_levels[l - 1]);
   materialize(level);
   level.from_coarser->prolongate(m_levels[l - 1].u, level.z);
-  for(std::size_t i = 0; i < level.u.size(); ++i)
-    level.u[i] += level.z[i];
+  for_each_index(level.u.size(), [&](std::size_t i) { level.u[i] += level.z[i]; });
   forget_residual(level);
 }
 

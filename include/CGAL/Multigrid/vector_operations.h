@@ -4,6 +4,8 @@
 #ifndef CGAL_MULTIGRID_VECTOR_OPERATIONS_H
 #define CGAL_MULTIGRID_VECTOR_OPERATIONS_H
 
+#include <CGAL/Blocked_execution/blocked_for.h>
+
 #include <algorithm>
 #include <complex>
 #include <cstddef>
@@ -21,12 +23,12 @@ namespace internal {
 
 // Sums are formed in blocks of this many entries, whose order of addition is fixed: the result
 // does not depend on who computes which block.
-constexpr std::size_t block_size = 4096;
+constexpr std::size_t block_size = 8192;
 constexpr std::size_t lane_count = 8;
 
-// Sums value(i), a pair of reals, over a block, in lanes.
+// Sums over a stretch in lanes; `pair(i, re, im)` adds the i-th term.
 template <class Real, class Pair>
-inline void sum_block(std::size_t begin, std::size_t end, const Pair& pair, double& re, double& im)
+inline std::complex<double> sum_in_lanes(std::size_t begin, std::size_t end, const Pair& pair)
 {
   Real lane_re[lane_count] = {}, lane_im[lane_count] = {};
   std::size_t i = begin;
@@ -35,13 +37,33 @@ inline void sum_block(std::size_t begin, std::size_t end, const Pair& pair, doub
       pair(i + l, lane_re[l], lane_im[l]);
   for(std::size_t l = 0; i < end; ++i, ++l)
     pair(i, lane_re[l], lane_im[l]);
-  for(std::size_t l = 0; l < lane_count; ++l) {
-    re += double(lane_re[l]);
-    im += double(lane_im[l]);
-  }
+  std::complex<double> sum = 0.;
+  for(std::size_t l = 0; l < lane_count; ++l)
+    sum += std::complex<double>(lane_re[l], lane_im[l]);
+  return sum;
+}
+
+template <class Real, class Pair>
+inline std::complex<double> sum_in_blocks(std::size_t n, const Pair& pair)
+{
+  return Blocked_execution::blocked_sum<std::complex<double>>(
+    n, block_size, [&](std::size_t begin, std::size_t end) {
+      return sum_in_lanes<Real>(begin, end, pair);
+    });
 }
 
 } // namespace internal
+
+/// \ingroup PkgHLSCMMultigrid
+/// Calls `body(i)` for each i in [0, n), possibly at the same time.
+template <class Body>
+void for_each_index(std::size_t n, const Body& body)
+{
+  Blocked_execution::blocked_for(n, internal::block_size, [&](std::size_t begin, std::size_t end) {
+    for(std::size_t i = begin; i < end; ++i)
+      body(i);
+  });
+}
 
 /// \ingroup PkgHLSCMMultigrid
 /// Returns \f$ a^H b \f$.
@@ -50,14 +72,10 @@ std::complex<double> inner_product(const Complex_vector<Real>& a, const Complex_
 {
   const Real* p = reinterpret_cast<const Real*>(a.data());
   const Other* q = reinterpret_cast<const Other*>(b.data());
-  double re = 0., im = 0.;
-  for(std::size_t begin = 0; begin < a.size(); begin += internal::block_size)
-    internal::sum_block<Real>(begin, (std::min)(begin + internal::block_size, a.size()),
-                              [p, q](std::size_t i, Real& x, Real& y) {
-                                x += p[2 * i] * Real(q[2 * i]) + p[2 * i + 1] * Real(q[2 * i + 1]);
-                                y += p[2 * i] * Real(q[2 * i + 1]) - p[2 * i + 1] * Real(q[2 * i]);
-                              }, re, im);
-  return {re, im};
+  return internal::sum_in_blocks<Real>(a.size(), [p, q](std::size_t i, Real& x, Real& y) {
+    x += p[2 * i] * Real(q[2 * i]) + p[2 * i + 1] * Real(q[2 * i + 1]);
+    y += p[2 * i] * Real(q[2 * i + 1]) - p[2 * i + 1] * Real(q[2 * i]);
+  });
 }
 
 /// \ingroup PkgHLSCMMultigrid
@@ -66,14 +84,12 @@ template <class Real>
 double squared_norm(const Complex_vector<Real>& a)
 {
   const Real* p = reinterpret_cast<const Real*>(a.data());
-  double re = 0., im = 0.;
-  for(std::size_t begin = 0; begin < a.size(); begin += internal::block_size)
-    internal::sum_block<Real>(begin, (std::min)(begin + internal::block_size, a.size()),
-                              [p](std::size_t i, Real& x, Real& y) {
-                                x += p[2 * i] * p[2 * i];
-                                y += p[2 * i + 1] * p[2 * i + 1];
-                              }, re, im);
-  return re + im;
+  const std::complex<double> sum
+    = internal::sum_in_blocks<Real>(a.size(), [p](std::size_t i, Real& x, Real& y) {
+        x += p[2 * i] * p[2 * i];
+        y += p[2 * i + 1] * p[2 * i + 1];
+      });
+  return sum.real() + sum.imag();
 }
 
 /// \ingroup PkgHLSCMMultigrid
@@ -84,25 +100,11 @@ void add_scaled(std::complex<Real> s, const Complex_vector<Real>& x, Complex_vec
   const Real* p = reinterpret_cast<const Real*>(x.data());
   Real* q = reinterpret_cast<Real*>(y.data());
   const Real a = s.real(), b = s.imag();
-  for(std::size_t i = 0; i < x.size(); ++i) {
+  for_each_index(x.size(), [=](std::size_t i) {
     const Real re = p[2 * i], im = p[2 * i + 1];
     q[2 * i] += a * re - b * im;
     q[2 * i + 1] += a * im + b * re;
-  }
-}
-
-/// \ingroup PkgHLSCMMultigrid
-/// Sets `y` to \f$ s\, y \f$.
-template <class Real>
-void scale(std::complex<Real> s, Complex_vector<Real>& y)
-{
-  Real* q = reinterpret_cast<Real*>(y.data());
-  const Real a = s.real(), b = s.imag();
-  for(std::size_t i = 0; i < y.size(); ++i) {
-    const Real re = q[2 * i], im = q[2 * i + 1];
-    q[2 * i] = a * re - b * im;
-    q[2 * i + 1] = a * im + b * re;
-  }
+  });
 }
 
 } // namespace Multigrid

@@ -4,10 +4,12 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_FLAT_COLLAPSE_ENGINE_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_FLAT_COLLAPSE_ENGINE_H
 
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_policies.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
 
 #include <algorithm>
+#include <atomic>
 #include <functional>
 #include <limits>
 #include <queue>
@@ -46,10 +48,13 @@ records them as a `Progressive_mesh`. It runs the same cost and filter policies 
 
 A vertex is removed only if topology allows it: the mesh stays a manifold with the same Euler
 characteristic and the same border components. A border vertex leaves only along the border; locked
-vertices and vertices of more than 14 neighbours never leave. The result depends on the input alone.
+vertices and vertices of more than 14 neighbours never leave; a vertex that has at most 14 neighbours
+never gets more. The result depends on the input alone,
+not on the number of threads (`Blocked_execution::Thread_scope`).
 
-\tparam Cost a model of `GetCost`
-\tparam Filter a model of `PlacementFilter`
+\tparam Cost a model of `GetCost`; called by several threads at the same time for vertices that have
+        no neighbour in common
+\tparam Filter a model of `PlacementFilter`; the same holds
 
 Expected linear time in the number of vertices (batched), O(n log n) (strict); 85 bytes a vertex.
 */
@@ -76,15 +81,41 @@ public:
 private:
   typedef Surface_mesh_simplification::internal::Vertex_star Vertex_star;
   typedef Flat_collapse_profile::Placement Placement;
+  typedef std::vector<Halfedge_collapse> Collapses;
 
   static constexpr float no_cost = (std::numeric_limits<float>::infinity)();
+
+  // Passes go over blocks of this many living vertices; a vertex whose ring leaves its block waits
+  // for the next pass, whose blocks are shifted by half their size. Blocks do not depend on the
+  // number of threads.
+  static constexpr std::size_t block_size = 16384;
+  static constexpr std::size_t blocks_between_reports = 16;
 
   struct State // of a vertex
   {
     std::uint8_t is_gone : 1, is_locked : 1, is_stale : 1;
   };
 
-  // Asks the user's function now and then whether to go on.
+  // What one thread needs to look at collapses.
+  struct Worker
+  {
+    explicit Worker(const Flat_surface& surface) : profile(surface) {}
+
+    Flat_collapse_profile profile;
+    Vertex_star star;
+    std::size_t evaluations = 0;
+  };
+
+  // A stretch of the living vertices [begin, end) and of all vertex indices [low, high).
+  struct Block
+  {
+    std::size_t begin, end;
+    Vertex_index low, high;
+    std::size_t wanted; // collapses at most
+    Collapses collapses;
+  };
+
+  // Asks the user's function whether to go on.
   class Progress
   {
   public:
@@ -95,7 +126,7 @@ private:
 
     bool operator()(const Progressive_mesh& pm)
     {
-      if(m_function && ++m_calls % 32768 == 0 && !m_is_cancelled)
+      if(m_function && !m_is_cancelled)
         m_is_cancelled = !m_function((std::min)(1., double(pm.collapses.size()) / m_whole));
       return !m_is_cancelled;
     }
@@ -105,16 +136,26 @@ private:
   private:
     const std::function<bool(double)>& m_function;
     double m_whole;
-    std::size_t m_calls = 0;
     bool m_is_cancelled = false;
   };
 
-  bool load_star(Vertex_index v);
-  void evaluate(Vertex_index v, bool check_topology);
-  float cost_of(Vertex_index v, std::uint32_t k);
-  bool try_collapse(Vertex_index v, float limit, Progressive_mesh& pm);
+  Flat_surface surface() const { return Flat_surface(m_mesh, m_rings); }
+  // Whether topology and the size of a ring allow the collapse of v into its ring vertex k.
+  bool is_possible(Vertex_index v, std::uint32_t k) const
+  {
+    return m_rings.is_collapse_valid(v, k) && !m_rings.needs_new_spill(v, k);
+  }
+  bool load_star(Worker& worker, Vertex_index v) const;
+  float cost_of(Worker& worker, Vertex_index v, std::uint32_t k) const;
+  void evaluate(Worker& worker, Vertex_index v, bool check_topology);
+  bool try_collapse(Worker& worker, Vertex_index v, float limit, Collapses& collapses);
   float pass_threshold(const std::vector<Vertex_index>& alive, std::size_t wanted,
                        double fraction) const;
+  void evaluate_stale(const std::vector<Vertex_index>& alive, Progress& progress,
+                      const Progressive_mesh& pm);
+  std::vector<Block> cut_into_blocks(const std::vector<Vertex_index>& alive, std::size_t wanted,
+                                     bool is_shifted) const;
+  void run_block(const std::vector<Vertex_index>& alive, float threshold, Block& block);
   void run_pass(const std::vector<Vertex_index>& alive, float threshold, std::size_t wanted,
                 Progress& progress, Progressive_mesh& pm);
   void run_batched(const Flat_collapse_options& options, Progressive_mesh& pm);
@@ -124,12 +165,10 @@ private:
   internal::Vertex_rings m_rings;
   Cost m_cost;
   Filter m_filter;
-  Flat_collapse_profile m_profile;
-  Vertex_star m_star;
   std::vector<float> m_best_cost;
   std::vector<Vertex_index> m_best_target;
   std::vector<State> m_state;
-  std::size_t m_evaluations = 0;
+  std::atomic<std::size_t> m_evaluations{0};
 };
 
 template <class Cost, class Filter>
@@ -137,76 +176,79 @@ Flat_collapse_engine<Cost, Filter>::
 Flat_collapse_engine(const Indexed_triangle_mesh& mesh, internal::Vertex_rings rings,
                      const std::vector<bool>& is_locked, const Cost& cost, const Filter& filter)
   : m_mesh(mesh), m_rings(std::move(rings)), m_cost(cost), m_filter(filter)
-  , m_profile(Flat_surface(m_mesh, m_rings))
   , m_best_cost(mesh.points.size(), no_cost)
   , m_best_target(mesh.points.size(), no_vertex)
   , m_state(mesh.points.size())
 {
   for(std::size_t v = 0; v < mesh.points.size(); ++v)
     m_state[v] = {0, std::uint8_t(!is_locked.empty() && is_locked[v]), 1};
-  if constexpr(Surface_mesh_simplification::internal::Needs_update<Cost>::value)
-    m_cost.initialize(m_profile.surface_mesh(), m_profile.vertex_point_map(),
-                      m_profile.geom_traits());
+  if constexpr(Surface_mesh_simplification::internal::Needs_update<Cost>::value) {
+    const Flat_collapse_profile profile(surface());
+    m_cost.initialize(profile.surface_mesh(), profile.vertex_point_map(), profile.geom_traits());
+  }
 }
 
 template <class Cost, class Filter>
-bool Flat_collapse_engine<Cost, Filter>::load_star(Vertex_index v)
+bool Flat_collapse_engine<Cost, Filter>::load_star(Worker& worker, Vertex_index v) const
 {
   const std::uint32_t d = m_rings.degree(v);
   if(m_state[v].is_locked || d > std::uint32_t(Vertex_star::max_degree))
     return false;
   const Vertex_index* r = m_rings.ring(v);
   const auto& p = m_mesh.points[v];
-  m_star.reset(int(d), m_rings.is_border(v));
+  Vertex_star& star = worker.star;
+  star.reset(int(d), m_rings.is_border(v));
   for(std::uint32_t i = 0; i < d; ++i) {
     const auto& q = m_mesh.points[r[i]];
-    m_star.set_ring_point(int(i), float(q.x() - p.x()), float(q.y() - p.y()),
-                          float(q.z() - p.z()));
+    star.set_ring_point(int(i), float(q.x() - p.x()), float(q.y() - p.y()), float(q.z() - p.z()));
   }
-  m_star.prepare();
-  auto& collapse = m_profile.collapse();
+  star.prepare();
+  auto& collapse = worker.profile.collapse();
   collapse.is_valid = true;
   collapse.is_border = m_rings.is_border(v);
   collapse.removed_degree = int(d);
-  collapse.angle_sum = m_star.angle_sum();
-  collapse.min_squared_quality = m_star.min_squared_quality();
+  collapse.angle_sum = star.angle_sum();
+  collapse.min_squared_quality = star.min_squared_quality();
   return true;
 }
 
 // The cost of the collapse of v into its ring vertex k, or `no_cost` if the policies forbid it.
 // Precondition: the star of v is loaded.
 template <class Cost, class Filter>
-float Flat_collapse_engine<Cost, Filter>::cost_of(Vertex_index v, std::uint32_t k)
+float Flat_collapse_engine<Cost, Filter>::cost_of(Worker& worker, Vertex_index v,
+                                                  std::uint32_t k) const
 {
-  m_profile.set(v, k);
-  auto& collapse = m_profile.collapse();
-  collapse.kept_degree = m_rings.small_degree(m_profile.v1());
-  collapse.measure = m_star.measure(int(k));
-  if(!m_filter(m_profile, m_profile.placement()))
+  Flat_collapse_profile& profile = worker.profile;
+  profile.set(v, k);
+  auto& collapse = profile.collapse();
+  collapse.kept_degree = m_rings.small_degree(profile.v1());
+  collapse.measure = worker.star.measure(int(k));
+  if(!m_filter(profile, profile.placement()))
     return no_cost;
-  const auto cost = m_cost(m_profile, m_profile.placement());
+  const auto cost = m_cost(profile, profile.placement());
   return cost && float(*cost) < no_cost ? float(*cost) : no_cost; // not a number: no cost
 }
 
 // Finds the cheapest target that the policies, and if asked topology, allow; the smaller vertex
 // index on a tie.
 template <class Cost, class Filter>
-void Flat_collapse_engine<Cost, Filter>::evaluate(Vertex_index v, bool check_topology)
+void Flat_collapse_engine<Cost, Filter>::evaluate(Worker& worker, Vertex_index v,
+                                                  bool check_topology)
 {
   m_best_cost[v] = no_cost;
   m_state[v].is_stale = 0;
-  ++m_evaluations;
-  if(!load_star(v))
+  ++worker.evaluations;
+  if(!load_star(worker, v))
     return;
   const Vertex_index* r = m_rings.ring(v);
   const std::uint32_t d = m_rings.degree(v);
   const std::uint32_t step = m_rings.is_border(v) ? d - 1 : 1; // the two ends only
   for(std::uint32_t k = 0; k < d; k += step) {
-    const float cost = cost_of(v, k);
+    const float cost = cost_of(worker, v, k);
     if(cost > m_best_cost[v] || cost == no_cost
        || (cost == m_best_cost[v] && r[k] > m_best_target[v]))
       continue;
-    if(check_topology && !m_rings.is_collapse_valid(v, k))
+    if(check_topology && !is_possible(v, k))
       continue;
     m_best_cost[v] = cost;
     m_best_target[v] = r[k];
@@ -216,21 +258,21 @@ void Flat_collapse_engine<Cost, Filter>::evaluate(Vertex_index v, bool check_top
 // Collapses v into its best target if that still costs at most `limit`. If topology forbids it, v
 // gets the best target that it allows, and stays for now.
 template <class Cost, class Filter>
-bool Flat_collapse_engine<Cost, Filter>::try_collapse(Vertex_index v, float limit,
-                                                      Progressive_mesh& pm)
+bool Flat_collapse_engine<Cost, Filter>::try_collapse(Worker& worker, Vertex_index v, float limit,
+                                                      Collapses& collapses)
 {
   const Vertex_index* r = m_rings.ring(v);
   const std::uint32_t d = m_rings.degree(v);
   const std::uint32_t k = std::uint32_t(std::find(r, r + d, m_best_target[v]) - r);
-  if(k == d || !load_star(v) || !(cost_of(v, k) <= limit))
+  if(k == d || !load_star(worker, v) || !(cost_of(worker, v, k) <= limit))
     return false;
-  if(!m_rings.is_collapse_valid(v, k)) {
-    evaluate(v, true);
+  if(!is_possible(v, k)) {
+    evaluate(worker, v, true);
     return false;
   }
   if constexpr(Surface_mesh_simplification::internal::Needs_update<Cost>::value)
-    m_cost.update_before_collapse(m_profile, m_profile.placement());
-  pm.collapses.push_back({v, r[k]});
+    m_cost.update_before_collapse(worker.profile, worker.profile.placement());
+  collapses.push_back({v, r[k]});
   m_rings.collapse(v, k);
   m_state[v].is_gone = 1;
   for(std::uint32_t i = 0; i < d; ++i)
@@ -257,21 +299,85 @@ pass_threshold(const std::vector<Vertex_index>& alive, std::size_t wanted, doubl
   return costs[rank];
 }
 
-// One pass over the living vertices in memory order: those whose cost was not above the threshold
-// when the pass began are removed if the same collapse still costs no more. The others wait for the
-// next pass, where all their targets are compared again.
+// Brings all costs up to date. Costs fall, too, where long thin triangles give way to better ones:
+// vertices that would be passed over would spoil the levels.
+template <class Cost, class Filter>
+void Flat_collapse_engine<Cost, Filter>::
+evaluate_stale(const std::vector<Vertex_index>& alive, Progress& progress,
+               const Progressive_mesh& pm)
+{
+  constexpr std::size_t stretch = block_size * blocks_between_reports;
+  for(std::size_t first = 0; first < alive.size() && progress(pm); first += stretch) {
+    const std::size_t count = (std::min)(stretch, alive.size() - first);
+    Blocked_execution::blocked_for(count, block_size, [&](std::size_t begin, std::size_t end) {
+      Worker worker(surface());
+      for(std::size_t i = first + begin; i < first + end; ++i)
+        if(m_state[alive[i]].is_stale)
+          evaluate(worker, alive[i], false);
+      m_evaluations += worker.evaluations;
+    });
+  }
+}
+
+// One block if there are few vertices; blocks of equal numbers of living vertices otherwise.
+template <class Cost, class Filter>
+std::vector<typename Flat_collapse_engine<Cost, Filter>::Block>
+Flat_collapse_engine<Cost, Filter>::
+cut_into_blocks(const std::vector<Vertex_index>& alive, std::size_t wanted, bool is_shifted) const
+{
+  const Vertex_index end = Vertex_index(m_mesh.points.size());
+  std::vector<Block> blocks;
+  if(alive.size() < 4 * block_size)
+    blocks.push_back({0, alive.size(), 0, end, wanted, {}});
+  else
+    for(std::size_t first = 0; first < alive.size();) {
+      const std::size_t size = (first == 0 && is_shifted) ? block_size / 2 : block_size;
+      const std::size_t last = (std::min)(first + size, alive.size());
+      const std::size_t share = std::size_t(double(wanted) * double(last - first)
+                                            / double(alive.size()));
+      blocks.push_back({first, last, alive[first], last == alive.size() ? end : alive[last],
+                        share, {}});
+      first = last;
+    }
+  return blocks;
+}
+
+// Vertices whose cost was not above the threshold when the pass began are removed if the same
+// collapse still costs no more. The others wait for the next pass, where all their targets are
+// compared again.
+template <class Cost, class Filter>
+void Flat_collapse_engine<Cost, Filter>::run_block(const std::vector<Vertex_index>& alive,
+                                                   float threshold, Block& block)
+{
+  Worker worker(surface());
+  for(std::size_t i = block.begin; i < block.end && block.collapses.size() < block.wanted; ++i) {
+    const Vertex_index v = alive[i];
+    if(!(m_best_cost[v] <= threshold))
+      continue;
+    const Vertex_index* r = m_rings.ring(v);
+    if(std::all_of(r, r + m_rings.degree(v), [&block](Vertex_index w) {
+         return block.low <= w && w < block.high;
+       }))
+      try_collapse(worker, v, threshold, block.collapses);
+  }
+  m_evaluations += worker.evaluations;
+}
+
 template <class Cost, class Filter>
 void Flat_collapse_engine<Cost, Filter>::
 run_pass(const std::vector<Vertex_index>& alive, float threshold, std::size_t wanted,
          Progress& progress, Progressive_mesh& pm)
 {
-  const std::size_t end = pm.collapses.size() + wanted;
-  for(const Vertex_index v : alive) {
-    if(m_best_cost[v] <= threshold && try_collapse(v, threshold, pm)
-       && pm.collapses.size() == end)
-      break;
-    if(!progress(pm))
-      break;
+  std::vector<Block> blocks = cut_into_blocks(alive, wanted, pm.batch_ends.size() % 2 == 1);
+  for(std::size_t first = 0; first < blocks.size() && progress(pm);
+      first += blocks_between_reports) {
+    const std::size_t last = (std::min)(first + blocks_between_reports, blocks.size());
+    Blocked_execution::blocked_for(last - first, 1, [&](std::size_t begin, std::size_t) {
+      run_block(alive, threshold, blocks[first + begin]);
+    });
+    for(std::size_t b = first; b < last; ++b)
+      pm.collapses.insert(pm.collapses.end(), blocks[b].collapses.begin(),
+                          blocks[b].collapses.end());
   }
   pm.batch_ends.push_back(pm.collapses.size());
 }
@@ -282,15 +388,12 @@ run_batched(const Flat_collapse_options& options, Progressive_mesh& pm)
 {
   const std::size_t n = m_mesh.points.size();
   Progress progress(options, n);
+  pm.collapses.reserve(n > options.target_vertices ? n - options.target_vertices : 0);
   std::vector<Vertex_index> alive(n);
   for(Vertex_index v = 0; v < n; ++v)
     alive[v] = v;
   while(alive.size() > options.target_vertices && !progress.is_cancelled()) {
-    // Costs fall, too, where long thin triangles give way to better ones: all are brought up to
-    // date, since vertices that would be passed over would spoil the levels.
-    for(std::size_t i = 0; i < alive.size() && progress(pm); ++i)
-      if(m_state[alive[i]].is_stale)
-        evaluate(alive[i], false);
+    evaluate_stale(alive, progress, pm);
     const std::size_t wanted = alive.size() - options.target_vertices;
     const float threshold = pass_threshold(alive, wanted, options.pass_fraction);
     if(threshold == no_cost)
@@ -311,30 +414,35 @@ run_strict(const Flat_collapse_options& options, Progressive_mesh& pm)
 {
   typedef std::pair<float, Vertex_index> Entry; // smallest cost first, then smallest index
   std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
+  Worker worker(surface());
+  std::size_t steps = 0;
+  const std::size_t n = m_mesh.points.size();
+  Progress progress(options, n);
+  const auto goes_on = [&] { return ++steps % block_size != 0 || progress(pm); };
   const auto enqueue = [&](Vertex_index v) {
-    evaluate(v, true);
+    evaluate(worker, v, true);
     if(m_best_cost[v] < no_cost)
       queue.push({m_best_cost[v], v});
   };
-  const std::size_t n = m_mesh.points.size();
-  Progress progress(options, n);
-  for(Vertex_index v = 0; v < n && progress(pm); ++v)
+  for(Vertex_index v = 0; v < n && goes_on(); ++v)
     enqueue(v);
-  while(!queue.empty() && n - pm.collapses.size() > options.target_vertices && progress(pm)) {
+  while(!queue.empty() && n - pm.collapses.size() > options.target_vertices
+        && !progress.is_cancelled() && goes_on()) {
     const auto [cost, v] = queue.top();
     queue.pop();
     if(m_state[v].is_gone || cost != m_best_cost[v]) // an entry that a later one replaced
       continue;
     const Vertex_index* r = m_rings.ring(v);
     const std::uint32_t d = m_rings.degree(v);
-    if(!try_collapse(v, cost, pm)) { // the degree of the target has changed, or topology forbids it
-      enqueue(v);
+    if(!try_collapse(worker, v, cost, pm.collapses)) { // the degree of the target has changed, or
+      enqueue(v);                                      // topology forbids it
       continue;
     }
     m_best_cost[v] = no_cost;
     for(std::uint32_t i = 0; i < d; ++i)
       enqueue(r[i]);
   }
+  m_evaluations += worker.evaluations;
 }
 
 template <class Cost, class Filter>

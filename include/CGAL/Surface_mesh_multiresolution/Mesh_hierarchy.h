@@ -112,11 +112,21 @@ inline Mesh_level coarsen(const Mesh_level& fine, const Progressive_mesh& pm, st
       coarse.vertices.push_back(fine.vertices[v]);
       coarse.mesh.points.push_back(fine.mesh.points[v]);
     }
-  for(const Triangle_indices& t : fine.mesh.triangles) {
-    const Triangle_indices s = {rank[ancestor[t[0]]], rank[ancestor[t[1]]], rank[ancestor[t[2]]]};
-    if(s[0] != s[1] && s[1] != s[2] && s[2] != s[0])
-      coarse.mesh.triangles.push_back(s);
-  }
+  constexpr std::size_t block = 32768;
+  std::vector<std::vector<Triangle_indices>> parts(
+    Blocked_execution::number_of_blocks(fine.mesh.triangles.size(), block));
+  Blocked_execution::blocked_for(fine.mesh.triangles.size(), block,
+                                 [&](std::size_t begin, std::size_t end) {
+    for(std::size_t i = begin; i < end; ++i) {
+      const Triangle_indices& t = fine.mesh.triangles[i];
+      const Triangle_indices s
+        = {rank[ancestor[t[0]]], rank[ancestor[t[1]]], rank[ancestor[t[2]]]};
+      if(s[0] != s[1] && s[1] != s[2] && s[2] != s[0])
+        parts[begin / block].push_back(s);
+    }
+  });
+  for(const auto& part : parts)
+    coarse.mesh.triangles.insert(coarse.mesh.triangles.end(), part.begin(), part.end());
   return coarse;
 }
 
@@ -147,13 +157,16 @@ inline std::vector<Mesh_level> build_hierarchy(Indexed_triangle_mesh mesh,
   for(std::size_t c = 1; c < cuts.size(); ++c) {
     Mesh_level& fine = levels.back();
     Mesh_level coarse = internal::coarsen(fine, pm, cuts[c - 1], cuts[c], index, ancestor);
-    Prolongation& p = fine.from_coarser;
+    std::vector<Vertex_index> kept;
+    kept.reserve(coarse.vertices.size());
     for(Vertex_index v = 0; v < ancestor.size(); ++v)
       if(ancestor[v] == v)
-        p.kept.push_back(v);
-    p.stencils = options.rule == Prolongation_rule::WALK
-               ? internal::walk_stencils(fine.mesh, coarse.mesh, p.kept, ancestor)
-               : internal::vsplit_stencils(fine.mesh, pm, cuts[c - 1], cuts[c], index);
+        kept.push_back(v);
+    std::vector<Prolongation::Stencil> stencils
+      = options.rule == Prolongation_rule::WALK
+      ? internal::walk_stencils(fine.mesh, coarse.mesh, kept, ancestor)
+      : internal::vsplit_stencils(fine.mesh, pm, cuts[c - 1], cuts[c], index);
+    fine.from_coarser = Prolongation(std::move(kept), std::move(stencils));
     for(Vertex_index v = 0; v < coarse.vertices.size(); ++v)
       index[coarse.vertices[v]] = v;
     levels.push_back(std::move(coarse));

@@ -4,8 +4,11 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_PROLONGATION_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_PROLONGATION_H
 
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_multiresolution/Indexed_triangle_mesh.h>
 
+#include <array>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -14,17 +17,15 @@ namespace Surface_mesh_multiresolution {
 /*!
 \ingroup PkgHLSCMMultiresolution
 
-The struct `Prolongation` takes values at the vertices of a coarse level to a fine one: a vertex that
-both have keeps its value, every other gets a convex combination of three vertices of the fine level
-whose values are known by then. Indices are those of the fine level.
-
-Invariant: the stencils are in an order in which each refers only to vertices of the coarse level
-and to those of stencils before it.
+The class `Prolongation` takes values at the vertices of a coarse level to a fine one: a vertex that
+both have keeps its value, every other gets a convex combination of three vertices whose values are
+known by then. Indices are those of the fine level.
 
 \cgalModels{MultigridTransfer}
 */
-struct Prolongation
+class Prolongation
 {
+public:
   /// Where a vertex that the coarse level does not have gets its value from.
   struct Stencil
   {
@@ -33,41 +34,131 @@ struct Prolongation
     std::array<float, 3> weight;        ///< their weights, non-negative, with the sum 1
   };
 
-  std::vector<Vertex_index> kept;  ///< for each coarse vertex its index in the fine level
-  std::vector<Stencil> stencils;   ///< for each of the other vertices of the fine level
+  Prolongation() {}
+
+  /// Constructs the operator.
+  ///
+  /// \param kept for each coarse vertex its index in the fine level, ascending
+  /// \param stencils for each of the other vertices of the fine level where its value comes from, in
+  ///        an order in which each refers only to kept vertices and to those of stencils before it
+  Prolongation(std::vector<Vertex_index> kept, std::vector<Stencil> stencils);
+
+  /// Returns for each coarse vertex its index in the fine level.
+  const std::vector<Vertex_index>& kept() const { return m_kept; }
+
+  /// Returns the stencils of the other vertices.
+  const std::vector<Stencil>& stencils() const { return m_stencils; }
 
   /// Returns the number of vertices of the fine level.
-  std::size_t number_of_fine_vertices() const { return kept.size() + stencils.size(); }
+  std::size_t number_of_fine_vertices() const { return m_kept.size() + m_stencils.size(); }
 
   /// Sets `fine` to \f$ P \f$ times `coarse`.
   template <class Vector>
-  void prolongate(const Vector& coarse, Vector& fine) const
-  {
-    fine.resize(number_of_fine_vertices());
-    for(std::size_t j = 0; j < kept.size(); ++j)
-      fine[kept[j]] = coarse[j];
-    for(const Stencil& s : stencils) {
-      typedef decltype(fine[0].real()) Real;
-      fine[s.vertex] = Real(s.weight[0]) * fine[s.source[0]] + Real(s.weight[1]) * fine[s.source[1]]
-                     + Real(s.weight[2]) * fine[s.source[2]];
-    }
-  }
+  void prolongate(const Vector& coarse, Vector& fine) const;
 
   /// Sets `coarse` to \f$ P^T \f$ times `fine`, which is used as work space.
   template <class Vector>
-  void restrict_in_place(Vector& fine, Vector& coarse) const
+  void restrict_in_place(Vector& fine, Vector& coarse) const;
+
+private:
+  static constexpr std::size_t block_size = 16384;
+
+  struct Term // of a row of the transpose
   {
-    coarse.resize(kept.size());
-    for(std::size_t i = stencils.size(); i-- > 0;) {
-      const Stencil& s = stencils[i];
-      typedef decltype(fine[0].real()) Real;
-      for(int c = 0; c < 3; ++c)
-        fine[s.source[c]] += Real(s.weight[c]) * fine[s.vertex];
-    }
-    for(std::size_t j = 0; j < kept.size(); ++j)
-      coarse[j] = fine[kept[j]];
+    Vertex_index vertex;
+    float weight;
+  };
+
+  template <class Vector>
+  static void apply(const Stencil& s, Vector& fine)
+  {
+    typedef decltype(fine[0].real()) Real;
+    fine[s.vertex] = Real(s.weight[0]) * fine[s.source[0]] + Real(s.weight[1]) * fine[s.source[1]]
+                   + Real(s.weight[2]) * fine[s.source[2]];
   }
+
+  void transpose();
+
+  std::vector<Vertex_index> m_kept;
+  std::vector<Stencil> m_stencils;
+  // If all sources are kept vertices: for each coarse vertex the fine ones that it is a source of.
+  bool m_is_direct = false;
+  std::vector<std::uint32_t> m_begin;
+  std::vector<Term> m_terms;
 };
+
+inline Prolongation::Prolongation(std::vector<Vertex_index> kept, std::vector<Stencil> stencils)
+  : m_kept(std::move(kept)), m_stencils(std::move(stencils))
+{
+  transpose();
+}
+
+inline void Prolongation::transpose()
+{
+  std::vector<Vertex_index> rank(number_of_fine_vertices(), no_vertex);
+  for(Vertex_index j = 0; j < m_kept.size(); ++j)
+    rank[m_kept[j]] = j;
+  m_begin.assign(m_kept.size() + 1, 0);
+  for(const Stencil& s : m_stencils)
+    for(const Vertex_index v : s.source) {
+      if(rank[v] == no_vertex)
+        return;
+      ++m_begin[rank[v] + 1];
+    }
+  m_is_direct = true;
+  for(std::size_t j = 0; j < m_kept.size(); ++j)
+    m_begin[j + 1] += m_begin[j];
+  m_terms.resize(3 * m_stencils.size());
+  std::vector<std::uint32_t> next(m_begin.begin(), m_begin.end() - 1);
+  for(const Stencil& s : m_stencils)
+    for(int c = 0; c < 3; ++c)
+      m_terms[next[rank[s.source[c]]]++] = {s.vertex, s.weight[c]};
+}
+
+template <class Vector>
+void Prolongation::prolongate(const Vector& coarse, Vector& fine) const
+{
+  fine.resize(number_of_fine_vertices());
+  Blocked_execution::blocked_for(m_kept.size(), block_size, [&](std::size_t begin, std::size_t end) {
+    for(std::size_t j = begin; j < end; ++j)
+      fine[m_kept[j]] = coarse[j];
+  });
+  if(m_is_direct)
+    Blocked_execution::blocked_for(m_stencils.size(), block_size,
+                                   [&](std::size_t begin, std::size_t end) {
+      for(std::size_t i = begin; i < end; ++i)
+        apply(m_stencils[i], fine);
+    });
+  else
+    for(const Stencil& s : m_stencils)
+      apply(s, fine);
+}
+
+template <class Vector>
+void Prolongation::restrict_in_place(Vector& fine, Vector& coarse) const
+{
+  typedef decltype(fine[0].real()) Real;
+  coarse.resize(m_kept.size());
+  if(m_is_direct) {
+    Blocked_execution::blocked_for(m_kept.size(), block_size,
+                                   [&](std::size_t begin, std::size_t end) {
+      for(std::size_t j = begin; j < end; ++j) {
+        auto sum = fine[m_kept[j]];
+        for(std::uint32_t t = m_begin[j]; t < m_begin[j + 1]; ++t)
+          sum += Real(m_terms[t].weight) * fine[m_terms[t].vertex];
+        coarse[j] = sum;
+      }
+    });
+    return;
+  }
+  for(std::size_t i = m_stencils.size(); i-- > 0;) {
+    const Stencil& s = m_stencils[i];
+    for(int c = 0; c < 3; ++c)
+      fine[s.source[c]] += Real(s.weight[c]) * fine[s.vertex];
+  }
+  for(std::size_t j = 0; j < m_kept.size(); ++j)
+    coarse[j] = fine[m_kept[j]];
+}
 
 } // namespace Surface_mesh_multiresolution
 } // namespace CGAL

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_CONFORMAL_OPERATOR_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_CONFORMAL_OPERATOR_H
 
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Multigrid/Matrix_builder.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/Triangles_at_vertices.h>
 #include <CGAL/Surface_mesh_parameterization/Conformal_triangle.h>
@@ -57,14 +58,20 @@ struct Half_cotangents
                   const std::vector<double>& triangle_weights)
     : value(3 * mesh.triangles.size())
   {
-    for(std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      const auto& v = mesh.triangles[t];
-      const Conformal_triangle triangle(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]);
-      const double weight = 0.5 * (triangle_weights.empty() ? 1. : triangle_weights[t]);
-      for(int c = 0; c < 3; ++c)
-        value[3 * t + c] = weight * triangle.cotangent(c);
-      mollified += triangle.is_mollified() ? 1 : 0;
-    }
+    const auto fill = [&](std::size_t begin, std::size_t end) {
+      std::size_t count = 0;
+      for(std::size_t t = begin; t < end; ++t) {
+        const auto& v = mesh.triangles[t];
+        const Conformal_triangle triangle(mesh.points[v[0]], mesh.points[v[1]],
+                                          mesh.points[v[2]]);
+        const double weight = 0.5 * (triangle_weights.empty() ? 1. : triangle_weights[t]);
+        for(int c = 0; c < 3; ++c)
+          value[3 * t + c] = weight * triangle.cotangent(c);
+        count += triangle.is_mollified() ? 1 : 0;
+      }
+      return count;
+    };
+    mollified = Blocked_execution::blocked_sum<std::size_t>(mesh.triangles.size(), 16384, fill);
   }
 };
 
@@ -139,15 +146,20 @@ conformal_operator(const Surface_mesh_multiresolution::Indexed_triangle_mesh& me
   Conformal_operator<Real> result;
   result.mollified_triangles = cot.mollified;
   std::vector<std::uint32_t> lengths(mesh.points.size());
-  for(std::uint32_t v = 0; v < lengths.size(); ++v)
-    lengths[v] = is_pinned[v] ? 0 : internal::number_of_neighbors(v, mesh.triangles, at);
+  Multigrid::for_each_index(lengths.size(), [&](std::size_t v) {
+    lengths[v] = is_pinned[v] ? 0 : internal::number_of_neighbors(std::uint32_t(v),
+                                                                  mesh.triangles, at);
+  });
   const auto fill = [&](std::uint32_t v, Multigrid::Matrix_row& row) {
-    internal::fill_conformal_row(v, mesh.triangles, at, cot, triangle_weights, row);
-    if(is_pinned[v]) {
-      result.pinned.push_back({v, row});
-      row = Multigrid::Matrix_row();
-    }
+    if(!is_pinned[v])
+      internal::fill_conformal_row(v, mesh.triangles, at, cot, triangle_weights, row);
   };
+  for(std::uint32_t v = 0; v < lengths.size(); ++v)
+    if(is_pinned[v]) {
+      result.pinned.push_back({v, Multigrid::Matrix_row()});
+      internal::fill_conformal_row(v, mesh.triangles, at, cot, triangle_weights,
+                                   result.pinned.back().row);
+    }
   result.matrix = Multigrid::Matrix_builder::build<Real>(lengths, fill);
   return result;
 }
@@ -157,10 +169,9 @@ template <class Vector>
 double Conformal_operator<Real>::energy(const Vector& z) const
 {
   typedef std::complex<double> Complex;
-  double twice = 0.;
-  matrix.for_each_row_sum(z, [&](std::size_t i, std::complex<Real> s) {
-    twice += (std::conj(Complex(z[i])) * Complex(matrix.diagonal()[i] * z[i] + s)).real();
-  });
+  Vector product(z.size());
+  matrix.multiply(z, product);
+  double twice = Multigrid::inner_product(z, product).real();
   for(const Pinned_row& pin : pinned) {
     Complex s = pin.row.diagonal * Complex(z[pin.vertex]);
     for(const auto& entry : pin.row.entries)

@@ -102,6 +102,9 @@ struct HLSCM_options
   /// Iterations on the fine mesh before the solver gives up; 0 for the method's default: 500, and
   /// 100000 for the monogrid method.
   std::size_t maximal_iterations = 0;
+  /// Threads that a parameterizer with `Parallel_tag` may use; 0 for all that the machine has. The
+  /// result does not depend on it.
+  int threads = 0;
   /// Told the part done in [0, 1] from time to time; returning `false` cancels.
   std::function<bool(double)> progress;
   /// Told the map on each level as soon as it is known.

@@ -9,9 +9,11 @@
 #include <CGAL/Surface_mesh_parameterization/Solver_traits_cholesky.h>
 #include <CGAL/Surface_mesh_parameterization/internal/Conformal_solver.h>
 
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Default.h>
 #include <CGAL/Kernel_traits.h>
 #include <CGAL/Surface_mesh_parameterization/Error_code.h>
+#include <CGAL/tags.h>
 
 #include <memory>
 #include <string>
@@ -58,6 +60,9 @@ global overlaps is guaranteed (see `measure_distortion()` and `has_global_overla
         `Two_vertices_parameterizer_3`; by default the far border pair
 \tparam SolverTraits a model of `SparseLinearAlgebraWithFactorTraits_d` for the coarsest level; by
         default a sparse Cholesky factorization of complex matrices by Eigen
+\tparam ConcurrencyTag `Sequential_tag` (default), `Parallel_tag` or `Parallel_if_available_tag`;
+        parallel, the stages of the hierarchical method use `HLSCM_options::threads` threads of TBB,
+        with the same result to the bit for any number
 
 \cgalModels{Parameterizer_3}
 
@@ -65,9 +70,15 @@ Memory: about 220 bytes a face beside the mesh.
 
 \sa `LSCM_parameterizer_3`
 */
-template <class TriangleMesh_, class BorderParameterizer_ = Default, class SolverTraits_ = Default>
+template <class TriangleMesh_, class BorderParameterizer_ = Default, class SolverTraits_ = Default,
+          class ConcurrencyTag = Sequential_tag>
 class HLSCM_parameterizer_3
 {
+  static constexpr bool is_parallel = std::is_convertible<ConcurrencyTag, Parallel_tag>::value;
+#ifndef CGAL_LINKED_WITH_TBB
+  static_assert(!is_parallel, "Parallel_tag needs a program that is linked with TBB.");
+#endif
+
 public:
   /// The mesh.
   typedef TriangleMesh_ TriangleMesh;
@@ -166,9 +177,9 @@ private:
   std::shared_ptr<HLSCM_report> m_report; // shared: SMP::parameterize() copies the parameterizer
 };
 
-template <class TM, class BP, class ST>
+template <class TM, class BP, class ST, class CT>
 std::vector<internal::Pin>
-HLSCM_parameterizer_3<TM, BP, ST>::user_pins(const TriangleMesh& mesh, internal::Chart& chart) const
+HLSCM_parameterizer_3<TM, BP, ST, CT>::user_pins(const TriangleMesh& mesh, internal::Chart& chart) const
 {
   const auto rank = chart.rank(num_vertices(mesh));
   std::vector<internal::Pin> pins;
@@ -189,10 +200,10 @@ HLSCM_parameterizer_3<TM, BP, ST>::user_pins(const TriangleMesh& mesh, internal:
   return pins;
 }
 
-template <class TM, class BP, class ST>
+template <class TM, class BP, class ST, class CT>
 template <class VertexUVMap, class VertexIndexMap, class VertexParameterizedMap>
 std::vector<internal::Pin>
-HLSCM_parameterizer_3<TM, BP, ST>::
+HLSCM_parameterizer_3<TM, BP, ST, CT>::
 choose_pins(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvmap,
             VertexIndexMap vimap, VertexParameterizedMap vpmap, internal::Chart& chart) const
 {
@@ -226,18 +237,20 @@ choose_pins(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvmap
   }
 }
 
-template <class TM, class BP, class ST>
-void HLSCM_parameterizer_3<TM, BP, ST>::name_method() const
+template <class TM, class BP, class ST, class CT>
+void HLSCM_parameterizer_3<TM, BP, ST, CT>::name_method() const
 {
   static const char* const names[] = {"hlscm", "cascadic", "lscm", "direct"};
   m_report->method = names[int(m_options.method)];
 }
 
-template <class TM, class BP, class ST>
-void HLSCM_parameterizer_3<TM, BP, ST>::check_options(internal::Chart& chart) const
+template <class TM, class BP, class ST, class CT>
+void HLSCM_parameterizer_3<TM, BP, ST, CT>::check_options(internal::Chart& chart) const
 {
   if(!(m_options.tolerance > 0.))
     chart.fail(ERROR_WRONG_PARAMETER, "the tolerance must be positive");
+  if(m_options.threads < 0)
+    chart.fail(ERROR_WRONG_PARAMETER, "the number of threads must not be negative");
   if(!(m_options.level_ratio == 0. || m_options.level_ratio > 1.))
     chart.fail(ERROR_WRONG_PARAMETER, "the ratio of levels must be greater than 1");
   if(!(m_options.angular_defect_bound > 0.))
@@ -246,8 +259,8 @@ void HLSCM_parameterizer_3<TM, BP, ST>::check_options(internal::Chart& chart) co
     chart.fail(ERROR_WRONG_PARAMETER, "the schedule must visit the coarse level at least once");
 }
 
-template <class TM, class BP, class ST>
-Error_code HLSCM_parameterizer_3<TM, BP, ST>::finish(const internal::Chart& chart) const
+template <class TM, class BP, class ST, class CT>
+Error_code HLSCM_parameterizer_3<TM, BP, ST, CT>::finish(const internal::Chart& chart) const
 {
   HLSCM_report& report = *m_report;
   report.seconds_total = report.seconds_hierarchy + report.seconds_operators + report.seconds_solve;
@@ -255,15 +268,16 @@ Error_code HLSCM_parameterizer_3<TM, BP, ST>::finish(const internal::Chart& char
   return report.cancelled ? ERROR_CANNOT_SOLVE_LINEAR_SYSTEM : chart.error;
 }
 
-template <class TM, class BP, class ST>
+template <class TM, class BP, class ST, class CT>
 template <class VertexUVMap, class VertexIndexMap, class VertexParameterizedMap>
 Error_code
-HLSCM_parameterizer_3<TM, BP, ST>::
+HLSCM_parameterizer_3<TM, BP, ST, CT>::
 parameterize(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvmap,
              VertexIndexMap vimap, VertexParameterizedMap vpmap)
 {
   *m_report = HLSCM_report();
   name_method();
+  const Blocked_execution::Thread_scope threads(is_parallel ? m_options.threads : 1);
   internal::Stopwatch watch;
   internal::Chart chart;
   check_options(chart);

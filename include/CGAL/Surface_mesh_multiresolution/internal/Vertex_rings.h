@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_VERTEX_RINGS_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_VERTEX_RINGS_H
 
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_multiresolution/Indexed_triangle_mesh.h>
 
 #include <CGAL/assertions.h>
@@ -70,6 +71,14 @@ public:
   // r_k have only the opposite vertices of their common triangles as common neighbours, and no
   // triangle pair is folded onto another.
   bool is_collapse_valid(Vertex_index v, std::uint32_t k) const;
+
+  // Whether the ring of the kept vertex would have to leave its line, which only one thread may do.
+  bool needs_new_spill(Vertex_index v, std::uint32_t k) const
+  {
+    const Vertex_index t = ring(v)[k];
+    const std::uint32_t gained = degree(v) - (is_border(v) ? 2 : 3);
+    return (m_lines[t].degree & spill_flag) == 0 && degree(t) - 1 + gained > line_capacity;
+  }
 
   // Collapses v into its ring vertex k. Precondition: `is_collapse_valid(v, k)`.
   void collapse(Vertex_index v, std::uint32_t k);
@@ -234,21 +243,26 @@ inline void Vertex_rings::build(const Indexed_triangle_mesh& mesh)
       all[begin[t[c]]++] = {t[(c + 1) % 3], t[(c + 2) % 3]};
   m_lines.resize(n);
   m_small_degree.resize(n);
+  std::vector<std::uint8_t> is_done(n);
+  Blocked_execution::blocked_for(n, 16384, [&](std::size_t first, std::size_t last) {
+    for(std::size_t v = first; v < last; ++v) {
+      const std::uint32_t from = v == 0 ? 0 : begin[v - 1];
+      is_done[v] = link_small_fan(Vertex_index(v), all.data() + from, begin[v] - from);
+    }
+  });
   std::vector<std::array<Vertex_index, 2>> wedges;
   std::vector<Vertex_index> ring;
   for(std::size_t v = 0; v < n; ++v) {
-    const std::uint32_t from = v == 0 ? 0 : begin[v - 1];
-    if(link_small_fan(Vertex_index(v), all.data() + from, begin[v] - from))
-      continue;
-    wedges.assign(all.begin() + from, all.begin() + begin[v]);
-    const Ring_defect defect = link_fan(Vertex_index(v), wedges, ring);
-    if(defect != Ring_defect::NONE && m_defect == Ring_defect::NONE) {
-      m_defect = defect;
-      m_defective_vertex = Vertex_index(v);
+    if(!is_done[v]) {
+      wedges.assign(all.begin() + (v == 0 ? 0 : begin[v - 1]), all.begin() + begin[v]);
+      const Ring_defect defect = link_fan(Vertex_index(v), wedges, ring);
+      if(defect != Ring_defect::NONE && m_defect == Ring_defect::NONE) {
+        m_defect = defect;
+        m_defective_vertex = Vertex_index(v);
+      }
     }
-  }
-  for(std::size_t v = 0; v < n; ++v)
     note_degree(Vertex_index(v));
+  }
 }
 
 inline bool Vertex_rings::is_collapse_valid(Vertex_index v, std::uint32_t k) const

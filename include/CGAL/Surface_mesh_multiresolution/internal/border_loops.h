@@ -6,6 +6,8 @@
 
 #include <CGAL/Surface_mesh_multiresolution/internal/Vertex_rings.h>
 
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -29,23 +31,49 @@ inline std::vector<std::vector<Vertex_index>> border_loops(const Vertex_rings& r
   return loops;
 }
 
-// The vertices that can be reached from `seed` along edges, as a flag for each vertex.
+// The representative of i, with shorter ways for the next time.
+inline Vertex_index find_root(std::vector<Vertex_index>& parent, Vertex_index i)
+{
+  while(parent[i] != i)
+    i = parent[i] = parent[parent[i]];
+  return i;
+}
+
+// The vertices that can be reached from `seed` along edges, as a flag for each vertex. Every vertex
+// points to its smallest neighbour; few trees result, and only edges between trees are looked at
+// one by one.
 inline std::vector<bool> component_of(const Vertex_rings& rings, Vertex_index seed)
 {
-  std::vector<bool> is_reached(rings.size(), false);
-  std::vector<Vertex_index> stack(1, seed);
-  is_reached[seed] = true;
-  while(!stack.empty()) {
-    const Vertex_index v = stack.back();
-    stack.pop_back();
-    for(std::uint32_t i = 0; i < rings.degree(v); ++i) {
-      const Vertex_index w = rings.ring(v)[i];
-      if(!is_reached[w]) {
-        is_reached[w] = true;
-        stack.push_back(w);
-      }
+  constexpr std::size_t block = 16384;
+  const std::size_t n = rings.size();
+  std::vector<Vertex_index> parent(n);
+  Blocked_execution::blocked_for(n, block, [&](std::size_t begin, std::size_t end) {
+    for(std::size_t v = begin; v < end; ++v) {
+      const Vertex_index* r = rings.ring(Vertex_index(v));
+      parent[v] = (std::min)(Vertex_index(v), *std::min_element(r, r + rings.degree(Vertex_index(v))));
     }
-  }
+  });
+  for(std::size_t v = 0; v < n; ++v) // parents are smaller, and settled
+    parent[v] = parent[parent[v]];
+  std::vector<std::vector<std::pair<Vertex_index, Vertex_index>>> links(
+    Blocked_execution::number_of_blocks(n, block));
+  Blocked_execution::blocked_for(n, block, [&](std::size_t begin, std::size_t end) {
+    auto& found = links[begin / block];
+    for(std::size_t v = begin; v < end; ++v)
+      for(std::uint32_t i = 0; i < rings.degree(Vertex_index(v)); ++i) {
+        const Vertex_index w = rings.ring(Vertex_index(v))[i];
+        if(parent[w] < parent[v]
+           && (found.empty() || found.back() != std::make_pair(parent[v], parent[w])))
+          found.push_back({parent[v], parent[w]});
+      }
+  });
+  for(const auto& block_links : links)
+    for(const auto& [a, b] : block_links)
+      parent[find_root(parent, a)] = find_root(parent, b);
+  const Vertex_index root = find_root(parent, seed);
+  std::vector<bool> is_reached(n);
+  for(std::size_t v = 0; v < n; ++v)
+    is_reached[v] = find_root(parent, Vertex_index(v)) == root;
   return is_reached;
 }
 

@@ -163,15 +163,20 @@ walk_stencils(const Indexed_triangle_mesh& fine, const Indexed_triangle_mesh& co
   std::vector<Vertex_index> rank(fine.points.size());
   for(Vertex_index j = 0; j < kept.size(); ++j)
     rank[kept[j]] = j;
-  std::vector<Prolongation::Stencil> result;
-  result.reserve(fine.points.size() - kept.size());
-  for(Vertex_index v = 0; v < fine.points.size(); ++v) {
-    if(ancestor[v] == v)
-      continue;
-    const Nearest_triangle best = walk_to_nearest(at, coarse, rank[ancestor[v]], fine.points[v]);
-    const Triangle_indices& t = best.triangle;
-    result.push_back({v, {kept[t[0]], kept[t[1]], kept[t[2]]}, best.point.weight});
-  }
+  std::vector<Vertex_index> removed;
+  removed.reserve(fine.points.size() - kept.size());
+  for(Vertex_index v = 0; v < fine.points.size(); ++v)
+    if(ancestor[v] != v)
+      removed.push_back(v);
+  std::vector<Prolongation::Stencil> result(removed.size());
+  Blocked_execution::blocked_for(removed.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for(std::size_t i = begin; i < end; ++i) {
+      const Vertex_index v = removed[i];
+      const Nearest_triangle best = walk_to_nearest(at, coarse, rank[ancestor[v]], fine.points[v]);
+      const Triangle_indices& t = best.triangle;
+      result[i] = {v, {kept[t[0]], kept[t[1]], kept[t[2]]}, best.point.weight};
+    }
+  });
   return result;
 }
 

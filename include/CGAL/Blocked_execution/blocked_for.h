@@ -1,0 +1,139 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_BLOCKED_EXECUTION_BLOCKED_FOR_H
+#define CGAL_BLOCKED_EXECUTION_BLOCKED_FOR_H
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#ifdef CGAL_LINKED_WITH_TBB
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#endif
+
+namespace CGAL {
+namespace Blocked_execution {
+
+/*!
+\ingroup PkgHLSCMExecution
+
+The class `Thread_scope` lets the loops of the calling thread that are written with `blocked_for()`
+use several threads as long as it exists. Without it, and in programs that are not linked with TBB
+(`CGAL_LINKED_WITH_TBB`), they use the calling thread alone. Results do not depend on it: a loop is
+cut into the same blocks for any number of threads, and sums are formed block by block.
+*/
+class Thread_scope
+{
+public:
+  /// Allows `threads` threads; 0 stands for all that the machine has.
+  explicit Thread_scope(int threads)
+    : m_outer(current())
+#ifdef CGAL_LINKED_WITH_TBB
+    , m_arena(threads == 0 ? tbb::task_arena::automatic : threads)
+    , m_is_parallel(threads != 1)
+#endif
+  {
+#ifndef CGAL_LINKED_WITH_TBB
+    (void)threads;
+#endif
+    current() = this;
+  }
+
+  ~Thread_scope() { current() = m_outer; }
+
+  Thread_scope(const Thread_scope&) = delete;
+  Thread_scope& operator=(const Thread_scope&) = delete;
+
+  /// Runs `body(block)` for the blocks [0, n) in the innermost scope of this thread.
+  template <class Body>
+  static void run(std::size_t n, const Body& body);
+
+private:
+  // One copy of the machine code for all callers: copies inlined in different places may round
+  // differently, where compilers contract products and sums.
+  template <class Body>
+#if defined(__GNUC__)
+  __attribute__((noinline))
+#elif defined(_MSC_VER)
+  __declspec(noinline)
+#endif
+  static void run_block(const Body& body, std::size_t block) { body(block); }
+
+  static Thread_scope*& current()
+  {
+    static thread_local Thread_scope* scope = nullptr;
+    return scope;
+  }
+
+  Thread_scope* m_outer;
+#ifdef CGAL_LINKED_WITH_TBB
+  tbb::task_arena m_arena;
+  bool m_is_parallel;
+#endif
+};
+
+template <class Body>
+void Thread_scope::run(std::size_t n, const Body& body)
+{
+#ifdef CGAL_LINKED_WITH_TBB
+  Thread_scope* scope = current();
+  if(scope != nullptr && scope->m_is_parallel && n > 1) {
+    scope->m_arena.execute([&] {
+      tbb::parallel_for(std::size_t(0), n, [&](std::size_t block) { run_block(body, block); });
+    });
+    return;
+  }
+#endif
+  for(std::size_t block = 0; block < n; ++block)
+    run_block(body, block);
+}
+
+/// \ingroup PkgHLSCMExecution
+/// Returns the number of blocks of `size` that make up `n` things.
+inline std::size_t number_of_blocks(std::size_t n, std::size_t size)
+{
+  return (n + size - 1) / size;
+}
+
+/*!
+\ingroup PkgHLSCMExecution
+
+Calls `body(begin, end)` for the blocks of `size` that make up [0, n), in any order and possibly at
+the same time; a block must not touch what another one writes.
+*/
+template <class Body>
+void blocked_for(std::size_t n, std::size_t size, const Body& body)
+{
+  Thread_scope::run(number_of_blocks(n, size), [&](std::size_t block) {
+    body(block * size, (std::min)(n, (block + 1) * size));
+  });
+}
+
+/*!
+\ingroup PkgHLSCMExecution
+
+Returns the sum of `body(begin, end)` over the blocks of `size` that make up [0, n), added in the
+order of the blocks.
+*/
+template <class Sum, class Body>
+Sum blocked_sum(std::size_t n, std::size_t size, const Body& body)
+{
+  const std::size_t blocks = number_of_blocks(n, size);
+  if(blocks == 1)
+    return Sum() + body(std::size_t(0), n);
+  std::vector<Sum> part(blocks);
+  Thread_scope::run(blocks, [&](std::size_t block) {
+    part[block] = body(block * size, (std::min)(n, (block + 1) * size));
+  });
+  Sum sum = Sum();
+  for(const Sum& s : part)
+    sum += s;
+  return sum;
+}
+
+} // namespace Blocked_execution
+} // namespace CGAL
+
+#endif // CGAL_BLOCKED_EXECUTION_BLOCKED_FOR_H
