@@ -13,7 +13,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 packages=(
   g++ cmake ninja-build python3
   libcgal-dev libcgal-demo libeigen3-dev
-  libsuitesparse-dev libopenmesh-dev
+  libsuitesparse-dev libopenmesh-dev libtbb-dev
   libcli11-dev nlohmann-json3-dev libstb-dev
   libgtest-dev libbenchmark-dev)
 

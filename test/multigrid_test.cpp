@@ -323,7 +323,7 @@ TEST(Transfer, restriction_is_the_transpose_of_prolongation)
     // Constants stay constants, vertices of both levels keep their values.
     EXPECT_LE((matrix.rowwise().sum() - Dense_vector::Ones(60)).norm(), 1e-5);
     for(int j = 0; j < kept; ++j)
-      EXPECT_EQ(matrix.row(p.kept[j]), Dense_matrix::Identity(kept, kept).row(j));
+      EXPECT_EQ(matrix.row(p.kept()[j]), Dense_matrix::Identity(kept, kept).row(j));
   }
 }
 

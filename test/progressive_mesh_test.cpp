@@ -8,6 +8,7 @@
 #include <support/mesh_generators.h>
 #include <support/mesh_properties.h>
 
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
 #include <CGAL/Surface_mesh_multiresolution/Mesh_hierarchy.h>
 #include <CGAL/Surface_mesh_multiresolution/build_progressive_mesh.h>
@@ -25,6 +26,7 @@
 #include <array>
 #include <complex>
 #include <limits>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -534,14 +536,14 @@ std::string error_in_stencils(const SMM::Mesh_level& coarse, const SMM::Mesh_lev
 {
   const SMM::Prolongation& p = fine.from_coarser;
   std::vector<bool> is_known(fine.vertices.size(), false);
-  if(p.kept.size() != coarse.vertices.size() || p.number_of_fine_vertices() != is_known.size())
+  if(p.kept().size() != coarse.vertices.size() || p.number_of_fine_vertices() != is_known.size())
     return "a wrong number of vertices";
-  for(std::size_t j = 0; j < p.kept.size(); ++j) {
-    if(fine.vertices[p.kept[j]] != coarse.vertices[j])
+  for(std::size_t j = 0; j < p.kept().size(); ++j) {
+    if(fine.vertices[p.kept()[j]] != coarse.vertices[j])
       return "a wrong kept vertex";
-    is_known[p.kept[j]] = true;
+    is_known[p.kept()[j]] = true;
   }
-  for(const auto& s : p.stencils) {
+  for(const auto& s : p.stencils()) {
     double sum = 0.;
     for(int c = 0; c < 3; ++c) {
       if(!is_known[s.source[c]])
@@ -563,7 +565,7 @@ std::string error_in_stencils(const SMM::Mesh_level& coarse, const SMM::Mesh_lev
 std::string error_in_positions(const SMM::Mesh_level& fine)
 {
   const auto& x = fine.mesh.points;
-  for(const auto& s : fine.from_coarser.stencils) {
+  for(const auto& s : fine.from_coarser.stencils()) {
     CGAL::Vector_3<Kernel> offset(0., 0., 0.);
     double size = 0.;
     for(int c = 0; c < 3; ++c) {
@@ -590,7 +592,7 @@ std::string error_in_vsplit_choice(const SMM::Mesh_level& fine, const Progressiv
   const auto& x = fine.mesh.points;
   Progressive_mesh_cursor cursor(pm);
   cursor.move_to(first);
-  const auto& stencils = fine.from_coarser.stencils;
+  const auto& stencils = fine.from_coarser.stencils();
   for(auto s = stencils.rbegin(); s != stencils.rend(); ++s) {
     if(pm.collapses[cursor.position()].removed != fine.vertices[s->vertex])
       return "stencils are not in the order of the vertex splits";
@@ -715,6 +717,18 @@ struct Fixed_price
   }
 };
 
+// Whether topology lets v go without a ring that grows beyond 14.
+bool may_go(const Vertex_rings& rings, Vertex_index v)
+{
+  if(rings.degree(v) <= 14)
+    for(std::uint32_t k = 0; k < rings.degree(v); ++k)
+      if(rings.is_collapse_valid(v, k) && !rings.needs_new_spill(v, k))
+        return true;
+  return false;
+}
+
+// The cheapest vertex that may go, of those that could when their ring last changed: a change two
+// edges away is noticed only where it takes a possibility away.
 TEST(Flat_collapse_engine, strict_order_takes_the_cheapest)
 {
   for(const Named_mesh& input : generated_meshes(seed)) {
@@ -722,29 +736,61 @@ TEST(Flat_collapse_engine, strict_order_takes_the_cheapest)
     const Indexed_triangle_mesh& mesh = input.mesh;
     Random random(seed);
     Fixed_price cost;
-    for(std::size_t v = 0; v < mesh.points.size(); ++v)
-      cost.price.push_back(std::floor(uniform(random, 0., 100.)));
-    SMM::Flat_collapse_engine<Fixed_price, SMS::internal::Accept_all_filter>
-      engine(mesh, Vertex_rings(mesh), {}, cost, SMS::internal::Accept_all_filter());
-    const Progressive_mesh pm = engine.run(flat_options(SMM::Collapse_order::STRICT, 0));
-    EXPECT_EQ(error_in_progressive_mesh(mesh, pm), "");
+    std::set<std::pair<double, Vertex_index>> candidates;
     Vertex_rings rings(mesh);
-    std::vector<bool> is_gone(mesh.points.size(), false);
-    for(std::size_t i = 0; i <= pm.collapses.size(); ++i) {
-      // The cheapest vertex that topology lets go
-      std::pair<double, Vertex_index> best(1e9, SMM::no_vertex);
-      for(Vertex_index v = 0; v < is_gone.size(); ++v)
-        for(std::uint32_t k = 0; !is_gone[v] && rings.degree(v) <= 14 && k < rings.degree(v); ++k)
-          if(rings.is_collapse_valid(v, k))
-            best = (std::min)(best, {cost.price[v], v});
-      const bool is_last = i == pm.collapses.size();
-      ASSERT_EQ(is_last ? SMM::no_vertex : pm.collapses[i].removed, best.second) << "step " << i;
-      if(is_last)
-        break;
-      const auto [removed, kept] = pm.collapses[i];
-      rings.collapse(removed, position_in_ring(rings, removed, kept));
-      is_gone[removed] = true;
+    for(Vertex_index v = 0; v < mesh.points.size(); ++v) {
+      cost.price.push_back(std::floor(uniform(random, 0., 100.)));
+      if(may_go(rings, v))
+        candidates.insert({cost.price[v], v});
     }
+    const Progressive_mesh pm
+      = SMM::Flat_collapse_engine<Fixed_price, SMS::internal::Accept_all_filter>(
+          mesh, rings, {}, cost, SMS::internal::Accept_all_filter())
+        .run(flat_options(SMM::Collapse_order::STRICT, 0));
+    EXPECT_EQ(error_in_progressive_mesh(mesh, pm), "");
+    for(const auto& [removed, kept] : pm.collapses) {
+      while(!candidates.empty() && !may_go(rings, candidates.begin()->second))
+        candidates.erase(candidates.begin());
+      ASSERT_FALSE(candidates.empty());
+      ASSERT_EQ(removed, candidates.begin()->second);
+      candidates.erase(candidates.begin());
+      const std::vector<Vertex_index> ring(rings.ring(removed),
+                                           rings.ring(removed) + rings.degree(removed));
+      rings.collapse(removed, position_in_ring(rings, removed, kept));
+      for(const Vertex_index w : ring) {
+        candidates.erase({cost.price[w], w});
+        if(may_go(rings, w))
+          candidates.insert({cost.price[w], w});
+      }
+    }
+    for(const auto& [price, v] : candidates)
+      EXPECT_FALSE(may_go(rings, v)) << v << " is left";
+  }
+}
+
+// A mesh that is large enough for passes of several blocks, which threads share.
+TEST(Flat_collapse_engine, blocks_and_threads)
+{
+  Indexed_triangle_mesh mesh
+    = with_holes(with_hills(irregular_grid(330, 330, seed), 20., seed), 300, seed);
+  SMM::normalize(mesh);
+  SMM::sort_spatially(mesh);
+  const std::size_t n = mesh.points.size();
+  const auto is_locked = random_locks(n, 0.001, seed);
+  for(const std::size_t target : {n - 3, n - 500, std::size_t(90000), std::size_t(5000)}) {
+    SCOPED_TRACE("target " + std::to_string(target) + seed_text);
+    Progressive_mesh pm;
+    for(const unsigned int threads : {1, 2, 3}) {
+      const CGAL::Blocked_execution::Thread_scope scope(threads);
+      SMM::Flat_collapse_engine<> engine(mesh, Vertex_rings(mesh), is_locked);
+      const Progressive_mesh next
+        = engine.run(flat_options(SMM::Collapse_order::BATCHED, target));
+      EXPECT_TRUE(threads == 1 || is_equal(next.collapses, pm.collapses)) << threads << " threads";
+      pm = next;
+    }
+    EXPECT_EQ(n - pm.collapses.size(), target);
+    EXPECT_EQ(error_in_collapses(pm, is_locked), "");
+    EXPECT_EQ(error_in_levels(pm, 1), "");
   }
 }
 
@@ -936,7 +982,7 @@ TEST(Build_progressive_mesh, numbers_as_the_mesh_does)
                                       surface.progressive_mesh), "");
 }
 
-// Counts the vertices as they are, by the price of their place.
+// A price that depends on the place of the vertex alone.
 struct Price_of_place
 {
   template <class Profile, class Placement>

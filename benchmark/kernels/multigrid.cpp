@@ -143,14 +143,14 @@ BENCHMARK(chebyshev_smoother)->Apply(small_and_large);
 void prolongate(benchmark::State& state)
 {
   const SMM::Prolongation& p = levels(std::size_t(state.range(0))).back().from_coarser;
-  const MG::Complex_vector<float> coarse(p.kept.size(), {1, 2});
+  const MG::Complex_vector<float> coarse(p.kept().size(), {1, 2});
   MG::Complex_vector<float> fine(p.number_of_fine_vertices());
   for(auto _ : state) {
     p.prolongate(coarse, fine);
     benchmark::ClobberMemory();
   }
   set_rate(state, "vertices/s", double(fine.size()));
-  set_bytes(state, bytes_of(p.kept) + bytes_of(p.stencils) + bytes_of(coarse) + bytes_of(fine));
+  set_bytes(state, bytes_of(p.kept()) + bytes_of(p.stencils()) + bytes_of(coarse) + bytes_of(fine));
 }
 BENCHMARK(prolongate)->Apply(small_and_large);
 
@@ -158,14 +158,14 @@ void restrict_residual(benchmark::State& state)
 {
   const SMM::Prolongation& p = levels(std::size_t(state.range(0))).back().from_coarser;
   const MG::Complex_vector<float> residual(p.number_of_fine_vertices(), {1, 2});
-  MG::Complex_vector<float> fine(residual.size()), coarse(p.kept.size());
+  MG::Complex_vector<float> fine(residual.size()), coarse(p.kept().size());
   for(auto _ : state) {
     fine = residual; // it is used up
     p.restrict_in_place(fine, coarse);
     benchmark::ClobberMemory();
   }
   set_rate(state, "vertices/s", double(fine.size()));
-  set_bytes(state, bytes_of(p.kept) + bytes_of(p.stencils) + bytes_of(coarse) + 4 * bytes_of(fine));
+  set_bytes(state, bytes_of(p.kept()) + bytes_of(p.stencils()) + bytes_of(coarse) + 4 * bytes_of(fine));
 }
 BENCHMARK(restrict_residual)->Apply(small_and_large);
 

@@ -59,13 +59,13 @@ inline double mean_distance(const SMM::Mesh_level& fine)
 {
   const auto& points = fine.mesh.points;
   double sum = 0;
-  for(const SMM::Prolongation::Stencil& s : fine.from_coarser.stencils) {
+  for(const SMM::Prolongation::Stencil& s : fine.from_coarser.stencils()) {
     const auto nearest =
         CGAL::barycenter(points[s.source[0]], double(s.weight[0]), points[s.source[1]],
                          double(s.weight[1]), points[s.source[2]], double(s.weight[2]));
     sum += std::sqrt(CGAL::squared_distance(nearest, points[s.vertex]));
   }
-  return sum / double(fine.from_coarser.stencils.size());
+  return sum / double(fine.from_coarser.stencils().size());
 }
 
 // How good the coarsest mesh is, lengths in mean edges of the fine one.

@@ -21,7 +21,7 @@ namespace SMS = CGAL::Surface_mesh_simplification;
 constexpr unsigned int cells = 80;            // of the plane, in each direction
 constexpr std::size_t coarse_vertices = 30;
 constexpr std::size_t steps = 20;             // of conjugate gradients after the first guess
-constexpr std::uint32_t number_of_meshes = 12; // over which the means are taken
+constexpr std::uint32_t number_of_meshes = 50; // over which the means are taken
 
 // Costs nothing: what is added to it does not know the shape of the surface.
 struct No_cost

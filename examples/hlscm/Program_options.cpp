@@ -150,6 +150,10 @@ void add_solver_options(CLI::App& app, SMP::HLSCM_options& o)
       o.prolongation,
       "from level to level: a walk to the nearest triangle (default), or one "
       "vertex split at a time as in the paper");
+  app.add_option("--threads", o.threads,
+                 "threads of the hierarchical methods; 0, the default, for all processors. The "
+                 "result does not depend on it")
+      ->check(CLI::Range(0u, 1024u, "N"));
 }
 
 void add_info(CLI::App& app, Program_options& o)

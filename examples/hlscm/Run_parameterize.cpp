@@ -117,7 +117,8 @@ void solve(const Program_options& options, const Mesh& mesh, Uv_map uv, Level_sn
   if(snapshots != nullptr) {
     library.level_observer = [snapshots](const SMP::Level_view& view) { snapshots->observe(view); };
   }
-  SMP::HLSCM_parameterizer_3<Mesh> parameterizer(library);
+  SMP::HLSCM_parameterizer_3<Mesh, CGAL::Default, CGAL::Default, CGAL::Parallel_if_available_tag>
+      parameterizer(library);
   parameterizer.set_pins(checked_pins(options, mesh));
 
   progress.start_stage("solving");
@@ -201,10 +202,10 @@ int run_parameterize(const Program_options& options)
   if(options.pins.empty()) {
     to_result = fit_to_unit_square(mesh, uv, report.solver);
   }
+  report.seconds_total = working.seconds();
   const Stopwatch measuring;
   report.distortion = SMP::measure_distortion(mesh, uv);
   report.seconds_measure = measuring.seconds();
-  report.seconds_total = working.seconds();
   add_warnings(report);
 
   const Stopwatch writing;

@@ -131,11 +131,18 @@ inline double difference(const Parameters& uv, const Parameters& expected)
 struct Comparison
 {
   Outcome hierarchical, direct;
-  std::size_t hierarchical_flips = 0, direct_flips = 0;
   double hierarchical_energy = 0., direct_energy = 0.; // the minimised one
+  std::size_t hierarchical_flips = 0, direct_flips = 0;
+  double area_scale_range = 0.; // of the direct method
 
-  // (E - Emin) / E
-  double gap() const { return (hierarchical_energy - direct_energy) / hierarchical_energy; }
+  // (E - Emin) / E; 0 if both are the rounding errors of a map that is a similarity on each face
+  double gap() const
+  {
+    const double size = size_of(direct.uv), rounding = 1e-20 * size * size;
+    if(hierarchical_energy <= rounding && direct_energy <= rounding)
+      return 0.;
+    return (hierarchical_energy - direct_energy) / hierarchical_energy;
+  }
 };
 
 // The energy that the weights stand for, summed triangle by triangle: as the form z^H H z it would
@@ -164,7 +171,9 @@ inline Comparison compare_with_direct(Surface_mesh& mesh, SMP::HLSCM_options opt
   options.method = SMP::Conformal_method::DIRECT;
   c.direct = parameterize(mesh, options, pins);
   c.hierarchical_flips = measure(mesh, c.hierarchical.uv).flipped_faces;
-  c.direct_flips = measure(mesh, c.direct.uv).flipped_faces;
+  const SMP::Distortion_measures direct = measure(mesh, c.direct.uv);
+  c.direct_flips = direct.flipped_faces;
+  c.area_scale_range = direct.area_scale_range;
   c.hierarchical_energy = energy_of(mesh, c.hierarchical.uv, options.weights);
   c.direct_energy = energy_of(mesh, c.direct.uv, options.weights);
   return c;
@@ -182,6 +191,10 @@ inline std::string row_of(const std::string& name, const Comparison& c, double t
 
 // What is wrong with the hierarchical result, or an empty string: it must have converged, its energy
 // must lie within the tolerance of the direct one, and it may not have more flipped faces.
+//
+// A face that is all but degenerate in the direct map may tip over within the tolerance: one in 10,000
+// is let pass. Faces below 1e-10 of the size of the map are beyond any tolerance of the energy; where
+// there are such, flips are not compared.
 inline std::string error_in_comparison(const Comparison& c, double tolerance)
 {
   for(const Outcome* run : {&c.hierarchical, &c.direct}) {
@@ -190,11 +203,13 @@ inline std::string error_in_comparison(const Comparison& c, double tolerance)
     if(!run->report.converged)
       return run->report.method + " did not converge";
   }
-  if(c.gap() > tolerance)
+  if(!(c.gap() <= tolerance))
     return "the energy is too high";
-  if(c.gap() < -1e-9)
+  if(!(c.gap() >= -1e-9))
     return "the energy is below that of the direct method";
-  if(c.hierarchical_flips > c.direct_flips)
+  const std::size_t let_pass
+    = tolerance > 1e-5 ? (c.direct.report.faces + 9999) / 10000 : std::size_t(0);
+  if(c.area_scale_range < 1e20 && c.hierarchical_flips > c.direct_flips + let_pass)
     return "more faces are flipped";
   return {};
 }

@@ -213,20 +213,20 @@ inline CGAL::Surface_mesh_multiresolution::Prolongation
 random_prolongation(int coarse, int fine, Random_numbers& random)
 {
   const auto order = random_permutation(fine, random.engine());
-  CGAL::Surface_mesh_multiresolution::Prolongation p;
-  p.kept.assign(order.begin(), order.begin() + coarse);
+  typedef CGAL::Surface_mesh_multiresolution::Prolongation Prolongation;
+  std::vector<Prolongation::Stencil> stencils;
   for(int k = coarse; k < fine; ++k) {
     const double a = 0.5 + 0.5 * random.real(), b = (1. - a) * (0.5 + 0.5 * random.real());
-    p.stencils.push_back({order[k], {order[random.below(k)], order[random.below(k)],
-                                     order[random.below(k)]},
-                          {float(a), float(b), float(1. - a - b)}});
+    stencils.push_back({order[k], {order[random.below(k)], order[random.below(k)],
+                                   order[random.below(k)]},
+                        {float(a), float(b), float(1. - a - b)}});
   }
-  return p;
+  return Prolongation({order.begin(), order.begin() + coarse}, std::move(stencils));
 }
 
 inline Dense_matrix dense_prolongation(const CGAL::Surface_mesh_multiresolution::Prolongation& p)
 {
-  return matrix_of(int(p.kept.size()), [&](const Dense_vector& x) {
+  return matrix_of(int(p.kept().size()), [&](const Dense_vector& x) {
     CGAL::Multigrid::Complex_vector<double> fine;
     p.prolongate(to_vector<double>(x), fine);
     return to_dense(fine);
@@ -293,13 +293,15 @@ private:
   // Every other vertex stays, the others are the means of their neighbours.
   static CGAL::Surface_mesh_multiresolution::Prolongation halving(int n)
   {
-    CGAL::Surface_mesh_multiresolution::Prolongation p;
+    typedef CGAL::Surface_mesh_multiresolution::Prolongation Prolongation;
+    std::vector<Vertex_index> kept;
+    std::vector<Prolongation::Stencil> stencils;
     for(Vertex_index v = 0; v < Vertex_index(n); ++v)
       if(v % 2 == 0)
-        p.kept.push_back(v);
+        kept.push_back(v);
       else
-        p.stencils.push_back({v, {v - 1, v + 1, v + 1}, {0.5f, 0.25f, 0.25f}});
-    return p;
+        stencils.push_back({v, {v - 1, v + 1, v + 1}, {0.5f, 0.25f, 0.25f}});
+    return Prolongation(std::move(kept), std::move(stencils));
   }
 };
 

@@ -28,10 +28,10 @@ class Thread_scope
 {
 public:
   /// Allows `threads` threads; 0 stands for all that the machine has.
-  explicit Thread_scope(int threads)
+  explicit Thread_scope(unsigned int threads)
     : m_outer(current())
 #ifdef CGAL_LINKED_WITH_TBB
-    , m_arena(threads == 0 ? tbb::task_arena::automatic : threads)
+    , m_arena(threads == 0 ? tbb::task_arena::automatic : int(threads))
     , m_is_parallel(threads != 1)
 #endif
   {

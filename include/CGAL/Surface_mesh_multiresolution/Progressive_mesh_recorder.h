@@ -141,13 +141,15 @@ template <class TriangleMesh, class Cost>
 class Progressive_mesh_recorder<TriangleMesh, Cost>::Vertex_is_locked_map
 {
 public:
-  typedef vertex_descriptor key_type;
-  typedef bool value_type;
-  typedef bool reference;
-  typedef boost::readable_property_map_tag category;
+  typedef vertex_descriptor key_type;                ///< a descriptor
+  typedef bool value_type;                           ///< the answer
+  typedef bool reference;                            ///< what `get()` returns
+  typedef boost::readable_property_map_tag category; ///< how the map may be used
 
+  /// Constructs the map of a recorder's vertices.
   explicit Vertex_is_locked_map(const std::shared_ptr<State>& state) : m_state(state) {}
 
+  /// Returns whether the vertex that `v` stands for must stay.
   friend bool get(const Vertex_is_locked_map& map, const vertex_descriptor v)
   {
     return map.m_state->is_locked[get(map.m_state->number, v)];
@@ -161,14 +163,16 @@ template <class TriangleMesh, class Cost>
 class Progressive_mesh_recorder<TriangleMesh, Cost>::Edge_is_constrained_map
 {
 public:
-  typedef edge_descriptor key_type;
-  typedef bool value_type;
-  typedef bool reference;
-  typedef boost::readable_property_map_tag category;
+  typedef edge_descriptor key_type;                  ///< an edge
+  typedef bool value_type;                           ///< the answer
+  typedef bool reference;                            ///< what `get()` returns
+  typedef boost::readable_property_map_tag category; ///< how the map may be used
 
+  /// Constructs the map of a recorder's edges.
   Edge_is_constrained_map(const TriangleMesh& mesh, const std::shared_ptr<State>& state)
     : m_mesh(&mesh), m_state(state) {}
 
+  /// Returns whether `e` has no length and neither end may be removed.
   friend bool get(const Edge_is_constrained_map& map, const edge_descriptor e)
   {
     const auto vpm = get(CGAL::vertex_point, *map.m_mesh);

@@ -104,7 +104,7 @@ struct HLSCM_options
   std::size_t maximal_iterations = 0;
   /// Threads that a parameterizer with `Parallel_tag` may use; 0 for all that the machine has. The
   /// result does not depend on it.
-  int threads = 0;
+  unsigned int threads = 0;
   /// Told the part done in [0, 1] from time to time; returning `false` cancels.
   std::function<bool(double)> progress;
   /// Told the map on each level as soon as it is known.

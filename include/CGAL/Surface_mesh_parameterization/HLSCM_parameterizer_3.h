@@ -249,8 +249,6 @@ void HLSCM_parameterizer_3<TM, BP, ST, CT>::check_options(internal::Chart& chart
 {
   if(!(m_options.tolerance > 0.))
     chart.fail(ERROR_WRONG_PARAMETER, "the tolerance must be positive");
-  if(m_options.threads < 0)
-    chart.fail(ERROR_WRONG_PARAMETER, "the number of threads must not be negative");
   if(!(m_options.level_ratio == 0. || m_options.level_ratio > 1.))
     chart.fail(ERROR_WRONG_PARAMETER, "the ratio of levels must be greater than 1");
   if(!(m_options.angular_defect_bound > 0.))

@@ -1,0 +1,54 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026  The HLSCM for CGAL authors.
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Checks that every test that the manual names as the proof of a promise exists.
+
+Usage: check_promises.py REPOSITORY
+
+Prints one line for each that does not, and returns 1 if there is one.
+"""
+
+import re
+import sys
+from pathlib import Path
+
+GTEST = re.compile(r"^TEST(?:_F|_P)?\(\s*(\w+)\s*,\s*(\w+)\s*\)", re.MULTILINE)
+TYPED = re.compile(r"^TYPED_TEST\(\s*(\w+)\s*,\s*(\w+)\s*\)", re.MULTILINE)
+CTEST = re.compile(r"add_test\(NAME ([\w.]+)")
+
+
+def existing_tests(repository):
+    names = set()
+    for path in (repository / "test").rglob("*.cpp"):
+        text = path.read_text()
+        names.update(".".join(match) for match in GTEST.findall(text) + TYPED.findall(text))
+    for path in (repository / "test").rglob("CMakeLists.txt"):
+        names.update(CTEST.findall(path.read_text()))
+    return names
+
+
+def promised_tests(manual):
+    """The names between backticks in the second column of the table of promises."""
+    section = manual.split(r"\subsection HLSCM_promises")[1].split(r"\subsection")[0]
+    rows = [line.split("|") for line in section.splitlines() if line.startswith("| ")]
+    return re.findall(r"`(\w+\.[\w.*]+)`", "\n".join(row[2] for row in rows))
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    repository = Path(sys.argv[1])
+    existing = existing_tests(repository)
+    promised = promised_tests((repository / "doc/hlscm_manual.txt").read_text())
+    missing = [name for name in promised
+               if not (any(test.startswith(name[:-1]) for test in existing)
+                       if name.endswith("*") else name in existing)]
+    for name in missing:
+        print(f"doc/hlscm_manual.txt names the test {name}, which does not exist")
+    if not promised:
+        print("doc/hlscm_manual.txt names no tests")
+    return 1 if missing or not promised else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
