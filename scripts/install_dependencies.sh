@@ -19,7 +19,7 @@ packages=(
 
 for option in "$@"; do
   case "$option" in
-    --doc) packages+=(doxygen graphviz python3-matplotlib) ;;
+    --doc) packages+=(doxygen) ;;
     --bench) packages+=(python3-matplotlib) ;;
     *) fail "unknown option $option; there are --doc and --bench" ;;
   esac

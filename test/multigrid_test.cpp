@@ -541,7 +541,7 @@ TEST(Conjugate_gradient, estimates_the_gap)
       ASSERT_TRUE(report.converged);
       const double e = energy(s.whole, x), gap = e - s.least();
       EXPECT_LE(gap, 5. * report.energy_gap) << "trial " << trial << " to " << tolerance;
-      EXPECT_GE(gap, 0.01 * report.energy_gap) << "trial " << trial << " to " << tolerance;
+      EXPECT_GE(gap, 1e-3 * report.energy_gap) << "trial " << trial << " to " << tolerance;
       if(tolerance <= 1e-2) {
         EXPECT_LE(gap, tolerance * e) << "trial " << trial;
       }
@@ -601,22 +601,35 @@ TEST(Conjugate_gradient, stands_still_at_the_minimum)
   EXPECT_EQ(x, s.start);
 }
 
-TEST(Energy_gap_estimator, sums_a_geometric_series)
+// Never too low on a geometric series, and at first not much too high. (Of a long iteration the
+// estimate is what its second half has gained.)
+TEST(Energy_gap_estimator, bounds_a_geometric_series)
 {
   for(const double rate : {0.1, 0.5, 0.9, 0.99}) {
     Energy_gap_estimator estimator;
     double step = 1.;
-    for(int k = 0; k < 100; ++k, step *= rate) {
-      if(k < 3)
-        EXPECT_EQ(estimator.remaining(), std::numeric_limits<double>::infinity());
-      else {
-        const double exact = step / (1. - rate);
-        EXPECT_GE(estimator.remaining(), 0.999 * exact);
-        EXPECT_LE(estimator.remaining(), 5. * exact);
+    for(int k = 0; k < 150; ++k, step *= rate) {
+      const double exact = step / (1. - rate), estimate = estimator.remaining();
+      if(k < 3) {
+        EXPECT_EQ(estimate, std::numeric_limits<double>::infinity());
+      } else {
+        EXPECT_GE(estimate, 0.999 * exact) << "step " << k << " of rate " << rate;
+      }
+      if(k >= 3 && k <= 64) {
+        EXPECT_LE(estimate, 20. / rate * exact) << "step " << k << " of rate " << rate;
       }
       estimator.add(step);
     }
   }
+}
+
+// Without a good preconditioner the energy falls in steps; what lies between is not the end.
+TEST(Energy_gap_estimator, does_not_trust_a_plateau)
+{
+  Energy_gap_estimator estimator;
+  for(int k = 0; k < 150; ++k)
+    estimator.add(k < 100 ? 1. : std::pow(0.9, k - 100) * 1e-3);
+  EXPECT_GE(estimator.remaining(), 20.);
 }
 
 //

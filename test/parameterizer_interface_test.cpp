@@ -230,6 +230,30 @@ TEST(Solver_traits, of_cgal_solve_the_coarsest_level)
   }
 }
 
+// --- Threads
+
+TEST(Threads, do_not_change_a_byte)
+{
+  typedef SMP::HLSCM_parameterizer_3<Surface_mesh, CGAL::Default, CGAL::Default,
+                                     CGAL::Parallel_if_available_tag> Parallel_parameterizer;
+  // 200,000 faces: several blocks in every loop, and in the decimation
+  Surface_mesh mesh = to_surface_mesh(with_hills(
+    with_jagged_border(with_holes(irregular_grid(400, 250, 1), 40, 2), 0.5, 3), 40., 4));
+  for(const auto method : {Conformal_method::HLSCM, Conformal_method::CASCADIC}) {
+    HLSCM_options options = with_method(method);
+    const Outcome sequential = parameterize(mesh, options);
+    ASSERT_EQ(sequential.error, SMP::OK) << sequential.report.message;
+    for(const unsigned int threads : {1u, 2u, 3u, 8u, 0u}) {
+      options.threads = threads;
+      Flag_map vpmap;
+      const Outcome run = run_with_maps(Parallel_parameterizer(options), mesh, vpmap);
+      EXPECT_EQ(run.error, SMP::OK) << run.report.message;
+      EXPECT_TRUE(run.uv == sequential.uv) << threads << " threads, " << run.report.method;
+      EXPECT_EQ(run.report.energy, sequential.report.energy);
+    }
+  }
+}
+
 // --- The report
 
 TEST(Report, says_what_was_done)

@@ -55,7 +55,8 @@ enum class Monogrid_preconditioner
 using Surface_mesh_multiresolution::Prolongation_rule;
 
 /// \ingroup PkgHLSCMParameterizer
-/// The map on one level, as observers see it.
+/// The map on one level, as observers see it. The vertices of a level, the finest too, stand in an
+/// order of their own: `vertices` tells where they are in the mesh.
 struct Level_view
 {
   std::size_t level;            ///< 0 is the coarsest

@@ -49,7 +49,9 @@ struct HLSCM_report
   std::vector<HLSCM_pin> pins;            ///< the pins
   std::vector<HLSCM_level_report> levels; ///< the levels, the coarsest first
   std::size_t iterations = 0;             ///< iterations on the finest level
-  double energy = 0.;                     ///< \f$ E \f$, Dirichlet energy minus area of the map
+  /// \f$ E \f$, Dirichlet energy minus area of the map; with `Conformal_weights::CGAL_LSCM` the sum
+  /// that CGAL minimises, in squared units of length of the mesh.
+  double energy = 0.;
   double energy_gap_estimate = 0.;        ///< estimate of \f$ E - E_{\min} \f$
   double seconds_hierarchy = 0.;          ///< time of reading the mesh, decimation and levels
   double seconds_operators = 0.;          ///< time of matrices, and of their factorization
