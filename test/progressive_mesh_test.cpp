@@ -772,12 +772,12 @@ TEST(Flat_collapse_engine, strict_order_takes_the_cheapest)
 TEST(Flat_collapse_engine, blocks_and_threads)
 {
   Indexed_triangle_mesh mesh
-    = with_holes(with_hills(irregular_grid(330, 330, seed), 20., seed), 300, seed);
+    = with_holes(with_hills(irregular_grid(280, 280, seed), 20., seed), 300, seed);
   SMM::normalize(mesh);
   SMM::sort_spatially(mesh);
   const std::size_t n = mesh.points.size();
   const auto is_locked = random_locks(n, 0.001, seed);
-  for(const std::size_t target : {n - 3, n - 500, std::size_t(90000), std::size_t(5000)}) {
+  for(const std::size_t target : {n - 3, std::size_t(70000), std::size_t(5000)}) {
     SCOPED_TRACE("target " + std::to_string(target) + seed_text);
     Progressive_mesh pm;
     for(const unsigned int threads : {1, 2, 3}) {

@@ -333,8 +333,7 @@ cut_into_blocks(const std::vector<Vertex_index>& alive, std::size_t wanted, bool
     for(std::size_t first = 0; first < alive.size();) {
       const std::size_t size = (first == 0 && is_shifted) ? block_size / 2 : block_size;
       const std::size_t last = (std::min)(first + size, alive.size());
-      const std::size_t share = std::size_t(double(wanted) * double(last - first)
-                                            / double(alive.size()));
+      const std::size_t share = wanted * last / alive.size() - wanted * first / alive.size();
       blocks.push_back({first, last, alive[first], last == alive.size() ? end : alive[last],
                         share, {}});
       first = last;
@@ -369,6 +368,7 @@ run_pass(const std::vector<Vertex_index>& alive, float threshold, std::size_t wa
          Progress& progress, Progressive_mesh& pm)
 {
   std::vector<Block> blocks = cut_into_blocks(alive, wanted, pm.batch_ends.size() % 2 == 1);
+  const std::size_t before = pm.collapses.size();
   for(std::size_t first = 0; first < blocks.size() && progress(pm);
       first += blocks_between_reports) {
     const std::size_t last = (std::min)(first + blocks_between_reports, blocks.size());
@@ -379,7 +379,8 @@ run_pass(const std::vector<Vertex_index>& alive, float threshold, std::size_t wa
       pm.collapses.insert(pm.collapses.end(), blocks[b].collapses.begin(),
                           blocks[b].collapses.end());
   }
-  pm.batch_ends.push_back(pm.collapses.size());
+  if(pm.collapses.size() > before)
+    pm.batch_ends.push_back(pm.collapses.size());
 }
 
 template <class Cost, class Filter>
@@ -403,7 +404,8 @@ run_batched(const Flat_collapse_options& options, Progressive_mesh& pm)
     alive.erase(std::remove_if(alive.begin(), alive.end(),
                                [this](Vertex_index v) { return m_state[v].is_gone != 0; }),
                 alive.end());
-    if(500 * (before - alive.size()) < before) // what is left cannot be removed
+    const std::size_t done = before - alive.size();
+    if(2 * done < wanted && 500 * done < before) // what is left cannot be removed
       break;
   }
 }

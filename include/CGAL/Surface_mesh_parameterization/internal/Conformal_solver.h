@@ -15,6 +15,7 @@
 #include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
 #include <CGAL/Surface_mesh_parameterization/internal/Chart.h>
 #include <CGAL/Surface_mesh_parameterization/internal/pins.h>
+#include <CGAL/Surface_mesh_parameterization/internal/relax_flipped_faces.h>
 
 #include <chrono>
 #include <utility>
@@ -235,8 +236,10 @@ void Conformal_solver<CoarsestSolver>::build_operators()
       m_coarsest = conformal_operator<double>(level.mesh, m_is_pinned[l], weights[l]);
     else
       m_operators[l] = conformal_operator<float>(level.mesh, m_is_pinned[l], weights[l]);
-    if(!m_options.level_observer) { // nobody will ask for it
-      level.mesh = Surface_mesh_multiresolution::Indexed_triangle_mesh();
+    if(!m_options.level_observer) { // only the finest faces will be asked for
+      level.mesh.points = std::vector<Chart::Mesh::Point_3>();
+      if(l + 1 < count)
+        level.mesh.triangles = std::vector<Surface_mesh_multiresolution::Triangle_indices>();
     }
     if(!m_progress(0.65, 0.75, double(l + 1) / double(count)))
       return;
@@ -390,6 +393,8 @@ void Conformal_solver<CoarsestSolver>::solve_hierarchy(Vector& z)
     Multigrid::Iteration_report result;
     if(l + 1 == count) {
       result = is_cascade() ? relax(m_finest, z) : improve(l, m_finest, z);
+      if(result.converged)
+        relax_flipped_faces(m_finest.matrix, m_levels[l].mesh.triangles, z);
       conclude(result, "raise the number of iterations or of smoothing steps");
     } else {
       Multigrid::Complex_vector<float> rounded(z.begin(), z.end());

@@ -1,0 +1,105 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_RELAX_FLIPPED_FACES_H
+#define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_RELAX_FLIPPED_FACES_H
+
+#include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Multigrid/Hermitian_matrix.h>
+#include <CGAL/Surface_mesh_multiresolution/Indexed_triangle_mesh.h>
+
+#include <algorithm>
+#include <complex>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_parameterization {
+namespace internal {
+
+// The faces whose images do not have a positive area.
+inline std::vector<std::uint32_t>
+faces_without_positive_area(
+  const std::vector<Surface_mesh_multiresolution::Triangle_indices>& triangles,
+  const std::vector<std::complex<double>>& z)
+{
+  constexpr std::size_t block = 16384;
+  std::vector<std::vector<std::uint32_t>> found(
+    Blocked_execution::number_of_blocks(triangles.size(), block));
+  Blocked_execution::blocked_for(triangles.size(), block,
+                                 [&](std::size_t begin, std::size_t end) {
+    for(std::size_t t = begin; t < end; ++t) {
+      const std::complex<double> b = z[triangles[t][1]] - z[triangles[t][0]];
+      const std::complex<double> c = z[triangles[t][2]] - z[triangles[t][0]];
+      if(!(b.real() * c.imag() - b.imag() * c.real() > 0.))
+        found[begin / block].push_back(std::uint32_t(t));
+    }
+  });
+  std::vector<std::uint32_t> result;
+  for(const auto& part : found)
+    result.insert(result.end(), part.begin(), part.end());
+  return result;
+}
+
+// The free vertices within `rings` edges of the faces, ascending.
+inline std::vector<std::uint32_t>
+vertices_around(const Multigrid::Hermitian_matrix<double>& h,
+                const std::vector<std::uint32_t>& slot,
+                const std::vector<Surface_mesh_multiresolution::Triangle_indices>& triangles,
+                const std::vector<std::uint32_t>& faces, int rings)
+{
+  std::vector<std::uint32_t> result;
+  const auto unite = [&result] {
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+  };
+  for(const std::uint32_t t : faces)
+    result.insert(result.end(), triangles[t].begin(), triangles[t].end());
+  unite();
+  for(int ring = 0; ring < rings; ++ring) {
+    const std::vector<std::uint32_t> inner = result;
+    for(const std::uint32_t v : inner)
+      h.for_each_entry(slot[v], [&result](std::uint32_t w, std::complex<double>) {
+        result.push_back(w);
+      });
+    unite();
+  }
+  result.erase(std::remove_if(result.begin(), result.end(),
+                              [&h](std::uint32_t v) { return !(h.diagonal()[v] > 0.); }),
+               result.end());
+  return result;
+}
+
+// Brings the neighbourhoods of flipped faces to their minimum. An iteration that stops at a small gap
+// of the energy may leave single small faces flipped that are not flipped at the minimum, since the
+// energy hardly sees them. Gauss-Seidel sweeps over a few rings around them only lower the energy.
+// Faces that are flipped at the minimum stay so. Linear time in the number of faces, and the sweeps.
+inline void relax_flipped_faces(
+  const Multigrid::Hermitian_matrix<double>& h,
+  const std::vector<Surface_mesh_multiresolution::Triangle_indices>& triangles,
+  std::vector<std::complex<double>>& z)
+{
+  constexpr int rounds = 4, rings = 3, sweeps = 50;
+  std::vector<std::uint32_t> slot;
+  for(int round = 0; round < rounds; ++round) {
+    const std::vector<std::uint32_t> flipped = faces_without_positive_area(triangles, z);
+    if(flipped.empty())
+      return;
+    if(slot.empty())
+      slot = h.slot_of_row();
+    const std::vector<std::uint32_t> patch = vertices_around(h, slot, triangles, flipped, rings);
+    for(int sweep = 0; sweep < sweeps; ++sweep)
+      for(const std::uint32_t v : patch) {
+        std::complex<double> sum = 0.;
+        h.for_each_entry(slot[v], [&](std::uint32_t w, std::complex<double> value) {
+          sum += value * z[w];
+        });
+        z[v] = -sum / h.diagonal()[v];
+      }
+  }
+}
+
+} // namespace internal
+} // namespace Surface_mesh_parameterization
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_RELAX_FLIPPED_FACES_H
