@@ -68,7 +68,8 @@ TEST_P(Debian_chart, comes_out_as_by_the_direct_method)
 
 TEST_P(Debian_chart, comes_out_so_with_the_weights_of_cgal)
 {
-  expect_agreement(GetParam(), read(debian_mesh(GetParam())), {1e-4}, Conformal_weights::CGAL_LSCM);
+  // CGAL's weights hardly see small faces: their orientation is settled only near the end.
+  expect_agreement(GetParam(), read(debian_mesh(GetParam())), {1e-8}, Conformal_weights::CGAL_LSCM);
 }
 
 std::string name_of_chart(const ::testing::TestParamInfo<const char*>& info)
