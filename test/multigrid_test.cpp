@@ -172,6 +172,33 @@ TYPED_TEST(Matrices, product_is_the_dense_one)
     }
 }
 
+// So many rows that they are worked on in several blocks
+TYPED_TEST(Matrices, product_of_many_rows_is_the_plain_one)
+{
+  Random_numbers random(31);
+  const std::uint32_t n = 30011;
+  std::vector<Matrix_row> rows(n);
+  std::vector<std::uint32_t> lengths(n);
+  for(std::uint32_t i = 0; i < n; ++i) {
+    rows[i].diagonal = random.real();
+    lengths[i] = std::uint32_t(random.below(12));
+    for(std::uint32_t k = 0; k < lengths[i]; ++k)
+      rows[i].entries.push_back({std::uint32_t((i + 1 + k * 997) % n), random.real(),
+                                 random.chance(0.2) ? random.real() : 0.});
+  }
+  const auto h = Matrix_builder::build<TypeParam>(
+    lengths, [&](std::uint32_t i, Matrix_row& row) { row = rows[i]; });
+  const Dense_vector x = random_vector(int(n), random);
+  Complex_vector<TypeParam> y(n);
+  h.multiply(to_vector<TypeParam>(x), y);
+  for(std::uint32_t i = 0; i < n; ++i) {
+    std::complex<double> expected = rows[i].diagonal * x(i);
+    for(const auto& entry : rows[i].entries)
+      expected += std::complex<double>(entry.re, entry.im) * x(entry.column);
+    ASSERT_NEAR(std::abs(std::complex<double>(y[i]) - expected), 0., this->tolerance()) << i;
+  }
+}
+
 TYPED_TEST(Matrices, rows_may_be_shorter_than_announced)
 {
   Random_numbers random(2);

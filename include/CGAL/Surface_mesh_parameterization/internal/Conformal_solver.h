@@ -439,8 +439,8 @@ typename Conformal_solver<CoarsestSolver>::Vector Conformal_solver<CoarsestSolve
     observe(0, z);
   if(is_stopped())
     m_report.converged = false;
-  else
-    m_report.energy = energy_unit() * m_finest.energy(z);
+  if(!m_report.cancelled && (m_chart.error == OK || m_report.iterations > 0))
+    m_report.energy = energy_unit() * m_finest.energy(z); // also of an iteration that gave up
   m_report.seconds_solve += m_watch.lap();
   return z;
 }
