@@ -1,8 +1,8 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Cuts a closed surface of genus 0 along a path of edges and maps it to the plane: that of a file, or
-// an ellipsoid. The parameters belong to halfedges, since a vertex on the seam has two.
+// Cuts a closed surface of genus 0 along a path of edges and maps it to the plane: that of a file,
+// or an ellipsoid. The parameters belong to halfedges, since a vertex on the seam has two.
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>

@@ -97,8 +97,8 @@ void expect_measures_of(const Eigen::Matrix2d& j)
     EXPECT_NEAR(d.quasi_conformal_99, ratio, 1e-6 * ratio);
     EXPECT_NEAR(d.quasi_conformal_max, ratio, tolerance * ratio);
     EXPECT_NEAR(d.area_scale_range, 1., tolerance);
-    EXPECT_NEAR(d.stretch_L2,
-                std::sqrt(0.5 * (1. / (s(0) * s(0)) + 1. / (s(1) * s(1))) * det), tolerance * ratio);
+    const double mean_square = 0.5 * (1. / (s(0) * s(0)) + 1. / (s(1) * s(1)));
+    EXPECT_NEAR(d.stretch_L2, std::sqrt(mean_square * det), tolerance * ratio);
     EXPECT_NEAR(d.stretch_Linf, std::sqrt(det) / s(1), tolerance * ratio);
     EXPECT_EQ(d.flipped_faces, 0u);
     EXPECT_EQ(d.degenerate_faces, 0u);
@@ -390,8 +390,8 @@ TEST(Overlap, none_where_a_tip_touches)
   EXPECT_TRUE(has_overlap(mesh, uv_with_tip({2., 0.75})));
 }
 
-// z^2, bent a bit so that the border crosses itself: every point near the middle is covered twice, by
-// faces of which none is flipped.
+// z^2, bent a bit so that the border crosses itself: every point near the middle is covered twice,
+// by faces of which none is flipped.
 TEST(Overlap, around_a_branch_point)
 {
   const auto mesh = disk(4, 60);
@@ -489,7 +489,7 @@ double greatest_common_area(const Indexed_triangle_mesh& mesh, const Parameters&
   return greatest;
 }
 
-// Random maps of small charts, of all kinds: with flips and without, bent until they meet themselves
+// Random maps of small charts, of all kinds: with and without flips, bent until they meet themselves
 TEST(Overlap, is_a_common_area_of_two_faces)
 {
   Random random(5);

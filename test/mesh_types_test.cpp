@@ -120,7 +120,8 @@ void test_polyhedron()
   typedef typename boost::graph_traits<Mesh>::vertex_descriptor vertex_descriptor;
   Mesh mesh;
   const auto arrays = hills(); // copy_face_graph() would change the order of the vertices
-  CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(arrays.points, arrays.triangles, mesh);
+  CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(arrays.points, arrays.triangles,
+                                                              mesh);
   std::unordered_map<vertex_descriptor, Point_2> uv;
   const boost::associative_property_map<std::unordered_map<vertex_descriptor, Point_2>> uvmap(uv);
   expect_same_parameters(mesh, uvmap, 0.);

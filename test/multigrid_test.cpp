@@ -32,8 +32,8 @@ using CGAL::Surface_mesh_multiresolution::Prolongation;
 // The cycle without numbers
 //
 
-// Writes the operations down: "S2x3" is three smoothing steps on level 2, "R2" the restriction of the
-// residual of level 2, "D" the coarsest solution, "C2" the correction of level 2, and "K1( )"
+// Writes the operations down: "S2x3" is three smoothing steps on level 2, "R2" the restriction of
+// the residual of level 2, "D" the coarsest solution, "C2" the correction of level 2, and "K1( )"
 // encloses what is accelerated on level 1.
 class Traced_levels
 {
@@ -268,8 +268,8 @@ TEST(L1_diagonal, is_0_for_rows_of_pins)
 // The smoother
 //
 
-// Chebyshev polynomials of the fourth kind: W_k(cos t) = sin((k + 1/2) t) / sin(t / 2). The error is
-// multiplied by W_k(1 - lambda) / (2k + 1) (Lottes 2022, for a spectrum up to 2).
+// Chebyshev polynomials of the fourth kind: W_k(cos t) = sin((k + 1/2) t) / sin(t / 2). The error
+// is multiplied by W_k(1 - lambda) / (2k + 1) (Lottes 2022, for a spectrum up to 2).
 TEST(Chebyshev, error_is_the_polynomial_of_the_fourth_kind)
 {
   const int n = 41;
@@ -423,7 +423,8 @@ TEST(Multigrid_levels, are_a_symmetric_positive_preconditioner)
   Random_numbers random(12);
   const Chain_hierarchy hierarchy(4, random);
   Sparse_levels levels(hierarchy);
-  for(const Schedule& s : {Schedule::v_cycle(1, 1), Schedule::v_cycle(3, 3), Schedule::w_cycle(2, 2)})
+  for(const Schedule& s : {Schedule::v_cycle(1, 1), Schedule::v_cycle(3, 3),
+                           Schedule::w_cycle(2, 2)})
     for(int trial = 0; trial < 10; ++trial) {
       const Dense_vector x = hierarchy.random_right_hand_side(random),
                          y = hierarchy.random_right_hand_side(random);
@@ -440,8 +441,8 @@ TEST(Multigrid_levels, reduce_the_error)
   const Chain_hierarchy hierarchy(5, random);
   Sparse_levels levels(hierarchy);
   const Dense_matrix& a = hierarchy.matrices.back();
-  for(const Schedule& s : {Schedule::v_cycle(1, 1), Schedule::w_cycle(1, 1), Schedule::k_cycle(1, 1),
-                           Schedule::k_cycle(2, 2)}) {
+  for(const Schedule& s : {Schedule::v_cycle(1, 1), Schedule::w_cycle(1, 1),
+                           Schedule::k_cycle(1, 1), Schedule::k_cycle(2, 2)}) {
     Dense_vector error = hierarchy.random_solution(random);
     const double before = error.dot(a * error).real();
     error -= precondition(levels, s, a * error);
@@ -723,8 +724,8 @@ Dense_vector solve(Solver& solver, const Hermitian_matrix<double>& h, const Dens
 
 TEST(Factorizations, solve_and_agree)
 {
-  typedef CGAL::Eigen_solver_traits<Eigen::SimplicialLDLT<CGAL::Eigen_sparse_matrix<double>::EigenType>>
-    Solver_traits;
+  typedef CGAL::Eigen_solver_traits<
+    Eigen::SimplicialLDLT<CGAL::Eigen_sparse_matrix<double>::EigenType>> Solver_traits;
   Random_numbers random(25);
   for(int n : {1, 2, 30, 200}) {
     const std::vector<int> pins = n > 2 ? std::vector<int>{1, n - 1} : std::vector<int>();

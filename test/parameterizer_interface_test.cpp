@@ -125,7 +125,8 @@ TEST(Pins, next_to_each_other_are_allowed_and_warned_of)
   ASSERT_EQ(run.report.warnings.size(), 1u);
   EXPECT_EQ(run.report.warnings[0], "the pins vertex " + std::to_string(a) + " and vertex "
             + std::to_string(c) + " are neighbours; the map will be large far from them");
-  const Outcome three = parameterize(mesh, HLSCM_options(), {{a, 0.}, {c, 1.}, {b, Complex(0., 1.)}});
+  const Outcome three
+    = parameterize(mesh, HLSCM_options(), {{a, 0.}, {c, 1.}, {b, Complex(0., 1.)}});
   EXPECT_TRUE(three.report.warnings.empty());
 }
 
@@ -230,30 +231,6 @@ TEST(Solver_traits, of_cgal_solve_the_coarsest_level)
   }
 }
 
-// --- Threads
-
-TEST(Threads, do_not_change_a_byte)
-{
-  typedef SMP::HLSCM_parameterizer_3<Surface_mesh, CGAL::Default, CGAL::Default,
-                                     CGAL::Parallel_if_available_tag> Parallel_parameterizer;
-  // 200,000 faces: several blocks in every loop, and in the decimation
-  Surface_mesh mesh = to_surface_mesh(with_hills(
-    with_jagged_border(with_holes(irregular_grid(400, 250, 1), 40, 2), 0.5, 3), 40., 4));
-  for(const auto method : {Conformal_method::HLSCM, Conformal_method::CASCADIC}) {
-    HLSCM_options options = with_method(method);
-    const Outcome sequential = parameterize(mesh, options);
-    ASSERT_EQ(sequential.error, SMP::OK) << sequential.report.message;
-    for(const unsigned int threads : {1u, 2u, 3u, 8u, 0u}) {
-      options.threads = threads;
-      Flag_map vpmap;
-      const Outcome run = run_with_maps(Parallel_parameterizer(options), mesh, vpmap);
-      EXPECT_EQ(run.error, SMP::OK) << run.report.message;
-      EXPECT_TRUE(run.uv == sequential.uv) << threads << " threads, " << run.report.method;
-      EXPECT_EQ(run.report.energy, sequential.report.energy);
-    }
-  }
-}
-
 // --- The report
 
 TEST(Report, says_what_was_done)
@@ -292,8 +269,8 @@ TEST(Report, says_what_was_done)
       }
       for(std::size_t l = 1; l < report.levels.size(); ++l)
         EXPECT_LT(report.levels[l - 1].vertices, report.levels[l].vertices);
-      EXPECT_NEAR(report.seconds_total,
-                  report.seconds_hierarchy + report.seconds_operators + report.seconds_solve, 1e-12);
+      EXPECT_NEAR(report.seconds_total, report.seconds_hierarchy + report.seconds_operators
+                                          + report.seconds_solve, 1e-12);
     }
 }
 
@@ -359,7 +336,8 @@ TEST(Progress, cancels_at_every_stage)
       calls = 0;
       options.progress = [&](double) { return ++calls < last; };
       const Outcome run = parameterize(mesh, options);
-      EXPECT_EQ(run.error, SMP::ERROR_CANNOT_SOLVE_LINEAR_SYSTEM) << int(method) << " call " << last;
+      EXPECT_EQ(run.error, SMP::ERROR_CANNOT_SOLVE_LINEAR_SYSTEM)
+        << int(method) << " call " << last;
       EXPECT_TRUE(run.report.cancelled);
       EXPECT_FALSE(run.report.converged) << int(method) << " call " << last;
       EXPECT_EQ(run.report.message, "cancelled");
@@ -477,7 +455,8 @@ TEST(Removed_vertices, do_not_disturb_the_numbering)
   for(const auto& t : arrays.triangles)
     gaps.add_face(descriptor[t[0]], descriptor[t[1]], descriptor[t[2]]);
   ASSERT_TRUE(gaps.has_garbage());
-  const Outcome a = parameterize(gaps, with_many_levels()), b = parameterize(plain, with_many_levels());
+  const Outcome a = parameterize(gaps, with_many_levels()),
+                b = parameterize(plain, with_many_levels());
   ASSERT_EQ(a.error, SMP::OK) << a.report.message;
   EXPECT_EQ(a.uv, b.uv);
   EXPECT_EQ(a.report.pins[0].vertex, b.report.pins[0].vertex);
@@ -510,8 +489,8 @@ TEST(Errors, coordinate_that_is_not_finite)
       p[c] = bad;
       arrays.points[17] = Point_3(p[0], p[1], p[2]);
       Surface_mesh mesh = to_surface_mesh(arrays);
-      expect_failure(mesh, SMP::ERROR_WRONG_PARAMETER,
-                     "vertex 17 has a coordinate that is not a finite number; correct or remove it");
+      expect_failure(mesh, SMP::ERROR_WRONG_PARAMETER, "vertex 17 has a coordinate that is not a "
+                     "finite number; correct or remove it");
     }
 }
 
@@ -573,7 +552,8 @@ TEST(Errors, pins)
   expect({{5, 0.}}, "fewer than two vertices are pinned; pin two or more");
   expect({{5, 0.}, {5, 1.}}, "vertex 5 is pinned twice; pin it once");
   expect({{5, Complex(1., 2.)}, {6, Complex(1., 2.)}},
-         "the pins of vertex 5 and vertex 6 lie in one point of the parameter plane; move one of them");
+         "the pins of vertex 5 and vertex 6 lie in one point of the parameter plane; move one of "
+         "them");
   expect({{5, 0.}, {6, Complex(0., nan)}},
          "the pin of vertex 6 has a coordinate that is not a finite number");
   expect({{5, 0.}, {other, 1.}}, "the pinned vertex " + std::to_string(other)

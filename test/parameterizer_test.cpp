@@ -1,8 +1,8 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the parameterizer computes: planar meshes come out exact, the hierarchical method reaches the
-// energy of the sparse direct one, and CGAL's own parameterizer agrees.
+// What the parameterizer computes: planar meshes come out exact, the hierarchical method reaches
+// the energy of the sparse direct one, and CGAL's own parameterizer agrees.
 
 #include <support/conformal_maps.h>
 #include <support/mesh_properties.h>
@@ -207,8 +207,8 @@ TEST(Hierarchical_method, works_with_every_engine_and_prolongation_and_both_weig
         all_options.back().weights = weights;
       }
   expect_agreement(all_options, [](const HLSCM_options& o) {
-    return "engine " + std::to_string(int(o.engine)) + " rule " + std::to_string(int(o.prolongation))
-         + " weights " + std::to_string(int(o.weights));
+    return "engine " + std::to_string(int(o.engine)) + " rule "
+         + std::to_string(int(o.prolongation)) + " weights " + std::to_string(int(o.weights));
   });
 }
 
@@ -453,8 +453,9 @@ TEST(Order_of_vertices_and_faces, does_not_matter)
   std::reverse(other.triangles.begin(), other.triangles.end());
   Surface_mesh first = to_surface_mesh(mesh), second = to_surface_mesh(other);
   const std::size_t last = mesh.points.size() - 1;
-  const Outcome a = parameterize(first, with_many_levels(1e-12), {{0, 0.}, {last, 1.}});
-  const Outcome b = parameterize(second, with_many_levels(1e-12), {{rank[0], 0.}, {rank[last], 1.}});
+  const auto options = with_many_levels(1e-12);
+  const Outcome a = parameterize(first, options, {{0, 0.}, {last, 1.}});
+  const Outcome b = parameterize(second, options, {{rank[0], 0.}, {rank[last], 1.}});
   Parameters sorted;
   for(const auto r : rank)
     sorted.push_back(b.uv[r]);

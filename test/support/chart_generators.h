@@ -103,7 +103,8 @@ inline Indexed_triangle_mesh with_slivers(const Indexed_triangle_mesh& mesh, dou
 }
 
 // Wound around the z axis by `turns` of a helix: isometric where the triangles follow.
-inline Indexed_triangle_mesh rolled_up(const Indexed_triangle_mesh& mesh, double radius, double pitch)
+inline Indexed_triangle_mesh rolled_up(const Indexed_triangle_mesh& mesh, double radius,
+                                       double pitch)
 {
   const double along = std::sqrt(radius * radius + pitch * pitch);
   return moved(mesh, [=](const Point_3& p) {
@@ -116,7 +117,8 @@ inline Indexed_triangle_mesh rolled_up(const Indexed_triangle_mesh& mesh, double
 inline Indexed_triangle_mesh on_sphere(const Indexed_triangle_mesh& mesh, double angle)
 {
   return moved(mesh, [=](const Point_3& p) {
-    const double r = std::hypot(p.x(), p.y()), polar = angle * r, s = r > 0. ? std::sin(polar) / r : 0.;
+    const double r = std::hypot(p.x(), p.y()), polar = angle * r;
+    const double s = r > 0. ? std::sin(polar) / r : 0.;
     return Point_3(s * p.x(), s * p.y(), std::cos(polar));
   });
 }

@@ -233,9 +233,9 @@ inline Dense_matrix dense_prolongation(const CGAL::Surface_mesh_multiresolution:
   });
 }
 
-// A chain of 2^k * 8 + 1 vertices whose ends are pinned, with a Laplacian that is twisted a little by
-// complex phases, and the Galerkin matrices of its coarser versions. Rows and columns of pins are
-// 0.
+// A chain of 2^k * 8 + 1 vertices whose ends are pinned, with a Laplacian that is twisted a little
+// by complex phases, and the Galerkin matrices of its coarser versions. Rows and columns of pins
+// are 0.
 struct Chain_hierarchy
 {
   Dense_matrix whole;                   // the finest matrix with the pins' rows and columns

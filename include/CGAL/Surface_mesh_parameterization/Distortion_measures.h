@@ -28,18 +28,18 @@ namespace Surface_mesh_parameterization {
 The struct `Distortion_measures` says how good a map of a triangle mesh to the plane is.
 
 On each face the map from the surface to the plane is linear, with the singular values
-\f$ \sigma_1 \ge \sigma_2 \f$. The means, the quantile and the extremes are over the *regular* faces,
-those with an area on the surface and a positive one in the plane; flipped and degenerate faces, on
-which ratios and stretch would be infinite, are counted instead. If no face is regular, the measures
-are 0.
+\f$ \sigma_1 \ge \sigma_2 \f$. The means, the quantile and the extremes are over the *regular*
+faces, those with an area on the surface and a positive one in the plane; flipped and degenerate
+faces, on which ratios and stretch would be infinite, are counted instead. If no face is regular, the
+measures are 0.
 */
 struct Distortion_measures
 {
-  /// Dirichlet energy minus signed area, \f$ \frac12 \sum A (\sigma_1 \mp \sigma_2)^2 \f$ (minus; plus on
-  /// flipped faces), over all faces; see `Conformal_triangle`. In units of the plane's area.
+  /// Dirichlet energy minus signed area, \f$ \frac12 \sum A (\sigma_1 \mp \sigma_2)^2 \f$ (minus;
+  /// plus on flipped faces), over all faces; see `Conformal_triangle`. In units of the plane's area.
   double conformal_energy = 0.;
-  /// The mean of the quasi-conformal ratio \f$ \sigma_1 / \sigma_2 \ge 1 \f$, weighted by the areas on
-  /// the surface.
+  /// The mean of the quasi-conformal ratio \f$ \sigma_1 / \sigma_2 \ge 1 \f$, weighted by the areas
+  /// on the surface.
   double quasi_conformal_mean = 0.;
   /// The ratio that is not exceeded on 99 % of the surface.
   double quasi_conformal_99 = 0.;
@@ -51,7 +51,7 @@ struct Distortion_measures
   /// mean, over the surface, of \f$ (\sigma_1^{-2} + \sigma_2^{-2}) / 2 \f$, once the plane is
   /// scaled so that the total areas agree. At least 1; 1 for an isometry.
   double stretch_L2 = 0.;
-  /// The stretch \f$ L^\infty \f$ of the same: the greatest \f$ \sigma_2^{-1} \f$, on the same scale.
+  /// The stretch \f$ L^\infty \f$ of the same: the greatest \f$ \sigma_2^{-1} \f$, at that scale.
   double stretch_Linf = 0.;
   /// Faces whose area in the plane is negative, by an exact predicate.
   std::size_t flipped_faces = 0;
@@ -198,8 +198,8 @@ inline double Distortion_summary::quantile(double wanted)
 Measures the map `uvmap` over all faces of `mesh`.
 
 \tparam TriangleMesh a model of `FaceListGraph` whose faces are triangles
-\tparam VertexUVMap a model of `ReadablePropertyMap` with the vertex descriptor as key and a model of
-        `Kernel::Point_2` as value; the parameters are taken as numbers of type `double`
+\tparam VertexUVMap a model of `ReadablePropertyMap` with the vertex descriptor as key and a model
+        of `Kernel::Point_2` as value; the parameters are taken as numbers of type `double`
 
 Linear time: two passes over the faces, and 8 bytes a face.
 */
@@ -241,8 +241,8 @@ FaceOutputIterator flipped_faces(const TriangleMesh& mesh, VertexUVMap uvmap,
 /*!
 \ingroup PkgHLSCMMeasures
 
-Returns whether the map `uvmap` covers a part of the plane twice, that is whether two faces of `mesh`
-have images whose interiors intersect. The answer is exact for the parameters as numbers of type
+Returns whether the map `uvmap` covers a part of the plane twice, that is whether two faces of
+`mesh` have images whose interiors intersect. The answer is exact for the parameters as numbers of type
 `double`: faces that only touch do not overlap, but faces that would touch overlap by as much as
 rounding makes them. Faces without area in the plane overlap nothing; a map that is mirrored as a
 whole does not overlap itself for that.

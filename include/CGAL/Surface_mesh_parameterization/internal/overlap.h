@@ -131,9 +131,9 @@ Orientation orientation_of_border(const View& view, typename View::halfedge_desc
 }
 
 // Whether the map covers no point twice because of its border. Precondition: all faces have the
-// orientation `sign`. Then a point outside the image of the border is covered as often as the border
-// winds around it. If the border cycles are simple and disjoint and one of them is an outer one, that
-// is 0 or 1 times.
+// orientation `sign`. Then a point outside the image of the border is covered as often as the
+// border winds around it. If the border cycles are simple and disjoint and one of them is an outer
+// one, that is 0 or 1 times.
 template <class View>
 bool is_one_to_one_by_border(const View& view, Orientation sign)
 {
