@@ -237,7 +237,7 @@ TEST(Report, says_what_was_done)
 {
   const auto arrays = hills();
   Surface_mesh mesh = to_surface_mesh(arrays);
-  const char* const names[] = {"hlscm", "cascadic", "lscm", "direct"};
+  const char* const names[] = {"hlscm", "spectral", "cascadic", "lscm", "direct"};
   for(const auto method : all_methods)
     for(const auto weights : {Conformal_weights::EXACT, Conformal_weights::CGAL_LSCM}) {
       HLSCM_options options = with_many_levels(method);

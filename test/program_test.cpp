@@ -477,7 +477,8 @@ TEST_F(Program, refuses_wrong_usage)
       {"parameterize", in, "-o", out, "--pin", "0=0", "--pin", "1=1,0"},
       {"parameterize", in, "-o", out, "--pin", "x=0,0", "--pin", "1=1,0"},
       {"parameterize", in, "-o", out, "--pin", "-1=0,0", "--pin", "1=1,0"},
-      {"parameterize", in, "-o", out, "--pin", "0=nan,0", "--pin", "1=1,0"}};
+      {"parameterize", in, "-o", out, "--pin", "0=nan,0", "--pin", "1=1,0"},
+      {"parameterize", in, "-o", out, "--method", "spectral", "--pin", "0=0,0", "--pin", "1=1,0"}};
   for(const Texts& arguments : wrong) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.exit_code, 2) << ::testing::PrintToString(arguments);
@@ -868,6 +869,7 @@ TEST_F(Program, knows_all_its_options)
   const std::string in = write("in.off", off(grid(50, flat)));
   const std::vector<Texts> all{
       {"--method", "hlscm"},       {"--method", "lscm"},      {"--method", "direct"},
+      {"--method", "spectral"},
       {"--weights", "cgal"},       {"--schedule", "1,1,2"},   {"--ratio", "6"},
       {"--engine", "flat-strict"}, {"--engine", "cgal"},      {"--prolongation", "vsplit"},
       {"--angular-defect", "30"},  {"--iterations", "100000"}};

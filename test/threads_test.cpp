@@ -57,7 +57,8 @@ std::vector<double> map_with(const Mesh& mesh, unsigned int threads, SMP::Confor
 TEST(Threads, do_not_change_a_bit_of_the_map)
 {
   const Mesh mesh = waves();
-  for(const auto method : {SMP::Conformal_method::HLSCM, SMP::Conformal_method::CASCADIC}) {
+  for(const auto method : {SMP::Conformal_method::HLSCM, SMP::Conformal_method::SPECTRAL,
+                           SMP::Conformal_method::CASCADIC}) {
     const std::vector<double> one = map_with(mesh, 1, method);
     for(const unsigned int threads : {2u, 3u, 8u}) {
       const std::vector<double> many = map_with(mesh, threads, method);

@@ -68,7 +68,7 @@ private:
         "faces", "vertices",
         "seconds_hierarchy", "seconds_operators", "seconds_solve", "seconds_total",
         "levels", "iterations", "tolerance", "converged",
-        "energy", "exact_energy_gap", "energy_cgal", "energy_gap", "energy_gap_estimate",
+        "energy", "energy_per_area", "exact_energy_gap", "energy_cgal", "energy_gap", "energy_gap_estimate",
         "flips", "degenerate", "quasi_conformal_mean", "quasi_conformal_99",
         "area_scale_range", "stretch_L2", "residual",
         "collapses", "coarse_vertices", "coarse_quality_mean", "coarse_distance_mean",

@@ -38,6 +38,7 @@ inline Measurement run_library(Surface_mesh& mesh, const Pins& pins, Uv_map uvma
                          {"levels", double(report.levels.size())},
                          {"converged", double(report.converged)}};
   if(options.method == SMP::Conformal_method::HLSCM
+     || options.method == SMP::Conformal_method::SPECTRAL
      || options.method == SMP::Conformal_method::LSCM)
     measurement.numbers["tolerance"] = options.tolerance;
   if(code != SMP::OK) // also if the iterations are used up: then no map is handed over

@@ -17,7 +17,8 @@
 namespace side_by_side {
 
 // Which energy a method minimises.
-enum class Energy { NONE, EXACT, CGAL_LSCM };
+// What a method minimises: nothing, an energy under pins, or the energy for the size of the border.
+enum class Energy { NONE, EXACT, CGAL_LSCM, WITHOUT_PINS };
 
 struct Method
 {
@@ -37,10 +38,22 @@ inline void check_pins(const Pins& pins, Uv_map uvmap)
       throw std::runtime_error("a pin has moved");
 }
 
-// Runs a parameterizer on a chart and measures its result: both energies with the same pins, and
-// the quality. The peak memory is that of reading and running.
+inline double image_area(const Surface_mesh& mesh, Uv_map uvmap)
+{
+  double area = 0;
+  for(auto face : mesh.faces()) {
+    const Halfedge h = mesh.halfedge(face);
+    area += CGAL::area(get(uvmap, mesh.source(h)), get(uvmap, mesh.target(h)),
+                       get(uvmap, mesh.target(mesh.next(h))));
+  }
+  return area;
+}
+
+// Runs a parameterizer on a chart and measures its result: both energies, with the same pins if
+// there are any, and the quality. The peak memory is that of reading and running.
 template <class Parameterize>
-Measurement run_parameterizer(const Parameterize& parameterize, const std::string& chart_path)
+Measurement run_parameterizer(const Parameterize& parameterize, bool has_pins,
+                              const std::string& chart_path)
 {
   Surface_mesh mesh = charts::make_surface_mesh(charts::read_chart(chart_path));
   const double mesh_memory = peak_memory_mb();
@@ -52,9 +65,12 @@ Measurement run_parameterizer(const Parameterize& parameterize, const std::strin
                               {"mesh_memory_mb", mesh_memory}});
   if(!measurement.is_ok()) // then there is no map
     return measurement;
-  check_pins(pins, uvmap);
+  if(has_pins)
+    check_pins(pins, uvmap);
   const SMP::Distortion_measures distortion = SMP::measure_distortion(mesh, uvmap);
   measurement.numbers.insert({{"energy", distortion.conformal_energy},
+                              {"energy_per_area",
+                               distortion.conformal_energy / image_area(mesh, uvmap)},
                               {"energy_cgal", cgal_lscm_energy(mesh, uvmap)},
                               {"flips", double(distortion.flipped_faces)},
                               {"degenerate", double(distortion.degenerate_faces)},
@@ -69,14 +85,17 @@ template <class Parameterize>
 Method parameterizer(const std::string& name, Energy energy, bool is_direct,
                      const Parameterize& parameterize)
 {
-  return {name, energy, is_direct, [parameterize](const std::string& chart_path) {
-            return run_parameterizer(parameterize, chart_path);
+  const bool has_pins = energy != Energy::WITHOUT_PINS;
+  return {name, energy, is_direct, [parameterize, has_pins](const std::string& chart_path) {
+            return run_parameterizer(parameterize, has_pins, chart_path);
           }};
 }
 
 inline Method library_method(const std::string& name, const SMP::HLSCM_options& options)
 {
-  return parameterizer(name, Energy::EXACT, options.method == SMP::Conformal_method::DIRECT,
+  const Energy energy = options.method == SMP::Conformal_method::SPECTRAL ? Energy::WITHOUT_PINS
+                                                                          : Energy::EXACT;
+  return parameterizer(name, energy, options.method == SMP::Conformal_method::DIRECT,
                        [options](Surface_mesh& mesh, const Pins& pins, Uv_map uvmap) {
                          return run_library(mesh, pins, uvmap, options);
                        });
@@ -133,6 +152,7 @@ inline std::vector<Method> all_methods()
       library_method("cascadic", options_of(Conformal_method::CASCADIC)),
       library_method("hlscm_1e-2", options_of(Conformal_method::HLSCM, 1e-2)),
       library_method("hlscm_1e-4", options_of(Conformal_method::HLSCM, 1e-4)),
+      library_method("spectral_1e-2", options_of(Conformal_method::SPECTRAL, 1e-2)),
       decimation_method("decimate_flat", Decimation_engine::FLAT),
       decimation_method("decimate_flat_strict", Decimation_engine::FLAT_STRICT),
       decimation_method("decimate_cgal", Decimation_engine::CGAL),

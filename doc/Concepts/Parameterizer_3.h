@@ -20,6 +20,7 @@ How the model of this package uses what it is given:
   marked in `vpmap` is pinned.
 
 \cgalHasModel{CGAL::Surface_mesh_parameterization::HLSCM_parameterizer_3}
+\cgalHasModel{CGAL::Surface_mesh_parameterization::Spectral_conformal_parameterizer_3}
 */
 class Parameterizer_3
 {

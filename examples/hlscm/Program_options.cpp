@@ -110,11 +110,13 @@ void add_solver_options(CLI::App& app, SMP::HLSCM_options& o)
   add_choice<SMP::Conformal_method>(
       app, "--method",
       {{"hlscm", SMP::Conformal_method::HLSCM},
+       {"spectral", SMP::Conformal_method::SPECTRAL},
        {"cascadic", SMP::Conformal_method::CASCADIC},
        {"lscm", SMP::Conformal_method::LSCM},
        {"direct", SMP::Conformal_method::DIRECT}},
       o.method,
-      "hlscm: multigrid (default); cascadic: coarse to fine once, as in the paper of "
+      "hlscm: multigrid (default); spectral: the same without pins, by the eigenvalue problem of "
+      "Mullen et al.; cascadic: coarse to fine once, as in the paper of "
       "Ray and Levy; lscm: conjugate gradient on the finest level alone; direct: sparse "
       "Cholesky of the whole");
   add_choice<SMP::Conformal_weights>(
@@ -210,6 +212,9 @@ void check(const Program_options& o)
   }
   if(o.pins.size() == 1) {
     throw CLI::ValidationError("--pin", "one pin does not fix a map, give at least two or none");
+  }
+  if(!o.pins.empty() && o.library.method == SMP::Conformal_method::SPECTRAL) {
+    throw CLI::ValidationError("--pin", "the method spectral has no pins");
   }
 }
 

@@ -49,6 +49,9 @@ std::string pins_text(const Run_report& report)
   constexpr std::size_t shown = 4;
   std::ostringstream text;
   const auto& pins = report.solver.pins;
+  if(pins.empty()) {
+    return "none";
+  }
   for(std::size_t i = 0; i < std::min(pins.size(), shown); ++i) {
     text << (i > 0 ? ", " : "") << "vertex " << pins[i].vertex << " at (" << std::setprecision(4)
          << pins[i].u << ", " << pins[i].v << ")";

@@ -91,9 +91,18 @@ private:
   static constexpr std::size_t block_size = 16384;
   static constexpr std::size_t blocks_between_reports = 16;
 
+  // How many vertices ahead of their use data are asked for: about the latency of the memory.
+  static constexpr std::size_t prefetch_distance = 4;
+
   struct State // of a vertex
   {
     std::uint8_t is_gone : 1, is_locked : 1, is_stale : 1;
+  };
+
+  struct Target // of a collapse; any vertex if the cost is `no_cost`
+  {
+    Vertex_index vertex;
+    float cost;
   };
 
   // What one thread needs to look at collapses.
@@ -145,8 +154,17 @@ private:
   {
     return m_rings.is_collapse_valid(v, k) && !m_rings.needs_new_spill(v, k);
   }
+  // Where w is in the ring of v: the degree of v if it is not.
+  std::uint32_t position(Vertex_index v, Vertex_index w) const
+  {
+    const Vertex_index* r = m_rings.ring(v);
+    return std::uint32_t(std::find(r, r + m_rings.degree(v), w) - r);
+  }
+  void prefetch(const std::vector<Vertex_index>& alive, std::size_t i, std::size_t end) const;
   bool load_star(Worker& worker, Vertex_index v) const;
-  float cost_of(Worker& worker, Vertex_index v, std::uint32_t k) const;
+  void set_profile(Worker& worker, Vertex_index v, std::uint32_t k) const;
+  float cost_of(const Flat_collapse_profile& profile) const;
+  Target best_target(Worker& worker, Vertex_index v, bool check_topology) const;
   void evaluate(Worker& worker, Vertex_index v, bool check_topology);
   bool try_collapse(Worker& worker, Vertex_index v, float limit, Collapses& collapses);
   float pass_threshold(const std::vector<Vertex_index>& alive, std::size_t wanted,
@@ -212,47 +230,100 @@ bool Flat_collapse_engine<Cost, Filter>::load_star(Worker& worker, Vertex_index 
   return true;
 }
 
-// The cost of the collapse of v into its ring vertex k, or `no_cost` if the policies forbid it.
-// Precondition: the star of v is loaded.
+// Lets the profile describe the collapse of v, whose star is loaded, into its ring vertex k.
 template <class Cost, class Filter>
-float Flat_collapse_engine<Cost, Filter>::cost_of(Worker& worker, Vertex_index v,
-                                                  std::uint32_t k) const
+void Flat_collapse_engine<Cost, Filter>::set_profile(Worker& worker, Vertex_index v,
+                                                     std::uint32_t k) const
 {
   Flat_collapse_profile& profile = worker.profile;
   profile.set(v, k);
   auto& collapse = profile.collapse();
   collapse.kept_degree = m_rings.small_degree(profile.v1());
   collapse.measure = worker.star.measure(int(k));
+}
+
+// The cost of the collapse that the profile describes, or `no_cost` if the policies forbid it.
+// Declared inline because it is what the loop over the targets does.
+template <class Cost, class Filter>
+inline float Flat_collapse_engine<Cost, Filter>::cost_of(const Flat_collapse_profile& profile) const
+{
   if(!m_filter(profile, profile.placement()))
     return no_cost;
   const auto cost = m_cost(profile, profile.placement());
   return cost && float(*cost) < no_cost ? float(*cost) : no_cost; // not a number: no cost
 }
 
-// Finds the cheapest target that the policies, and if asked topology, allow; the smaller vertex
-// index on a tie.
+// Asks for what the vertices between alive[i] and alive[end] will need: their lines first and, when
+// these are there, the points of their rings and the lines that a collapse changes. Beyond `end`
+// another thread may be changing the rings.
+template <class Cost, class Filter>
+void Flat_collapse_engine<Cost, Filter>::prefetch(const std::vector<Vertex_index>& alive,
+                                                  std::size_t i, std::size_t end) const
+{
+  if(i + 2 * prefetch_distance >= end)
+    return;
+  const Vertex_index next = alive[i + prefetch_distance];
+  const Vertex_index later = alive[i + 2 * prefetch_distance];
+  m_rings.prefetch(later);
+  internal::prefetch(&m_best_cost[later]);
+  internal::prefetch(&m_mesh.points[later]);
+  const std::uint32_t d = m_rings.degree(next);
+  if(d > std::uint32_t(Vertex_star::max_degree)) // it stays
+    return;
+  const Vertex_index* r = m_rings.ring(next);
+  for(std::uint32_t k = 0; k < d; ++k) {
+    const char* point = reinterpret_cast<const char*>(&m_mesh.points[r[k]]);
+    internal::prefetch(point);
+    internal::prefetch(point + sizeof(m_mesh.points[0]) - 1); // in the same line or the next
+    m_rings.prefetch(r[k]);
+  }
+}
+
+// The cheapest target of v that the policies, and if asked topology, allow; the smaller vertex
+// index on a tie. Precondition: the star of v is loaded.
+template <class Cost, class Filter>
+typename Flat_collapse_engine<Cost, Filter>::Target
+Flat_collapse_engine<Cost, Filter>::best_target(Worker& worker, Vertex_index v,
+                                                bool check_topology) const
+{
+  const Vertex_index* r = m_rings.ring(v);
+  const std::uint32_t d = m_rings.degree(v);
+  const std::uint32_t step = m_rings.is_border(v) ? d - 1 : 1; // the two ends only
+  float costs[Vertex_star::max_degree];
+  std::fill_n(costs, d, no_cost);
+  for(std::uint32_t k = 0; k < d; k += step) {
+    set_profile(worker, v, k);
+    costs[k] = cost_of(worker.profile);
+  }
+  while(true) {
+    // Loops without branches: which target is the best is nothing that a processor can predict.
+    Target best{no_vertex, no_cost};
+    for(std::uint32_t k = 0; k < d; ++k)
+      best.cost = (std::min)(best.cost, costs[k]);
+    for(std::uint32_t k = 0; k < d; ++k)
+      best.vertex = (std::min)(best.vertex, costs[k] == best.cost ? r[k] : no_vertex);
+    if(best.cost == no_cost || !check_topology)
+      return best;
+    const std::uint32_t k = position(v, best.vertex);
+    if(is_possible(v, k))
+      return best;
+    costs[k] = no_cost;
+  }
+}
+
+// Notes the best target of v.
 template <class Cost, class Filter>
 void Flat_collapse_engine<Cost, Filter>::evaluate(Worker& worker, Vertex_index v,
                                                   bool check_topology)
 {
-  m_best_cost[v] = no_cost;
   m_state[v].is_stale = 0;
+  m_best_cost[v] = no_cost;
   ++worker.evaluations;
   if(!load_star(worker, v))
     return;
-  const Vertex_index* r = m_rings.ring(v);
-  const std::uint32_t d = m_rings.degree(v);
-  const std::uint32_t step = m_rings.is_border(v) ? d - 1 : 1; // the two ends only
-  for(std::uint32_t k = 0; k < d; k += step) {
-    const float cost = cost_of(worker, v, k);
-    if(cost > m_best_cost[v] || cost == no_cost
-       || (cost == m_best_cost[v] && r[k] > m_best_target[v]))
-      continue;
-    if(check_topology && !is_possible(v, k))
-      continue;
-    m_best_cost[v] = cost;
-    m_best_target[v] = r[k];
-  }
+  const Target target = best_target(worker, v, check_topology);
+  m_best_cost[v] = target.cost;
+  m_best_target[v] = target.vertex;
 }
 
 // Collapses v into its best target if that still costs at most `limit`. If topology forbids it, v
@@ -263,8 +334,11 @@ bool Flat_collapse_engine<Cost, Filter>::try_collapse(Worker& worker, Vertex_ind
 {
   const Vertex_index* r = m_rings.ring(v);
   const std::uint32_t d = m_rings.degree(v);
-  const std::uint32_t k = std::uint32_t(std::find(r, r + d, m_best_target[v]) - r);
-  if(k == d || !load_star(worker, v) || !(cost_of(worker, v, k) <= limit))
+  const std::uint32_t k = position(v, m_best_target[v]);
+  if(k == d || !load_star(worker, v))
+    return false;
+  set_profile(worker, v, k);
+  if(!(cost_of(worker.profile) <= limit))
     return false;
   if(!is_possible(v, k)) {
     evaluate(worker, v, true);
@@ -311,9 +385,11 @@ evaluate_stale(const std::vector<Vertex_index>& alive, Progress& progress,
     const std::size_t count = (std::min)(stretch, alive.size() - first);
     Blocked_execution::blocked_for(count, block_size, [&](std::size_t begin, std::size_t end) {
       Worker worker(surface());
-      for(std::size_t i = first + begin; i < first + end; ++i)
+      for(std::size_t i = first + begin; i < first + end; ++i) {
+        prefetch(alive, i, first + end);
         if(m_state[alive[i]].is_stale)
           evaluate(worker, alive[i], false);
+      }
       m_evaluations += worker.evaluations;
     });
   }
@@ -351,6 +427,7 @@ void Flat_collapse_engine<Cost, Filter>::run_block(const std::vector<Vertex_inde
   Worker worker(surface());
   for(std::size_t i = block.begin; i < block.end && block.collapses.size() < block.wanted; ++i) {
     const Vertex_index v = alive[i];
+    prefetch(alive, i, block.end);
     if(!(m_best_cost[v] <= threshold))
       continue;
     const Vertex_index* r = m_rings.ring(v);

@@ -103,8 +103,8 @@ morton_codes(const std::vector<Indexed_triangle_mesh::Point_3>& points)
 \ingroup PkgHLSCMMultiresolution
 
 Renumbers the vertices of `mesh` along a Morton curve and its triangles by their smallest vertex, so
-that what is near on the surface is near in memory. All later passes over the mesh are up to twice
-as fast.
+that what is near on the surface is near in memory, which makes all later passes over the mesh
+faster.
 
 \return for each new vertex index the old one.
 

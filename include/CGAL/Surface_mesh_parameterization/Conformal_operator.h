@@ -41,6 +41,10 @@ struct Conformal_operator
   std::vector<Pinned_row> pinned;           ///< the rows of the pins
   std::size_t mollified_triangles = 0;      ///< triangles that had no area
 
+  /// Sets `y` to \f$ H z \f$, the rows of the pins among them.
+  template <class Vector>
+  void multiply(const Vector& z, Vector& y) const;
+
   /// Returns \f$ \frac12 z^H H z \f$ over all rows.
   template <class Vector>
   double energy(const Vector& z) const;
@@ -48,14 +52,16 @@ struct Conformal_operator
 
 namespace internal {
 
-// Half the cotangents of all triangles, three each, times the triangle's weight.
+// Half the cotangents of all triangles, three each: all that the energy needs to know of a metric.
 struct Half_cotangents
 {
-  std::vector<double> value;
+  std::vector<double> value; // 3 t + c: of the angle at corner c of triangle t
   std::size_t mollified = 0;
 
-  Half_cotangents(const Surface_mesh_multiresolution::Indexed_triangle_mesh& mesh,
-                  const std::vector<double>& triangle_weights)
+  Half_cotangents() {}
+
+  // Those of the triangles as they lie in space.
+  explicit Half_cotangents(const Surface_mesh_multiresolution::Indexed_triangle_mesh& mesh)
     : value(3 * mesh.triangles.size())
   {
     const auto fill = [&](std::size_t begin, std::size_t end) {
@@ -64,9 +70,8 @@ struct Half_cotangents
         const auto& v = mesh.triangles[t];
         const Conformal_triangle triangle(mesh.points[v[0]], mesh.points[v[1]],
                                           mesh.points[v[2]]);
-        const double weight = 0.5 * (triangle_weights.empty() ? 1. : triangle_weights[t]);
         for(int c = 0; c < 3; ++c)
-          value[3 * t + c] = weight * triangle.cotangent(c);
+          value[3 * t + c] = 0.5 * triangle.cotangent(c);
         count += triangle.is_mollified() ? 1 : 0;
       }
       return count;
@@ -75,50 +80,81 @@ struct Half_cotangents
   }
 };
 
-inline void add_entry(Multigrid::Matrix_row& row, std::uint32_t column, double re, double im)
-{
-  for(Multigrid::Matrix_row::Entry& entry : row.entries)
-    if(entry.column == column) {
-      entry.re += re;
-      entry.im += im;
-      return;
-    }
-  row.entries.push_back({column, re, im});
-}
-
-// The row of v: from each triangle (v, a, b) the entries of Conformal_triangle's H_T.
+// The row of v: from each triangle (v, a, b) the entries of Conformal_triangle's H_T. Inside the
+// surface every neighbour is once the a and once the b of a triangle.
 template <class At>
-void fill_conformal_row(std::uint32_t v,
-                        const std::vector<Surface_mesh_multiresolution::Triangle_indices>& triangles,
-                        const At& at, const Half_cotangents& cot,
-                        const std::vector<double>& weights, Multigrid::Matrix_row& row)
+void fill_conformal_row(
+  std::uint32_t v, const std::vector<Surface_mesh_multiresolution::Triangle_indices>& triangles,
+  const At& at, const Half_cotangents& cot, const std::vector<double>& weights,
+  Multigrid::Matrix_row& row)
 {
+  typedef Multigrid::Matrix_row::Entry Entry;
+  const auto weight = [&weights](std::uint32_t t) { return weights.empty() ? 1. : weights[t]; };
   for(const std::uint32_t* corner = at.begin(v); corner != at.end(v); ++corner) {
     const std::uint32_t t = *corner / 3, c = *corner % 3;
     const std::uint32_t c1 = c == 2 ? 0 : c + 1, c2 = c == 0 ? 2 : c - 1;
     const double at_a = cot.value[3 * t + c1], at_b = cot.value[3 * t + c2];
-    const double half = weights.empty() ? 0.5 : 0.5 * weights[t];
-    add_entry(row, triangles[t][c1], -at_b, half);
-    add_entry(row, triangles[t][c2], -at_a, -half);
-    row.diagonal += at_a + at_b;
+    row.entries.push_back({triangles[t][c1], -weight(t) * at_b, 0.5 * weight(t)});
+    row.diagonal += weight(t) * (at_a + at_b);
+  }
+  const std::size_t count = row.entries.size();
+  for(const std::uint32_t* corner = at.begin(v); corner != at.end(v); ++corner) {
+    const std::uint32_t t = *corner / 3, c = *corner % 3;
+    const std::uint32_t b = triangles[t][c == 0 ? 2 : c - 1];
+    const double at_a = cot.value[3 * t + (c == 2 ? 0 : c + 1)];
+    const auto end = row.entries.begin() + count;
+    auto entry = std::find_if(row.entries.begin(), end,
+                              [b](const Entry& e) { return e.column == b; });
+    if(entry == end)
+      entry = row.entries.insert(row.entries.end(), Entry{b, 0., 0.});
+    entry->re -= weight(t) * at_a;
+    entry->im -= 0.5 * weight(t);
   }
 }
 
-// One more than the triangles at the border, where the wedges (a, b) of the triangles (v, a, b) do
-// not close: the sum of their differences is not 0.
-template <class At>
-std::uint32_t
-number_of_neighbors(std::uint32_t v,
-                    const std::vector<Surface_mesh_multiresolution::Triangle_indices>& triangles,
-                    const At& at)
+// For each vertex how many others it has a triangle with: one more than its triangles at the border,
+// where the wedges (a, b) of the triangles (v, a, b) do not close, so that the sum of the differences
+// a - b is not 0.
+inline std::vector<std::uint32_t>
+numbers_of_neighbors(const std::vector<Surface_mesh_multiresolution::Triangle_indices>& triangles,
+                     const Surface_mesh_multiresolution::internal::Triangles_at_vertices& at,
+                     std::size_t number_of_vertices)
 {
-  std::uint32_t sum = 0; // modulo 2^32
-  for(const std::uint32_t* corner = at.begin(v); corner != at.end(v); ++corner) {
-    const auto& t = triangles[*corner / 3];
-    const std::uint32_t c = *corner % 3;
-    sum += t[c == 2 ? 0 : c + 1] - t[c == 0 ? 2 : c - 1];
+  std::vector<std::uint32_t> sum(number_of_vertices, 0); // modulo 2^32
+  for(const auto& t : triangles) {
+    sum[t[0]] += t[1] - t[2];
+    sum[t[1]] += t[2] - t[0];
+    sum[t[2]] += t[0] - t[1];
   }
-  return at.number(v) + (sum == 0 ? 0 : 1);
+  for(std::uint32_t v = 0; v < number_of_vertices; ++v)
+    sum[v] = at.number(v) + (sum[v] == 0 ? 0 : 1);
+  return sum;
+}
+
+// The conformal operator of triangles with the given cotangents.
+template <class Real>
+Conformal_operator<Real>
+assemble_conformal_operator(
+  const std::vector<Surface_mesh_multiresolution::Triangle_indices>& triangles,
+  const Surface_mesh_multiresolution::internal::Triangles_at_vertices& at,
+  const Half_cotangents& cot, const std::vector<bool>& is_pinned,
+  const std::vector<double>& triangle_weights)
+{
+  Conformal_operator<Real> result;
+  result.mollified_triangles = cot.mollified;
+  std::vector<std::uint32_t> lengths = numbers_of_neighbors(triangles, at, is_pinned.size());
+  const auto fill = [&](std::uint32_t v, Multigrid::Matrix_row& row) {
+    if(!is_pinned[v])
+      fill_conformal_row(v, triangles, at, cot, triangle_weights, row);
+  };
+  for(std::uint32_t v = 0; v < lengths.size(); ++v)
+    if(is_pinned[v]) {
+      lengths[v] = 0;
+      result.pinned.push_back({v, Multigrid::Matrix_row()});
+      fill_conformal_row(v, triangles, at, cot, triangle_weights, result.pinned.back().row);
+    }
+  result.matrix = Multigrid::Matrix_builder::build<Real>(lengths, fill);
+  return result;
 }
 
 } // namespace internal
@@ -132,7 +168,7 @@ Returns the conformal operator of `mesh`.
 \param is_pinned for each vertex whether it is pinned
 \param triangle_weights factors of the triangles' energies; empty for 1, which is the exact energy
 
-Linear time; 24 bytes a triangle of temporary memory.
+Linear time; 36 bytes a triangle of temporary memory.
 */
 template <class Real>
 Conformal_operator<Real>
@@ -140,45 +176,33 @@ conformal_operator(const Surface_mesh_multiresolution::Indexed_triangle_mesh& me
                    const std::vector<bool>& is_pinned,
                    const std::vector<double>& triangle_weights = std::vector<double>())
 {
-  const internal::Half_cotangents cot(mesh, triangle_weights);
   const Surface_mesh_multiresolution::internal::Triangles_at_vertices at(mesh.triangles,
                                                                          mesh.points.size());
-  Conformal_operator<Real> result;
-  result.mollified_triangles = cot.mollified;
-  std::vector<std::uint32_t> lengths(mesh.points.size());
-  Multigrid::for_each_index(lengths.size(), [&](std::size_t v) {
-    lengths[v] = is_pinned[v] ? 0 : internal::number_of_neighbors(std::uint32_t(v),
-                                                                  mesh.triangles, at);
-  });
-  const auto fill = [&](std::uint32_t v, Multigrid::Matrix_row& row) {
-    if(!is_pinned[v])
-      internal::fill_conformal_row(v, mesh.triangles, at, cot, triangle_weights, row);
-  };
-  for(std::uint32_t v = 0; v < lengths.size(); ++v)
-    if(is_pinned[v]) {
-      result.pinned.push_back({v, Multigrid::Matrix_row()});
-      internal::fill_conformal_row(v, mesh.triangles, at, cot, triangle_weights,
-                                   result.pinned.back().row);
-    }
-  result.matrix = Multigrid::Matrix_builder::build<Real>(lengths, fill);
-  return result;
+  return internal::assemble_conformal_operator<Real>(
+    mesh.triangles, at, internal::Half_cotangents(mesh), is_pinned, triangle_weights);
+}
+
+template <class Real>
+template <class Vector>
+void Conformal_operator<Real>::multiply(const Vector& z, Vector& y) const
+{
+  typedef std::complex<double> Complex;
+  matrix.multiply(z, y);
+  for(const Pinned_row& pin : pinned) {
+    Complex s = pin.row.diagonal * Complex(z[pin.vertex]);
+    for(const auto& entry : pin.row.entries)
+      s += Complex(entry.re, entry.im) * Complex(z[entry.column]);
+    y[pin.vertex] = typename Vector::value_type(s);
+  }
 }
 
 template <class Real>
 template <class Vector>
 double Conformal_operator<Real>::energy(const Vector& z) const
 {
-  typedef std::complex<double> Complex;
   Vector product(z.size());
-  matrix.multiply(z, product);
-  double twice = Multigrid::inner_product(z, product).real();
-  for(const Pinned_row& pin : pinned) {
-    Complex s = pin.row.diagonal * Complex(z[pin.vertex]);
-    for(const auto& entry : pin.row.entries)
-      s += Complex(entry.re, entry.im) * Complex(z[entry.column]);
-    twice += (std::conj(Complex(z[pin.vertex])) * s).real();
-  }
-  return 0.5 * twice;
+  multiply(z, product);
+  return 0.5 * Multigrid::inner_product(z, product).real();
 }
 
 } // namespace Surface_mesh_parameterization

@@ -22,6 +22,7 @@ namespace Surface_mesh_parameterization {
 enum class Conformal_method
 {
   HLSCM,    ///< conjugate gradients preconditioned by multigrid cycles, to the minimiser
+  SPECTRAL, ///< without pins: the map of least energy for the size of its border, by an eigensolver
   CASCADIC, ///< the cascade of Ray and Lévy 2003: a few steps on each level; no tolerance is met
   LSCM,     ///< conjugate gradients on the fine mesh alone (monogrid)
   DIRECT    ///< sparse Cholesky factorization of the whole system

@@ -17,6 +17,18 @@ namespace CGAL {
 namespace Surface_mesh_multiresolution {
 namespace internal {
 
+// Asks for the cache line of an address. The empty statement is for GCC: it takes a function that
+// does nothing but prefetch for one without effects, and leaves out the calls of it.
+inline void prefetch(const void* address)
+{
+#if defined(__GNUC__)
+  __builtin_prefetch(address);
+  __asm__ __volatile__("");
+#else
+  (void)address;
+#endif
+}
+
 // What can be wrong with the connectivity at a vertex.
 enum class Ring_defect : std::uint8_t { NONE, ISOLATED, REPEATED_HALFEDGE, SEVERAL_FANS };
 
@@ -58,14 +70,8 @@ public:
     return (line.degree & spill_flag) != 0 ? m_spill[line.ring[0]].data() : line.ring;
   }
 
-  void prefetch(Vertex_index v) const
-  {
-#if defined(__GNUC__)
-    __builtin_prefetch(&m_lines[v]);
-#else
-    (void)v;
-#endif
-  }
+  // Asks for the line of v.
+  void prefetch(Vertex_index v) const { internal::prefetch(&m_lines[v]); }
 
   // Whether the collapse of v into ring vertex k keeps a manifold of the same topology: v and
   // r_k have only the opposite vertices of their common triangles as common neighbours, and no

@@ -117,17 +117,25 @@ struct Nearest_triangle
   Triangle_indices triangle = {0, 0, 0};
 };
 
-template <class Measure>
-void improve_in_star(const Triangles_at_vertices& at, const Indexed_triangle_mesh& mesh,
-                     Vertex_index star, const Indexed_triangle_mesh::Point_3& p,
-                     const Measure& measure, Nearest_triangle& best)
+// The triangle of the star of `star` that has the foot of the perpendicular from p. The first that is
+// much nearer than the centre of the star will do; on folded surfaces there may be others farther off.
+inline Nearest_triangle triangle_below(const Triangles_at_vertices& at,
+                                       const Indexed_triangle_mesh& mesh, Vertex_index star,
+                                       const Indexed_triangle_mesh::Point_3& p)
 {
+  const Float_vector to_centre = difference(mesh.points[star], p);
+  const float near = 0.1f * dot(to_centre, to_centre);
+  Nearest_triangle best;
   for(const std::uint32_t* corner = at.begin(star); corner != at.end(star); ++corner) {
     const Triangle_indices& t = mesh.triangles[*corner / 3];
-    const Nearest_point candidate = measure(triangle_around(mesh.points, t, p));
-    if(candidate.squared_distance < best.point.squared_distance)
+    const Nearest_point candidate = foot_of_origin(triangle_around(mesh.points, t, p));
+    if(candidate.squared_distance < best.point.squared_distance) {
       best = {candidate, t};
+      if(candidate.squared_distance < near)
+        break;
+    }
   }
+  return best;
 }
 
 // The triangle whose plane point below p lies in it, in the star of `star`; if no triangle of it has
@@ -139,12 +147,16 @@ inline Nearest_triangle walk_to_nearest(const Triangles_at_vertices& at,
 {
   Nearest_triangle best;
   for(;;) {
-    Nearest_triangle inside;
-    improve_in_star(at, mesh, star, p, foot_of_origin, inside);
+    const Nearest_triangle inside = triangle_below(at, mesh, star, p);
     if(inside.point.squared_distance < Nearest_point().squared_distance)
       return inside.point.squared_distance <= best.point.squared_distance ? inside : best;
     const float before = best.point.squared_distance;
-    improve_in_star(at, mesh, star, p, nearest_on_sides, best);
+    for(const std::uint32_t* corner = at.begin(star); corner != at.end(star); ++corner) {
+      const Triangle_indices& t = mesh.triangles[*corner / 3];
+      const Nearest_point candidate = nearest_on_sides(triangle_around(mesh.points, t, p));
+      if(candidate.squared_distance < best.point.squared_distance)
+        best = {candidate, t};
+    }
     const auto heaviest = std::max_element(best.point.weight.begin(), best.point.weight.end());
     const Vertex_index next = best.triangle[heaviest - best.point.weight.begin()];
     if(next == star || !(best.point.squared_distance < before))

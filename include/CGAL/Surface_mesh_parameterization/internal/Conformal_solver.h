@@ -7,6 +7,7 @@
 #include <CGAL/Multigrid/Conjugate_gradient.h>
 #include <CGAL/Multigrid/Monogrid_preconditioners.h>
 #include <CGAL/Multigrid/Multigrid_levels.h>
+#include <CGAL/Multigrid/Rayleigh_quotient.h>
 #include <CGAL/Multigrid/Sparse_cholesky.h>
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
 #include <CGAL/Surface_mesh_multiresolution/edge_collapse_engine.h>
@@ -14,6 +15,8 @@
 #include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
 #include <CGAL/Surface_mesh_parameterization/internal/Chart.h>
+#include <CGAL/Surface_mesh_parameterization/internal/border_mass.h>
+#include <CGAL/Surface_mesh_parameterization/internal/coarse_cotangents.h>
 #include <CGAL/Surface_mesh_parameterization/internal/pins.h>
 #include <CGAL/Surface_mesh_parameterization/internal/relax_flipped_faces.h>
 
@@ -64,7 +67,8 @@ private:
   bool m_is_cancelled = false;
 };
 
-// Minimises the conformal energy of a chart under pins.
+// Minimises the conformal energy of a chart under pins, or without them: then two pins are only a
+// part of the first guess and of the preconditioner.
 template <class CoarsestSolver>
 class Conformal_solver
 {
@@ -90,25 +94,30 @@ private:
     Multigrid_levels;
 
   bool is_cascade() const { return m_options.method == Conformal_method::CASCADIC; }
-  bool is_hierarchical() const
-  {
-    return is_cascade() || m_options.method == Conformal_method::HLSCM;
-  }
+  bool is_spectral() const { return m_options.method == Conformal_method::SPECTRAL; }
+  bool has_cycles() const { return m_options.method == Conformal_method::HLSCM || is_spectral(); }
+  bool is_hierarchical() const { return is_cascade() || has_cycles(); }
 
   Surface_mesh_multiresolution::Progressive_mesh decimate();
   void build_levels();
   std::vector<std::vector<double>> triangle_weights() const;
   void build_operators();
-  void solve_coarsest(Vector& z);
   void solve_directly(Vector& z);
   void solve_monogrid(Vector& z);
   void solve_hierarchy(Vector& z);
   template <class Real>
   Multigrid::Iteration_report improve(std::size_t l, const Conformal_operator<Real>& op,
                                       Multigrid::Complex_vector<Real>& z);
+  template <class Real, class Precondition, class Observe>
+  Multigrid::Iteration_report
+  minimize_without_pins(std::size_t l, const Conformal_operator<Real>& op,
+                        Multigrid::Complex_vector<Real>& z, const Precondition& precondition,
+                        const Multigrid::Energy_stop& stop, const Observe& observe) const;
   template <class Real>
   Multigrid::Iteration_report relax(const Conformal_operator<Real>& op,
                                     Multigrid::Complex_vector<Real>& z);
+  void solve_coarsest(Vector& z);
+  double fit_to_surface(std::size_t l, Vector& z) const;
   void observe(std::size_t l, const Vector& z) const;
   void conclude(const Multigrid::Iteration_report& result, const char* remedy);
   double energy_unit() const
@@ -131,6 +140,8 @@ private:
   std::vector<std::vector<bool>> m_is_pinned;            // of each level
   std::vector<Conformal_operator<float>> m_operators;    // of the levels between
   Conformal_operator<double> m_coarsest, m_finest;       // those at the ends
+  std::vector<Multigrid::Diagonal_mass> m_masses;        // of the levels, if there are no pins
+  double m_surface_area = 0.;                            // the same
   Multigrid_levels m_multigrid;
 };
 
@@ -225,30 +236,55 @@ std::vector<std::vector<double>> Conformal_solver<CoarsestSolver>::triangle_weig
 template <class CoarsestSolver>
 void Conformal_solver<CoarsestSolver>::build_operators()
 {
+  namespace SMM = Surface_mesh_multiresolution;
+  typedef SMM::internal::Triangles_at_vertices Triangles_at_vertices;
   const std::size_t count = m_levels.size();
   const std::vector<std::vector<double>> weights = triangle_weights();
   m_operators.resize(count);
-  for(std::size_t l = 0; l < count; ++l) {
+  const auto corners = [this](std::size_t l) {
+    return Triangles_at_vertices(m_levels[l].mesh.triangles, m_levels[l].vertices.size());
+  };
+  Triangles_at_vertices at = corners(count - 1);
+  Half_cotangents cot(m_levels.back().mesh);
+  for(std::size_t l = count; l-- > 0;) {
     Level& level = m_levels[l];
+    const auto assemble = [&](auto& op) {
+      typedef std::decay_t<decltype(op.matrix.diagonal()[0])> Real;
+      op = assemble_conformal_operator<Real>(level.mesh.triangles, at, cot, m_is_pinned[l],
+                                             weights[l]);
+    };
     if(l + 1 == count)
-      m_finest = conformal_operator<double>(level.mesh, m_is_pinned[l], weights[l]);
+      assemble(m_finest);
     else if(l == 0)
-      m_coarsest = conformal_operator<double>(level.mesh, m_is_pinned[l], weights[l]);
+      assemble(m_coarsest);
     else
-      m_operators[l] = conformal_operator<float>(level.mesh, m_is_pinned[l], weights[l]);
+      assemble(m_operators[l]);
+    if(is_spectral())
+      m_masses.push_back(border_mass(level.mesh, at));
+    if(is_spectral() && l + 1 == count)
+      for(const auto& t : level.mesh.triangles)
+        m_surface_area += Conformal_triangle(level.mesh.points[t[0]], level.mesh.points[t[1]],
+                                             level.mesh.points[t[2]]).area();
+    if(l > 0) {
+      Triangles_at_vertices coarse_at = corners(l - 1);
+      cot = coarse_cotangents({{level.mesh, at}, cot}, {m_levels[l - 1].mesh, coarse_at},
+                              level.from_coarser);
+      at = std::move(coarse_at);
+    }
     if(!m_options.level_observer) { // only the finest faces will be asked for
       level.mesh.points = std::vector<Chart::Mesh::Point_3>();
       if(l + 1 < count)
-        level.mesh.triangles = std::vector<Surface_mesh_multiresolution::Triangle_indices>();
+        level.mesh.triangles = std::vector<SMM::Triangle_indices>();
     }
-    if(!m_progress(0.65, 0.75, double(l + 1) / double(count)))
+    if(!m_progress(0.65, 0.75, double(count - l) / double(count)))
       return;
   }
+  std::reverse(m_masses.begin(), m_masses.end());
   m_report.mollified_faces = m_finest.mollified_triangles;
   if(m_report.mollified_faces > 0)
     m_report.warnings.push_back(std::to_string(m_report.mollified_faces)
       + " faces have no area; they were given some by mollification");
-  if(count == 1 || m_options.method != Conformal_method::HLSCM)
+  if(count == 1 || !has_cycles())
     return;
   for(std::size_t l = 0; l < count; ++l) {
     Multigrid::Hermitian_matrix<float> matrix;
@@ -361,7 +397,76 @@ Conformal_solver<CoarsestSolver>::improve(std::size_t l, const Conformal_operato
   const auto progress = [&](double part) {
     return m_progress(is_finest ? 0.8 : 0.75, is_finest ? 1. : 0.8, is_finest ? part : 0.5);
   };
+  if(is_spectral())
+    return minimize_without_pins(l, op, z, precondition, stop, progress);
   return Multigrid::minimize_energy(op.matrix, z, op.energy(z), precondition, stop, progress);
+}
+
+// The rows of the pins, for which the preconditioner has no correction, are moved by the combination
+// with the map itself.
+template <class CoarsestSolver>
+template <class Real, class Precondition, class Observe>
+Multigrid::Iteration_report
+Conformal_solver<CoarsestSolver>::minimize_without_pins(std::size_t l,
+                                                        const Conformal_operator<Real>& op,
+                                                        Multigrid::Complex_vector<Real>& z,
+                                                        const Precondition& precondition,
+                                                        const Multigrid::Energy_stop& stop,
+                                                        const Observe& observe) const
+{
+  typedef Multigrid::Complex_vector<Real> Real_vector;
+  const auto apply = [&op](const Real_vector& x, Real_vector& y) { op.multiply(x, y); };
+  const auto precondition_free = [&](Real_vector& r, Real_vector& x) {
+    for(const auto& pin : op.pinned)
+      r[pin.vertex] = 0;
+    precondition(r, x);
+  };
+  return Multigrid::minimize_rayleigh_quotient(apply, m_masses[l], z, precondition_free, stop,
+                                               observe);
+}
+
+// The map of the coarsest level: that of the pins, from which inverse iterations go on if there
+// are to be none.
+template <class CoarsestSolver>
+void Conformal_solver<CoarsestSolver>::solve_coarsest(Vector& z)
+{
+  const Conformal_operator<double>& op = m_levels.size() == 1 ? m_finest : m_coarsest;
+  CoarsestSolver& solver = m_multigrid.coarsest_solver();
+  if(!solve_for_free(solver, op, z))
+    return m_chart.fail(ERROR_CANNOT_SOLVE_LINEAR_SYSTEM,
+                        "the matrix of the coarsest level cannot be factorized");
+  m_report.converged = true;
+  if(!is_spectral())
+    return;
+  Multigrid::Energy_stop stop;
+  stop.tolerance = m_levels.size() == 1 ? m_options.tolerance : 1e-3;
+  stop.maximal_iterations = maximal_iterations(500);
+  const auto precondition = [&solver](const Vector& r, Vector& x) { solver.solve(r, x); };
+  const auto result = minimize_without_pins(0, op, z, precondition, stop,
+                                            [](double) { return true; });
+  m_report.levels[0].iterations = result.iterations;
+  if(m_levels.size() == 1)
+    conclude(result, "raise the number of iterations");
+}
+
+// A map without pins has no size, position or direction of its own: that of level l gets the area of
+// the surface, the first of the two far vertices at the origin and the second on the u axis. Returns
+// the factor of its energy.
+template <class CoarsestSolver>
+double Conformal_solver<CoarsestSolver>::fit_to_surface(std::size_t l, Vector& z) const
+{
+  const Level& level = m_levels[l];
+  double area = 0.;
+  for(const auto& t : level.mesh.triangles)
+    area += 0.5 * (std::conj(z[t[1]] - z[t[0]]) * (z[t[2]] - z[t[0]])).imag();
+  const Complex origin = z[level.position(m_pins[0].vertex)];
+  const Complex direction = z[level.position(m_pins[1].vertex)] - origin;
+  const double length = std::abs(direction);
+  const double scale = area > 0. ? std::sqrt(m_surface_area / area) / m_chart.scale : 1.;
+  const Complex factor = scale * (length > 0. ? std::conj(direction) / length : Complex(1.));
+  for(Complex& value : z)
+    value = factor * (value - origin);
+  return std::norm(factor);
 }
 
 template <class CoarsestSolver>
@@ -372,7 +477,13 @@ void Conformal_solver<CoarsestSolver>::observe(std::size_t l, const Vector& z) c
   std::vector<std::uint32_t> vertices;
   for(const auto v : m_levels[l].vertices)
     vertices.push_back(m_chart.source[v]);
-  m_options.level_observer({l, m_levels.size(), &vertices, &m_levels[l].mesh.triangles, &z});
+  Vector fitted;
+  if(is_spectral()) {
+    fitted = z;
+    fit_to_surface(l, fitted);
+  }
+  m_options.level_observer({l, m_levels.size(), &vertices, &m_levels[l].mesh.triangles,
+                            is_spectral() ? &fitted : &z});
 }
 
 // Nested iteration: solve the coarsest level, take the solution to the next, improve it there.
@@ -380,10 +491,9 @@ template <class CoarsestSolver>
 void Conformal_solver<CoarsestSolver>::solve_hierarchy(Vector& z)
 {
   const std::size_t count = m_levels.size();
-  if(!solve_for_free(m_multigrid.coarsest_solver(), count == 1 ? m_finest : m_coarsest, z))
-    return m_chart.fail(ERROR_CANNOT_SOLVE_LINEAR_SYSTEM,
-                        "the matrix of the coarsest level cannot be factorized");
-  m_report.converged = true;
+  solve_coarsest(z);
+  if(m_chart.error != OK)
+    return;
   observe(0, z);
   for(std::size_t l = 1; l < count; ++l) {
     Stopwatch watch;
@@ -400,9 +510,9 @@ void Conformal_solver<CoarsestSolver>::solve_hierarchy(Vector& z)
       Multigrid::Complex_vector<float> rounded(z.begin(), z.end());
       result = is_cascade() ? relax(m_operators[l], rounded) : improve(l, m_operators[l], rounded);
       z.assign(rounded.begin(), rounded.end());
-      // Pins keep their full precision.
-      for(const Pin& pin : m_pins)
-        z[m_levels[l].position(pin.vertex)] = pin.value;
+      if(!is_spectral()) // pins keep their full precision
+        for(const Pin& pin : m_pins)
+          z[m_levels[l].position(pin.vertex)] = pin.value;
     }
     m_report.levels[l].iterations = result.iterations;
     m_report.levels[l].seconds = watch.lap();
@@ -439,6 +549,8 @@ typename Conformal_solver<CoarsestSolver>::Vector Conformal_solver<CoarsestSolve
     observe(0, z);
   if(is_stopped())
     m_report.converged = false;
+  if(is_spectral() && !z.empty() && z.size() == m_chart.source.size())
+    m_report.energy_gap_estimate *= fit_to_surface(m_levels.size() - 1, z);
   if(!m_report.cancelled && (m_chart.error == OK || m_report.iterations > 0))
     m_report.energy = energy_unit() * m_finest.energy(z); // also of an iteration that gave up
   m_report.seconds_solve += m_watch.lap();

@@ -6,6 +6,8 @@
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Multigrid/Hermitian_matrix.h>
+#include <CGAL/Multigrid/Matrix_builder.h>
+#include <CGAL/Multigrid/Sparse_cholesky.h>
 #include <CGAL/Surface_mesh_multiresolution/Indexed_triangle_mesh.h>
 
 #include <algorithm>
@@ -69,32 +71,65 @@ vertices_around(const Multigrid::Hermitian_matrix<double>& h,
   return result;
 }
 
+// Moves the vertices of a patch to the minimum of the energy for which all others stay. The patch is
+// ascending and has no pins.
+inline void minimize_on_patch(const Multigrid::Hermitian_matrix<double>& h,
+                              const std::vector<std::uint32_t>& slot,
+                              const std::vector<std::uint32_t>& patch,
+                              std::vector<std::complex<double>>& z)
+{
+  typedef std::complex<double> Complex;
+  const auto use_inner_entries = [&](std::uint32_t i, const auto& use) {
+    h.for_each_entry(slot[patch[i]], [&](std::uint32_t w, const Complex& value) {
+      const auto found = std::lower_bound(patch.begin(), patch.end(), w);
+      if(found != patch.end() && *found == w)
+        use(std::uint32_t(found - patch.begin()), value);
+    });
+  };
+  std::vector<std::uint32_t> lengths(patch.size(), 0);
+  Multigrid::Complex_vector<double> f(patch.size()), x;
+  for(std::uint32_t i = 0; i < patch.size(); ++i) {
+    use_inner_entries(i, [&](std::uint32_t, const Complex&) { ++lengths[i]; });
+    f[i] = -h.diagonal()[patch[i]] * z[patch[i]];
+    h.for_each_entry(slot[patch[i]], [&](std::uint32_t w, const Complex& value) {
+      f[i] -= value * z[w];
+    });
+  }
+  const auto fill = [&](std::uint32_t i, Multigrid::Matrix_row& row) {
+    row.diagonal = h.diagonal()[patch[i]];
+    use_inner_entries(i, [&row](std::uint32_t j, const Complex& value) {
+      row.entries.push_back({j, value.real(), value.imag()});
+    });
+  };
+  Multigrid::Sparse_cholesky<> solver;
+  if(!solver.factorize(Multigrid::Matrix_builder::build<double>(lengths, fill)))
+    return;
+  solver.solve(f, x);
+  for(std::size_t i = 0; i < patch.size(); ++i)
+    z[patch[i]] += x[i];
+}
+
 // Brings the neighbourhoods of flipped faces to their minimum. An iteration that stops at a small gap
 // of the energy may leave single small faces flipped that are not flipped at the minimum, since the
-// energy hardly sees them. Gauss-Seidel sweeps over a few rings around them only lower the energy.
-// Faces that are flipped at the minimum stay so. Linear time in the number of faces, and the sweeps.
+// energy hardly sees them. Faces that are flipped at the minimum stay so; for those the patches grow
+// as long as all of them together remain small.
 inline void relax_flipped_faces(
   const Multigrid::Hermitian_matrix<double>& h,
   const std::vector<Surface_mesh_multiresolution::Triangle_indices>& triangles,
   std::vector<std::complex<double>>& z)
 {
-  constexpr int rounds = 4, rings = 3, sweeps = 50;
+  constexpr std::size_t largest = 8000; // vertices: some hundredths of a second
   std::vector<std::uint32_t> slot;
-  for(int round = 0; round < rounds; ++round) {
+  for(const int rings : {3, 6, 12, 24}) {
     const std::vector<std::uint32_t> flipped = faces_without_positive_area(triangles, z);
     if(flipped.empty())
       return;
     if(slot.empty())
       slot = h.slot_of_row();
     const std::vector<std::uint32_t> patch = vertices_around(h, slot, triangles, flipped, rings);
-    for(int sweep = 0; sweep < sweeps; ++sweep)
-      for(const std::uint32_t v : patch) {
-        std::complex<double> sum = 0.;
-        h.for_each_entry(slot[v], [&](std::uint32_t w, std::complex<double> value) {
-          sum += value * z[w];
-        });
-        z[v] = -sum / h.diagonal()[v];
-      }
+    if(patch.size() > largest)
+      return;
+    minimize_on_patch(h, slot, patch, z);
   }
 }
 

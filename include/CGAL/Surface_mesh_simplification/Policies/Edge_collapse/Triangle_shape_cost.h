@@ -21,8 +21,8 @@ The class `Triangle_shape_cost` adds to the cost of `BaseCost` a term that prefe
 well shaped triangles:
 \f[ c = c_\mathrm{base} + w\, \frac{\ell}{\sqrt{\min_T q_T}} , \f]
 with the length \f$ \ell \f$ of the collapsed edge and the quality
-\f$ q = 4\sqrt3 A / \sum l^2 \f$ of the new triangles. Levels made with it need about half the
-multigrid iterations of levels made without.
+\f$ q = 4\sqrt3 A / \sum l^2 \f$ of the new triangles. Multigrid needs fewer iterations on levels of
+well shaped triangles.
 
 \tparam BaseCost a model of `GetCost` whose cost is a length
 

@@ -12,6 +12,10 @@
 #include <cstdint>
 #include <cstring>
 
+#if defined(__GNUC__) && defined(__SSE__)
+#include <immintrin.h>
+#endif
+
 namespace CGAL {
 namespace Surface_mesh_simplification {
 namespace internal {
@@ -23,13 +27,33 @@ constexpr int lane_count = 8;
 typedef float Float_lanes __attribute__((vector_size(32)));
 typedef std::int32_t Mask_lanes __attribute__((vector_size(32)));  // 0 or -1 in each lane
 
-inline void load_lanes(const float* from, Float_lanes& to) { std::memcpy(&to, from, sizeof(to)); }
-
 // `mask ? yes : no` in each lane
 inline void select_lanes(const Mask_lanes& mask, const Float_lanes& yes, const Float_lanes& no,
                          Float_lanes& result)
 {
   result = mask ? yes : no;
+}
+
+inline void absolute_lanes(const Float_lanes& a, Float_lanes& result)
+{
+  result = Float_lanes(Mask_lanes(a) & 0x7fffffff); // without the sign bit
+}
+
+// By intrinsics, because std::sqrt() may have to set errno, which vector instructions do not do.
+inline void square_root_lanes(const Float_lanes& a, Float_lanes& result)
+{
+#if defined(__AVX__)
+  result = Float_lanes(_mm256_sqrt_ps(__m256(a)));
+#elif defined(__SSE__)
+  __m128 half[2];
+  std::memcpy(half, &a, sizeof(a));
+  half[0] = _mm_sqrt_ps(half[0]);
+  half[1] = _mm_sqrt_ps(half[1]);
+  std::memcpy(&result, half, sizeof(a));
+#else
+  for(int i = 0; i < lane_count; ++i)
+    result[i] = std::sqrt(a[i]);
+#endif
 }
 
 #else
@@ -72,15 +96,8 @@ inline Float_lanes operator-(const Float_lanes& a)
 { return map_lanes<Float_lanes>(a, a, [](float x, float) { return -x; }); }
 inline Mask_lanes operator<(const Float_lanes& a, const Float_lanes& b)
 { return map_lanes<Mask_lanes>(a, b, [](float x, float y) { return x < y ? -1 : 0; }); }
-inline Mask_lanes operator<=(const Float_lanes& a, const Float_lanes& b)
-{ return map_lanes<Mask_lanes>(a, b, [](float x, float y) { return x <= y ? -1 : 0; }); }
-inline Mask_lanes operator>(const Float_lanes& a, const Float_lanes& b) { return b < a; }
 inline Mask_lanes operator&(const Mask_lanes& a, const Mask_lanes& b)
 { return map_lanes<Mask_lanes>(a, b, [](std::int32_t x, std::int32_t y) { return x & y; }); }
-inline Mask_lanes operator|(const Mask_lanes& a, const Mask_lanes& b)
-{ return map_lanes<Mask_lanes>(a, b, [](std::int32_t x, std::int32_t y) { return x | y; }); }
-
-inline void load_lanes(const float* from, Float_lanes& to) { std::memcpy(&to, from, sizeof(to)); }
 
 inline void select_lanes(const Mask_lanes& mask, const Float_lanes& yes, const Float_lanes& no,
                          Float_lanes& result)
@@ -89,12 +106,57 @@ inline void select_lanes(const Mask_lanes& mask, const Float_lanes& yes, const F
     result[i] = mask[i] != 0 ? yes[i] : no[i];
 }
 
+inline void absolute_lanes(const Float_lanes& a, Float_lanes& result)
+{
+  for(int i = 0; i < lane_count; ++i)
+    result[i] = std::abs(a[i]);
+}
+
+inline void square_root_lanes(const Float_lanes& a, Float_lanes& result)
+{
+  for(int i = 0; i < lane_count; ++i)
+    result[i] = std::sqrt(a[i]);
+}
+
 #endif
+
+inline void load_lanes(const float* from, Float_lanes& to) { std::memcpy(&to, from, sizeof(to)); }
+
+inline void store_lanes(const Float_lanes& from, float* to)
+{
+  std::memcpy(to, &from, sizeof(from));
+}
 
 inline void fill_lanes(float value, Float_lanes& to)
 {
-  for(int i = 0; i < lane_count; ++i)
-    to[i] = value;
+  to = Float_lanes{value, value, value, value, value, value, value, value};
+}
+
+// `b` where it is equal, or `a` is not a number
+inline void minimum_lanes(const Float_lanes& a, const Float_lanes& b, Float_lanes& result)
+{
+  select_lanes(a < b, a, b, result);
+}
+
+// Eight vectors of space
+struct Vector_lanes
+{
+  Float_lanes x, y, z;
+};
+
+inline void subtract_lanes(const Vector_lanes& a, const Vector_lanes& b, Vector_lanes& result)
+{
+  result = {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+inline void dot_lanes(const Vector_lanes& a, const Vector_lanes& b, Float_lanes& result)
+{
+  result = a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+inline void cross_lanes(const Vector_lanes& a, const Vector_lanes& b, Vector_lanes& result)
+{
+  result = {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
 // Folds the lanes in a fixed tree: ((0 4) (2 6)) ((1 5) (3 7)), so that the order of additions is
@@ -102,46 +164,22 @@ inline void fill_lanes(float value, Float_lanes& to)
 template <class Operation>
 inline float fold_lanes(const Float_lanes& a, const Operation& operation)
 {
-#if defined(__GNUC__) && defined(__has_builtin)
-#if __has_builtin(__builtin_shufflevector)
-#define CGAL_SMS_HAS_SHUFFLE
-#endif
-#endif
-#ifdef CGAL_SMS_HAS_SHUFFLE
-#undef CGAL_SMS_HAS_SHUFFLE
-  Float_lanes half, quarter, whole;
-  operation(a, Float_lanes(__builtin_shufflevector(a, a, 4, 5, 6, 7, 0, 1, 2, 3)), half);
-  operation(half, Float_lanes(__builtin_shufflevector(half, half, 2, 3, 0, 1, 6, 7, 4, 5)),
-            quarter);
-  operation(quarter, Float_lanes(__builtin_shufflevector(quarter, quarter, 1, 0, 3, 2, 5, 4, 7, 6)),
-            whole);
-  return whole[0];
-#else
-  Float_lanes folded = a;
-  for(const int distance : {4, 2, 1}) {
-    Float_lanes moved;
-    for(int i = 0; i < lane_count; ++i)
-      moved[i] = folded[i ^ distance];
-    Float_lanes result;
-    operation(folded, moved, result);
-    folded = result;
-  }
+  float folded[lane_count];
+  store_lanes(a, folded);
+  for(int distance = lane_count / 2; distance > 0; distance /= 2)
+    for(int i = 0; i < distance; ++i)
+      folded[i] = operation(folded[i], folded[i + distance]);
   return folded[0];
-#endif
 }
 
 inline float sum_of_lanes(const Float_lanes& a)
 {
-  return fold_lanes(a, [](const Float_lanes& x, const Float_lanes& y, Float_lanes& result) {
-    result = x + y;
-  });
+  return fold_lanes(a, [](float x, float y) { return x + y; });
 }
 
 inline float minimum_of_lanes(const Float_lanes& a)
 {
-  return fold_lanes(a, [](const Float_lanes& x, const Float_lanes& y, Float_lanes& result) {
-    select_lanes(x < y, x, y, result);
-  });
+  return fold_lanes(a, [](float x, float y) { return x < y ? x : y; });
 }
 
 // Cube root of a non-negative finite float, within 5e-5 of it: a first guess from the exponent

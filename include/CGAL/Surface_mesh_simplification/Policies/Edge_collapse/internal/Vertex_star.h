@@ -6,6 +6,8 @@
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Float_lanes.h>
 
+#include <CGAL/assertions.h>
+
 #include <cmath>
 
 namespace CGAL {
@@ -28,12 +30,16 @@ struct Collapse_measure
 //
 //            r2 ---- r1          The triangles are (p, r_i, r_i+1), counterclockwise. The last one,
 //           /  \    /  \         (p, r_d-1, r_0), exists only if p is inside the surface.
-//         r3 --- p --- r0        After the collapse of p into r_k the triangles are
-//           \  /    \  /         (r_k, r_i, r_i+1) for i other than k - 1 and k.
-//            r4 ---- r5
+//         r3 --- p --- r0        After the collapse of p into r_k they are (r_k, r_i, r_i+1) for
+//           \  /    \  /         i = k + 1, ..., k + d - 2, modulo d. At the border, where k is 0 or
+//            r4 ---- r5          d - 1, this leaves out the last one, which does not exist.
 //
 // Differences to p are taken in double precision and measured in a unit of local size, so that
 // single precision is enough for all that follows, for coordinates of any size.
+//
+// Each lane has a target: step j looks at the triangle i = k + j of target k. The ring is stored as
+// often as it takes to go on without modulo, so that the vertices of a step are consecutive, and no
+// lane has to be left out.
 class Vertex_star
 {
 public:
@@ -44,59 +50,57 @@ public:
   {
     m_degree = degree;
     m_is_border = is_border;
-    for(int b = 0; b < blocks() * lane_count; ++b)
-      m_x[b] = m_y[b] = m_z[b] = 0.f;
   }
 
   void set_ring_point(int i, float x, float y, float z) { m_x[i] = x; m_y[i] = y; m_z[i] = z; }
 
-  // Computes what all collapses share; to be called once the ring is complete.
+  // Measures the star and all its collapses, 70 flops a target and triangle; to be called once the
+  // ring is complete.
   void prepare();
 
   int degree() const { return m_degree; }
   bool is_border() const { return m_is_border; }
   int number_of_triangles() const { return m_is_border ? m_degree - 1 : m_degree; }
 
-  // Sum of the angles at the centre, in radians, within 1e-4.
+  // Sum of the angles at the centre, in radians, within 1.5e-5 for each triangle.
   float angle_sum() const { return m_angle_sum; }
 
   // Smallest squared quality of the triangles before the collapse.
   float min_squared_quality() const { return m_min_squared_quality; }
 
-  // The measures of the collapse of the centre into ring vertex `k`; 70 flops a triangle.
-  Collapse_measure measure(int k) const;
+  // The measures of the collapse of the centre into ring vertex `k`; a border vertex goes only to
+  // the first or the last.
+  Collapse_measure measure(int k) const
+  {
+    CGAL_precondition(!m_is_border || k == 0 || k == m_degree - 1);
+    return {m_volume[k], m_border_area, m_length[k], m_least_q2[k], m_least_cosine[k]};
+  }
 
 private:
-  int blocks() const { return m_degree > lane_count ? 2 : 1; }
-  int next(int i) const { return i + 1 == m_degree ? 0 : i + 1; }
-  float angle_of_block(int b, const Float_lanes& dot) const;
-  float area_at_border() const;
+  static constexpr int max_targets = 2 * lane_count;
+  static constexpr int ring_size = max_targets + max_degree; // the last looks max_degree - 1 ahead
+  static_assert(max_degree <= max_targets, "each target has a lane");
 
-  // The lanes, of those from `at` on, whose triangles survive the collapse into ring vertex k.
-  void alive_lanes(int at, int k, int previous, Mask_lanes& alive) const
+  int number_of_lanes() const { return m_degree > lane_count ? 2 * lane_count : lane_count; }
+  void repeat_ring();
+  void load_ring(int at, Vector_lanes& r) const
   {
-    // Ones wherever a stretch of 16 begins at a lane to keep; a zero in the middle is the lane to
-    // drop.
-    static constexpr std::int32_t all_but_one[32] = {
-      -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1,
-      0,  -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
-    static constexpr std::int32_t first_ones[32] = {
-      -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
-    Mask_lanes dead, dead_before;
-    std::memcpy(&alive, first_ones + 16 - number_of_triangles() + at, sizeof(alive));
-    std::memcpy(&dead, all_but_one + 16 - k + at, sizeof(dead));
-    std::memcpy(&dead_before, all_but_one + 16 - previous + at, sizeof(dead_before));
-    alive = alive & dead & dead_before;
+    load_lanes(m_x + at, r.x);
+    load_lanes(m_y + at, r.y);
+    load_lanes(m_z + at, r.z);
   }
+  void measure_old_triangles(int at, Float_lanes& angles, Float_lanes& least_q2) const;
+  void measure_targets(int at);
+  float area_at_border() const;
 
   int m_degree = 0;
   bool m_is_border = false;
   float m_angle_sum = 0.f;
   float m_min_squared_quality = 0.f;
   float m_border_area = 0.f;
-  alignas(32) float m_x[16], m_y[16], m_z[16];
-  // Lane i: r_i+1, the normal r_i x r_i+1 and its square, |r_i+1 - r_i|^2.
-  Float_lanes m_nx[2], m_ny[2], m_nz[2], m_cx[2], m_cy[2], m_cz[2], m_cc[2], m_ee[2];
+  float m_x[ring_size], m_y[ring_size], m_z[ring_size];
+  float m_volume[max_targets], m_length[max_targets];
+  float m_least_q2[max_targets], m_least_cosine[max_targets];
 };
 
 // atan(y / x) for y >= 0 in [0, pi], lane by lane: Abramowitz and Stegun 4.4.49 on [0, 1],
@@ -106,8 +110,8 @@ inline void lanes_angle(const Float_lanes& y, const Float_lanes& x, Float_lanes&
   Float_lanes zero, tiny, ax, lo, hi;
   fill_lanes(0.f, zero);
   fill_lanes(1e-30f, tiny);
-  select_lanes(x < zero, -x, x, ax);
-  select_lanes(y < ax, y, ax, lo);
+  absolute_lanes(x, ax);
+  minimum_lanes(y, ax, lo);
   select_lanes(y < ax, ax, y, hi);
   const Float_lanes t = lo / (hi + tiny);
   const Float_lanes s = t * t;
@@ -119,52 +123,55 @@ inline void lanes_angle(const Float_lanes& y, const Float_lanes& x, Float_lanes&
   select_lanes(x < zero, -p + 3.14159265f, p, angle);
 }
 
-inline float Vertex_star::angle_of_block(int b, const Float_lanes& dot) const
-{
-  Float_lanes sine, angle;
-  for(int i = 0; i < lane_count; ++i)
-    sine[i] = std::sqrt(m_cc[b][i]);
-  lanes_angle(sine, dot, angle);
-  float sum = 0.f;
-  const int count = number_of_triangles() - b * lane_count;
-  for(int i = 0; i < lane_count && i < count; ++i)
-    sum += angle[i];
-  return sum;
-}
-
 inline void Vertex_star::prepare()
 {
-  m_angle_sum = 0.f;
-  m_min_squared_quality = 1.f;
+  repeat_ring();
   m_border_area = m_is_border ? area_at_border() : 0.f;
-  float nx[16] = {}, ny[16] = {}, nz[16] = {};
-  for(int i = 0; i < number_of_triangles(); ++i) {
-    nx[i] = m_x[next(i)];
-    ny[i] = m_y[next(i)];
-    nz[i] = m_z[next(i)];
+  Float_lanes angles, least_q2;
+  fill_lanes(0.f, angles);
+  fill_lanes(1.f, least_q2);
+  for(int at = 0; at < number_of_lanes(); at += lane_count) {
+    measure_old_triangles(at, angles, least_q2);
+    measure_targets(at);
   }
-  for(int b = 0; b < blocks(); ++b) {
-    const int at = b * lane_count;
-    Float_lanes x, y, z;
-    load_lanes(m_x + at, x);
-    load_lanes(m_y + at, y);
-    load_lanes(m_z + at, z);
-    load_lanes(nx + at, m_nx[b]);
-    load_lanes(ny + at, m_ny[b]);
-    load_lanes(nz + at, m_nz[b]);
-    const Float_lanes ex = m_nx[b] - x, ey = m_ny[b] - y, ez = m_nz[b] - z;
-    m_cx[b] = y * m_nz[b] - z * m_ny[b];
-    m_cy[b] = z * m_nx[b] - x * m_nz[b];
-    m_cz[b] = x * m_ny[b] - y * m_nx[b];
-    m_cc[b] = m_cx[b] * m_cx[b] + m_cy[b] * m_cy[b] + m_cz[b] * m_cz[b];
-    m_ee[b] = ex * ex + ey * ey + ez * ez;
-    const Float_lanes dot = x * m_nx[b] + y * m_ny[b] + z * m_nz[b];
-    m_angle_sum += angle_of_block(b, dot);
-    const Float_lanes l2 = m_ee[b] + m_ee[b] + 2.f * dot; // |r_i|^2 + |r_i+1|^2 + |e|^2
-    const Float_lanes q2 = 12.f * m_cc[b] / (l2 * l2 + 1e-30f);
-    for(int i = 0; i < lane_count && i < number_of_triangles() - at; ++i)
-      m_min_squared_quality = q2[i] < m_min_squared_quality ? q2[i] : m_min_squared_quality;
+  m_angle_sum = sum_of_lanes(angles);
+  m_min_squared_quality = minimum_of_lanes(least_q2);
+}
+
+// Goes round the ring until the last vertex that the last lane looks at.
+inline void Vertex_star::repeat_ring()
+{
+  for(int i = m_degree; i < number_of_lanes() + m_degree - 1; ++i) {
+    m_x[i] = m_x[i - m_degree];
+    m_y[i] = m_y[i - m_degree];
+    m_z[i] = m_z[i - m_degree];
   }
+}
+
+// Adds the angles of the triangles (p, r, s) from `at` on, and finds their least squared quality,
+// in each lane.
+inline void Vertex_star::measure_old_triangles(int at, Float_lanes& angles,
+                                               Float_lanes& least_q2) const
+{
+  Vector_lanes r, s, c;
+  Float_lanes rr, ss, rs, cc, sine, angle, zero, count;
+  load_ring(at, r);
+  load_ring(at + 1, s);
+  cross_lanes(r, s, c);
+  dot_lanes(r, r, rr);
+  dot_lanes(s, s, ss);
+  dot_lanes(r, s, rs);
+  dot_lanes(c, c, cc);
+  const Float_lanes l2 = 2.f * (rr + ss - rs); // |r|^2 + |s|^2 + |s - r|^2
+  const Float_lanes q2 = 12.f * cc / (l2 * l2 + 1e-30f);
+  square_root_lanes(cc, sine);
+  lanes_angle(sine, rs, angle);
+  fill_lanes(0.f, zero);
+  fill_lanes(float(number_of_triangles() - at), count);
+  const Mask_lanes exists = Float_lanes{0.f, 1.f, 2.f, 3.f, 4.f, 5.f, 6.f, 7.f} < count;
+  select_lanes(exists, angle, zero, angle);
+  angles = angles + angle;
+  select_lanes(exists & (q2 < least_q2), q2, least_q2, least_q2);
 }
 
 // Area of the triangle of the centre and its two border neighbours: what the border gains or loses.
@@ -177,48 +184,49 @@ inline float Vertex_star::area_at_border() const
   return 0.5f * std::sqrt(cx * cx + cy * cy + cz * cz);
 }
 
-inline Collapse_measure Vertex_star::measure(int k) const
+// Measures the collapses into the targets t from `at` on, which make triangles (t, r, s) of
+// (p, r, s).
+inline void Vertex_star::measure_targets(int at)
 {
-  const float tx = m_x[k], ty = m_y[k], tz = m_z[k];
-  const int previous = k == 0 ? m_degree - 1 : k - 1;
-  Float_lanes one, zero;
-  fill_lanes(1.f, one);
-  fill_lanes(0.f, zero);
-  Float_lanes volume = zero, least_q2 = one, least_cosine = one;
-  for(int b = 0; b < blocks(); ++b) {
-    const int at = b * lane_count;
-    Float_lanes x, y, z;
-    load_lanes(m_x + at, x);
-    load_lanes(m_y + at, y);
-    load_lanes(m_z + at, z);
-    Mask_lanes alive;
-    alive_lanes(at, k, previous, alive);
-    const Float_lanes ax = x - tx, ay = y - ty, az = z - tz;
-    const Float_lanes bx = m_nx[b] - tx, by = m_ny[b] - ty, bz = m_nz[b] - tz;
-    const Float_lanes nx = ay * bz - az * by, ny = az * bx - ax * bz, nz = ax * by - ay * bx;
-    const Float_lanes nn = nx * nx + ny * ny + nz * nz;
-    const Float_lanes l2 = m_ee[b] + ax * ax + ay * ay + az * az + bx * bx + by * by + bz * bz;
-    const Float_lanes six_volume = tx * m_cx[b] + ty * m_cy[b] + tz * m_cz[b];
-    const Float_lanes dot = nx * m_cx[b] + ny * m_cy[b] + nz * m_cz[b];
-    Float_lanes value, turn;
-    select_lanes(six_volume < zero, -six_volume, six_volume, value);
-    select_lanes(alive, value, zero, value);
-    volume = volume + value;
-    value = 12.f * nn / (l2 * l2 + 1e-30f);
-    select_lanes(alive & (value < least_q2), value, least_q2, least_q2);
-    select_lanes(dot < zero, -(dot * dot), dot * dot, turn);
-    value = turn / (nn * m_cc[b] + 1e-30f);
+  Vector_lanes t, s, b, c, n;
+  Float_lanes bb, ab, cc, nn, tt, tc, nc, size, length;
+  load_ring(at, t);
+  load_ring(at + 1, s);
+  subtract_lanes(s, t, b);
+  dot_lanes(b, b, bb);
+  Float_lanes six_volumes, least_q2, least_cosine;
+  fill_lanes(0.f, six_volumes);
+  fill_lanes(1.f, least_q2);
+  fill_lanes(1.f, least_cosine);
+  for(int i = at + 1; i < at + m_degree - 1; ++i) {
+    const Vector_lanes r = s, a = b; // a = r - t, b = s - t
+    const Float_lanes aa = bb;
+    load_ring(i + 1, s);
+    subtract_lanes(s, t, b);
+    dot_lanes(b, b, bb);
+    dot_lanes(a, b, ab);
+    cross_lanes(r, s, c);
+    cross_lanes(a, b, n);
+    dot_lanes(c, c, cc);
+    dot_lanes(n, n, nn);
+    dot_lanes(n, c, nc);
+    dot_lanes(t, c, tc);
+    absolute_lanes(tc, size);
+    six_volumes = six_volumes + size;
+    const Float_lanes l2 = 2.f * (aa + bb - ab); // |a|^2 + |b|^2 + |b - a|^2
+    const Float_lanes l4 = l2 * l2;
+    minimum_lanes(12.f * nn / (l4 + 1e-30f), least_q2, least_q2);
+    absolute_lanes(nc, size);
+    const Float_lanes cosine = nc * size / (nn * cc + 1e-30f);
     // A triangle that had no area has no normal that could turn.
-    select_lanes(alive & (1e-12f * (l2 * l2) < m_cc[b]) & (value < least_cosine),
-                 value, least_cosine, least_cosine);
+    select_lanes((1e-12f * l4 < cc) & (cosine < least_cosine), cosine, least_cosine, least_cosine);
   }
-  Collapse_measure result;
-  result.volume = sum_of_lanes(volume) * (1.f / 6.f);
-  result.border_area = m_border_area;
-  result.length = std::sqrt(tx * tx + ty * ty + tz * tz);
-  result.min_squared_quality = minimum_of_lanes(least_q2);
-  result.min_signed_squared_cosine = minimum_of_lanes(least_cosine);
-  return result;
+  dot_lanes(t, t, tt);
+  square_root_lanes(tt, length);
+  store_lanes(length, m_length + at);
+  store_lanes((1.f / 6.f) * six_volumes, m_volume + at);
+  store_lanes(least_q2, m_least_q2 + at);
+  store_lanes(least_cosine, m_least_cosine + at);
 }
 
 } // namespace internal

@@ -1,0 +1,226 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MULTIGRID_RAYLEIGH_QUOTIENT_H
+#define CGAL_MULTIGRID_RAYLEIGH_QUOTIENT_H
+
+#include <CGAL/Multigrid/Conjugate_gradient.h>
+#include <CGAL/Multigrid/vector_operations.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <array>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Multigrid {
+
+/*!
+\ingroup PkgHLSCMMultigrid
+
+The class `Diagonal_mass` is the matrix \f$ B = \mathrm{diag}(b) \f$ of an eigenvalue problem
+\f$ H x = \lambda B x \f$ with the entries \f$ b_i \ge 0 \f$, most of which may be 0.
+*/
+class Diagonal_mass
+{
+public:
+  /// An entry that is not 0.
+  struct Entry
+  {
+    std::uint32_t row; ///< its row
+    double value;      ///< its value, > 0
+  };
+
+  /// Constructs the matrix of the given entries, of different rows.
+  explicit Diagonal_mass(std::vector<Entry> entries) : m_entries(std::move(entries))
+  {
+    for(const Entry& e : m_entries)
+      m_total += e.value;
+  }
+
+  /// Returns the entries.
+  const std::vector<Entry>& entries() const { return m_entries; }
+
+  /// Returns \f$ x^H B y \f$.
+  template <class Real>
+  std::complex<double> inner_product(const Complex_vector<Real>& x,
+                                     const Complex_vector<Real>& y) const
+  {
+    std::complex<double> sum = 0.;
+    for(const Entry& e : m_entries)
+      sum += e.value * std::conj(std::complex<double>(x[e.row])) * std::complex<double>(y[e.row]);
+    return sum;
+  }
+
+  /// Subtracts a constant from `x` so that \f$ \sum_i b_i x_i = 0 \f$.
+  template <class Real>
+  void remove_mean(Complex_vector<Real>& x) const
+  {
+    std::complex<double> sum = 0.;
+    for(const Entry& e : m_entries)
+      sum += e.value * std::complex<double>(x[e.row]);
+    const std::complex<Real> mean(sum / m_total);
+    for_each_index(x.size(), [&](std::size_t i) { x[i] -= mean; });
+  }
+
+private:
+  std::vector<Entry> m_entries;
+  double m_total = 0.;
+};
+
+namespace internal {
+
+// A vector of the iteration and its product with H.
+template <class Real>
+struct Vector_and_product
+{
+  Complex_vector<Real> x, hx;
+
+  explicit Vector_and_product(std::size_t n) : x(n), hx(n) {}
+
+  void scale(const std::complex<double>& factor)
+  {
+    const std::complex<Real> s(factor);
+    for(Complex_vector<Real>* v : {&x, &hx})
+      for_each_index(v->size(), [&](std::size_t i) { (*v)[i] *= s; });
+  }
+  void add_scaled(const std::complex<double>& s, const Vector_and_product& other)
+  {
+    Multigrid::add_scaled(std::complex<Real>(s), other.x, x);
+    Multigrid::add_scaled(std::complex<Real>(s), other.hx, hx);
+  }
+};
+
+// The combination of the first `count` vectors with the smallest quotient, by its coefficients; none
+// if the vectors are linearly dependent.
+template <class Real>
+std::vector<std::complex<double>>
+best_combination(const std::array<const Vector_and_product<Real>*, 3>& vectors, int count,
+                 const Diagonal_mass& mass)
+{
+  Eigen::MatrixXcd energy(count, count), norm(count, count);
+  for(int i = 0; i < count; ++i)
+    for(int j = i; j < count; ++j) {
+      energy(i, j) = inner_product(vectors[i]->x, vectors[j]->hx);
+      norm(i, j) = mass.inner_product(vectors[i]->x, vectors[j]->x);
+      energy(j, i) = std::conj(energy(i, j));
+      norm(j, i) = std::conj(norm(i, j));
+    }
+  // In units in which each vector has the energy 1. The energy is definite, the mass is not: so the
+  // largest mass for a given energy is looked for.
+  Eigen::VectorXd unit(count);
+  for(int i = 0; i < count; ++i) {
+    if(!(energy(i, i).real() > 0.))
+      return {};
+    unit(i) = 1. / std::sqrt(energy(i, i).real());
+  }
+  energy = unit.asDiagonal() * energy * unit.asDiagonal();
+  norm = unit.asDiagonal() * norm * unit.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> condition(energy,
+                                                                  Eigen::EigenvaluesOnly);
+  if(!(condition.eigenvalues()(0) > 1e-10))
+    return {};
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXcd> solver(norm, energy);
+  const Eigen::VectorXcd y = unit.asDiagonal() * solver.eigenvectors().col(count - 1);
+  return std::vector<std::complex<double>>(y.data(), y.data() + count);
+}
+
+} // namespace internal
+
+/*!
+\ingroup PkgHLSCMMultigrid
+
+Minimizes the Rayleigh quotient \f$ x^H H x / x^H B x \f$ over the vectors with \f$ \sum b_i x_i = 0
+\f$ by the locally optimal preconditioned conjugate gradient method (Knyazev 2001), from the given
+`x`: each step takes the best combination of the vector, its preconditioned residual and the last
+direction. \f$ H \f$ must be semidefinite with the constants as kernel.
+
+\param apply `apply(x, y)` sets y to \f$ H x \f$
+\param mass \f$ B \f$
+\param x the vector; in the end \f$ x^H B x = 1 \f$
+\param precondition `precondition(r, w)` sets w to an approximation of \f$ H^{-1} r \f$ up to a
+       constant
+\param stop when to stop, where the energy is \f$ \frac12 x^H H x = \lambda / 2 \f$
+\param observe `observe(part)` is told after each step how far the iteration has come, in [0, 1];
+       returning false stops it
+
+Seven vectors beside `x`; one product with the matrix, one preconditioning a step.
+*/
+template <class Real, class Apply, class Precondition, class Observe>
+Iteration_report minimize_rayleigh_quotient(const Apply& apply, const Diagonal_mass& mass,
+                                            Complex_vector<Real>& x,
+                                            const Precondition& precondition,
+                                            const Energy_stop& stop, const Observe& observe)
+{
+  typedef internal::Vector_and_product<Real> Pair;
+  const std::size_t n = x.size();
+  Pair current(n), residual(n), direction(n);
+  Complex_vector<Real> r(n);
+  bool has_direction = false;
+  current.x.swap(x);
+  mass.remove_mean(current.x);
+  apply(current.x, current.hx);
+  const auto normalize = [&](Pair& pair) {
+    pair.scale(1. / std::sqrt(mass.inner_product(pair.x, pair.x).real()));
+  };
+  normalize(current);
+  Iteration_report report;
+  report.energy = 0.5 * inner_product(current.x, current.hx).real();
+  report.energy_gap = (std::numeric_limits<double>::infinity)();
+  Energy_gap_estimator estimator;
+  internal::Iteration_progress progress(stop);
+  while(report.iterations < stop.maximal_iterations) {
+    const double quotient = 2. * report.energy;
+    for_each_index(n, [&](std::size_t i) { r[i] = current.hx[i]; });
+    for(const Diagonal_mass::Entry& e : mass.entries())
+      r[e.row] -= Real(quotient * e.value) * current.x[e.row];
+    precondition(r, residual.x);
+    mass.remove_mean(residual.x);
+    apply(residual.x, residual.hx);
+    std::vector<std::complex<double>> y;
+    for(int count = has_direction ? 3 : 2; y.empty() && count > 1; --count)
+      y = internal::best_combination<Real>({&current, &residual, &direction}, count, mass);
+    if(y.empty()) { // the residual is 0, or no longer above rounding
+      report.converged = true;
+      report.energy_gap = 0.;
+      break;
+    }
+    // The part of the step that is not along the vector itself is the next direction.
+    if(y.size() == 3) {
+      direction.scale(y[2]);
+      direction.add_scaled(y[1], residual);
+    } else {
+      std::swap(direction, residual);
+      direction.scale(y[1]);
+    }
+    has_direction = true;
+    current.scale(y[0]);
+    current.add_scaled(1., direction);
+    normalize(current);
+    ++report.iterations;
+    const double energy = 0.5 * inner_product(current.x, current.hx).real();
+    estimator.add((std::max)(0., report.energy - energy));
+    report.energy = energy;
+    report.energy_gap = estimator.remaining();
+    if(report.iterations >= stop.minimal_iterations
+       && report.energy_gap <= stop.tolerance * report.energy) {
+      report.converged = true;
+      break;
+    }
+    if(!observe(progress(report))) {
+      report.cancelled = true;
+      break;
+    }
+  }
+  x.swap(current.x);
+  return report;
+}
+
+} // namespace Multigrid
+} // namespace CGAL
+
+#endif // CGAL_MULTIGRID_RAYLEIGH_QUOTIENT_H
