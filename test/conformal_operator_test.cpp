@@ -571,13 +571,13 @@ TEST(Coarse_metric, brings_the_minimiser_of_a_coarse_level_closer_to_the_fine_on
                                      CGAL::Surface_mesh_multiresolution::Prolongation_rule::WALK);
     const std::size_t l = hierarchy.levels.size() - 2;
     const auto& coarse = hierarchy.levels[l];
-    std::vector<bool> is_pinned = no_pins(coarse.mesh);
-    is_pinned.front() = is_pinned.back() = true;
     const auto fine_energy_of_minimiser = [&](const Half_cotangents& cot) {
-      const auto op = assemble_conformal_operator<double>(coarse.mesh.triangles,
-                                                          hierarchy.corners(l), cot, is_pinned, {});
-      CGAL::Multigrid::Complex_vector<double> z(is_pinned.size()), f(z.size()), x, fine;
+      auto op = assemble_conformal_operator<double>(coarse.mesh.triangles, hierarchy.corners(l),
+                                                    cot, {});
+      CGAL::Multigrid::Complex_vector<double> z(coarse.vertices.size()), f(z.size()), x, fine;
       z.back() = 1.;
+      op.pin(0);
+      op.pin(std::uint32_t(z.size() - 1));
       op.matrix.for_each_row_sum(z, [&](std::size_t i, Complex sum) { f[i] = -sum; });
       CGAL::Multigrid::Sparse_cholesky<> solver;
       EXPECT_TRUE(solver.factorize(op.matrix));

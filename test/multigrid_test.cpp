@@ -362,13 +362,14 @@ typedef Multigrid_levels<Prolongation, Sparse_cholesky<>> Levels;
 
 struct Sparse_levels : Levels
 {
+  std::vector<Hermitian_matrix<float>> matrices;
+
   explicit Sparse_levels(const Chain_hierarchy& hierarchy)
   {
-    for(std::size_t l = 0; l < hierarchy.matrices.size(); ++l) {
-      auto h = sparse_matrix<float>(hierarchy.matrices[l]);
-      auto inverse = l1_inverse_diagonal(h);
-      add_level(std::move(h), std::move(inverse), l == 0 ? nullptr : &hierarchy.prolongations[l]);
-    }
+    for(const auto& h : hierarchy.matrices)
+      matrices.push_back(sparse_matrix<float>(h));
+    for(std::size_t l = 0; l < matrices.size(); ++l)
+      add_level(matrices[l], l == 0 ? nullptr : &hierarchy.prolongations[l]);
     EXPECT_TRUE(coarsest_solver().factorize(matrix(0)));
   }
 };

@@ -359,7 +359,7 @@ TEST(Level_observer, sees_every_level)
     HLSCM_options options = with_many_levels(method);
     std::size_t next = 0, number = 0;
     Parameters last;
-    options.level_observer = [&](const SMP::Level_view& view) {
+    const auto check = [&](const SMP::Level_view& view) {
       EXPECT_EQ(view.level, next++);
       number = view.number_of_levels;
       const auto& source = *view.vertices;
@@ -384,6 +384,10 @@ TEST(Level_observer, sees_every_level)
       for(const auto& t : *view.faces)
         faces.push_back({source[t[0]], source[t[1]], source[t[2]]});
       EXPECT_EQ(sorted_triangles(faces), sorted_triangles(arrays.triangles));
+    };
+    options.level_observer = [&check](const SMP::Level_view& view) {
+      check(view);
+      return true;
     };
     const Outcome run = parameterize(mesh, options, pins);
     EXPECT_EQ(run.error, SMP::OK) << run.report.message;

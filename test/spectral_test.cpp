@@ -257,6 +257,7 @@ TEST(Spectral, shows_its_levels_in_one_place)
   std::vector<double> sizes;
   options.level_observer = [&sizes](const SMP::Level_view& view) {
     sizes.push_back(size_of(*view.uv));
+    return true;
   };
   const Outcome run = spectral_map(mesh, options);
   ASSERT_GE(sizes.size(), 3u);

@@ -10,6 +10,7 @@
 #include <CGAL/Multigrid/Sparse_cholesky.h>
 #include <CGAL/Surface_mesh_parameterization/Conformal_operator.h>
 
+#include <deque>
 #include <memory>
 
 namespace {
@@ -37,22 +38,26 @@ const MG::Hermitian_matrix<Real>& matrix(std::size_t faces)
   });
 }
 
+struct Levels_and_matrices
+  : Multigrid_levels
+{
+  std::deque<MG::Hermitian_matrix<float>> matrices; // they stay where they are
+};
+
 // The hierarchy of operators as the parameterizer makes it.
 Multigrid_levels& multigrid(std::size_t faces)
 {
   return *made_once(faces, [](std::size_t number) {
     const std::vector<bool> fine = kernels::pinned_vertices(sorted_mesh(number));
-    auto result = std::make_shared<Multigrid_levels>();
+    auto result = std::make_shared<Levels_and_matrices>();
     for(const SMM::Mesh_level& level : levels(number)) {
       const std::vector<bool> is_pinned = pinned_vertices(level, fine);
       const bool is_coarsest = result->number_of_levels() == 0;
       if(is_coarsest)
         result->coarsest_solver().factorize(
             SMP::conformal_operator<double>(level.mesh, is_pinned).matrix);
-      auto h = SMP::conformal_operator<float>(level.mesh, is_pinned).matrix;
-      std::vector<float> inverse = MG::l1_inverse_diagonal(h);
-      result->add_level(std::move(h), std::move(inverse),
-                        is_coarsest ? nullptr : &level.from_coarser);
+      result->matrices.push_back(SMP::conformal_operator<float>(level.mesh, is_pinned).matrix);
+      result->add_level(result->matrices.back(), is_coarsest ? nullptr : &level.from_coarser);
     }
     return result;
   });

@@ -115,7 +115,10 @@ void solve(const Program_options& options, const Mesh& mesh, Uv_map uv, Level_sn
   SMP::HLSCM_options library = options.library;
   library.progress = [&progress](double fraction) { return progress.try_advance(fraction); };
   if(snapshots != nullptr) {
-    library.level_observer = [snapshots](const SMP::Level_view& view) { snapshots->observe(view); };
+    library.level_observer = [snapshots](const SMP::Level_view& view) {
+      snapshots->observe(view);
+      return true;
+    };
   }
   SMP::HLSCM_parameterizer_3<Mesh, CGAL::Default, CGAL::Default, CGAL::Parallel_if_available_tag>
       parameterizer(library);

@@ -11,6 +11,23 @@
 namespace CGAL {
 namespace Multigrid {
 
+namespace internal {
+
+// The entry of `l1_inverse_diagonal()` for the row in `slot`.
+template <class Real>
+Real l1_inverse(const Hermitian_matrix<Real>& h, std::size_t slot)
+{
+  double sum = 0.;
+  h.for_each_entry(slot, [&](std::uint32_t, std::complex<Real> value) {
+    sum += std::sqrt(double(std::norm(value)));
+  });
+  const Real diagonal = h.diagonal()[h.pattern().row_of_slot[slot]];
+  sum = 0.5 * (double(diagonal) + sum);
+  return diagonal > 0 && sum > 0. ? Real(1. / sum) : Real(0);
+}
+
+} // namespace internal
+
 /*!
 \ingroup PkgHLSCMMultigrid
 
@@ -23,13 +40,7 @@ std::vector<Real> l1_inverse_diagonal(const Hermitian_matrix<Real>& h)
 {
   std::vector<Real> inverse(h.size());
   for_each_index(h.size(), [&](std::size_t slot) {
-    double sum = 0.;
-    h.for_each_entry(slot, [&](std::uint32_t, std::complex<Real> value) {
-      sum += std::sqrt(double(std::norm(value)));
-    });
-    const std::size_t i = h.pattern().row_of_slot[slot];
-    sum = 0.5 * (double(h.diagonal()[i]) + sum);
-    inverse[i] = h.diagonal()[i] > 0 && sum > 0. ? Real(1. / sum) : Real(0);
+    inverse[h.pattern().row_of_slot[slot]] = internal::l1_inverse(h, slot);
   });
   return inverse;
 }

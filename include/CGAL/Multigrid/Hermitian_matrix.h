@@ -101,6 +101,15 @@ public:
   /// Returns for each row its slot.
   std::vector<std::uint32_t> slot_of_row() const;
 
+  /// Returns the slot of row `i`. Constant time.
+  std::size_t slot_of_row(std::uint32_t i) const;
+
+  /// Returns row `i` and sets it to zero; its column is kept. Constant time.
+  Matrix_row take_row(std::uint32_t i);
+
+  /// Sets row `i`, which is zero, to what `take_row()` returned for it. Constant time.
+  void put_row(std::uint32_t i, const Matrix_row& row);
+
   template <class Other> friend class Hermitian_matrix;
   friend class Matrix_builder;
 
@@ -232,6 +241,46 @@ std::vector<std::uint32_t> Hermitian_matrix<Real>::slot_of_row() const
   for(std::uint32_t s = 0; s < size(); ++s)
     slot[m_pattern->row_of_slot[s]] = s;
   return slot;
+}
+
+template <class Real>
+std::size_t Hermitian_matrix<Real>::slot_of_row(std::uint32_t i) const
+{
+  // Rows are sorted within windows only.
+  const auto window = m_pattern->row_of_slot.begin()
+                    + i / Sliced_pattern::sorting_window * Sliced_pattern::sorting_window;
+  return std::find(window, m_pattern->row_of_slot.end(), i) - m_pattern->row_of_slot.begin();
+}
+
+template <class Real>
+Matrix_row Hermitian_matrix<Real>::take_row(std::uint32_t i)
+{
+  Matrix_row row;
+  row.diagonal = double(m_diagonal[i]);
+  for_each_entry(slot_of_row(i), [&row](std::uint32_t j, const Complex& value) {
+    row.entries.push_back({j, double(value.real()), double(value.imag())});
+  });
+  put_row(i, Matrix_row());
+  return row;
+}
+
+template <class Real>
+void Hermitian_matrix<Real>::put_row(std::uint32_t i, const Matrix_row& row)
+{
+  const Sliced_pattern& p = *m_pattern;
+  const std::size_t slot = slot_of_row(i), s = slot / internal::slice_rows,
+                    r = slot % internal::slice_rows;
+  m_diagonal[i] = Real(row.diagonal);
+  for(std::size_t k = 0; k < p.slice_begin[s + 1] - p.slice_begin[s]; ++k) {
+    const std::size_t at = (p.slice_begin[s] + k) * internal::slice_rows + r;
+    const auto entry = std::find_if(row.entries.begin(), row.entries.end(), [&](const auto& e) {
+      return e.column == p.column[at];
+    });
+    const bool is_set = entry != row.entries.end();
+    m_re[at] = is_set ? Real(entry->re) : Real(0);
+    if(p.imaginary[s] != Sliced_pattern::none)
+      m_im[(p.imaginary[s] + k) * internal::slice_rows + r] = is_set ? Real(entry->im) : Real(0);
+  }
 }
 
 } // namespace Multigrid

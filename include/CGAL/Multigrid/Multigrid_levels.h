@@ -19,8 +19,8 @@ namespace Multigrid {
 /*!
 \ingroup PkgHLSCMMultigrid
 
-The class `Multigrid_levels` holds the matrices of a hierarchy and the vectors of a cycle, in single
-precision: a cycle is a preconditioner, which need not be exact.
+The class `Multigrid_levels` runs cycles over the matrices of a hierarchy, which it refers to, in
+single precision: a cycle is a preconditioner, which need not be exact.
 
 \tparam Transfer a model of `MultigridTransfer`
 \tparam CoarsestSolver a model of `MultigridCoarsestSolver`
@@ -35,21 +35,29 @@ public:
   typedef Complex_vector<float> Vector;   ///< a vector of a level
   typedef Hermitian_matrix<float> Matrix; ///< the matrix of a level
 
-  /// Adds a level that is finer than those before it. Level 0 has no transfer.
-  void add_level(Matrix matrix, std::vector<float> inverse_diagonal, const Transfer* from_coarser)
+  /// Adds a level that is finer than those before it. Level 0 has no transfer. The matrix and the
+  /// transfer must stay where they are.
+  void add_level(const Matrix& matrix, const Transfer* from_coarser)
   {
     Level level;
-    level.matrix = std::move(matrix);
-    level.inverse_diagonal = std::move(inverse_diagonal);
+    level.matrix = &matrix;
+    level.inverse_diagonal = l1_inverse_diagonal(matrix);
     level.from_coarser = from_coarser;
     m_levels.push_back(std::move(level));
+  }
+
+  /// Takes note that row `i` of the matrix of `level` has been taken out or put back.
+  void update_row(std::size_t level, std::uint32_t i)
+  {
+    const Matrix& h = matrix(level);
+    m_levels[level].inverse_diagonal[i] = internal::l1_inverse(h, h.slot_of_row(i));
   }
 
   /// Returns the number of levels.
   std::size_t number_of_levels() const { return m_levels.size(); }
 
   /// Returns the matrix of a level.
-  const Matrix& matrix(std::size_t level) const { return m_levels[level].matrix; }
+  const Matrix& matrix(std::size_t level) const { return *m_levels[level].matrix; }
 
   /// Returns the solver of level 0.
   CoarsestSolver& coarsest_solver() { return m_coarsest; }
@@ -97,7 +105,7 @@ public:
 private:
   struct Level
   {
-    Matrix matrix;
+    const Matrix* matrix = nullptr;
     std::vector<float> inverse_diagonal;
     const Transfer* from_coarser = nullptr;
     Vector u, f;                   // the system of the moment
@@ -135,7 +143,7 @@ void Multigrid_levels<Transfer, CoarsestSolver>::update_residual(Level& level)
 {
   if(level.has_residual)
     return;
-  const Matrix& h = level.matrix;
+  const Matrix& h = *level.matrix;
   if(level.has_step) // r - H z
     h.for_each_row_sum(level.z, [&](std::size_t i, Complex s) {
       level.r[i] -= h.diagonal()[i] * level.z[i] + s;
@@ -159,7 +167,7 @@ void Multigrid_levels<Transfer, CoarsestSolver>::smooth(std::size_t l, unsigned 
   Level& level = m_levels[l];
   update_residual(level);
   materialize(level);
-  chebyshev_steps(level.matrix, level.inverse_diagonal, steps, level.u, level.r, level.z);
+  chebyshev_steps(*level.matrix, level.inverse_diagonal, steps, level.u, level.r, level.z);
   level.has_residual = false;
   level.has_step = true; // its product waits until the residual is asked for
 }
@@ -218,7 +226,7 @@ accelerate(std::size_t l, unsigned int steps, const Coarse_cycle& coarse_cycle)
     p.swap(level.u);
     level.u.resize(p.size());
     q.resize(p.size());
-    level.matrix.multiply(p, q);
+    level.matrix->multiply(p, q);
     for(unsigned int j = 0; j < step; ++j) {
       const Complex c(-inner_product(level.q[j], p) / inner_product(level.p[j], level.q[j]).real());
       add_scaled(c, level.p[j], p);

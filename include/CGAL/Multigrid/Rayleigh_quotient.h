@@ -4,15 +4,16 @@
 #ifndef CGAL_MULTIGRID_RAYLEIGH_QUOTIENT_H
 #define CGAL_MULTIGRID_RAYLEIGH_QUOTIENT_H
 
-#include <CGAL/Multigrid/Conjugate_gradient.h>
+#include <CGAL/Multigrid/Iteration_control.h>
 #include <CGAL/Multigrid/vector_operations.h>
 
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
-#include <limits>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -35,8 +36,8 @@ public:
     double value;      ///< its value, > 0
   };
 
-  /// Constructs the matrix of the given entries, of different rows.
-  explicit Diagonal_mass(std::vector<Entry> entries) : m_entries(std::move(entries))
+  /// Constructs the matrix of the given entries, of different rows; by default it is 0.
+  explicit Diagonal_mass(std::vector<Entry> entries = {}) : m_entries(std::move(entries))
   {
     for(const Entry& e : m_entries)
       m_total += e.value;
@@ -168,14 +169,10 @@ Iteration_report minimize_rayleigh_quotient(const Apply& apply, const Diagonal_m
     pair.scale(1. / std::sqrt(mass.inner_product(pair.x, pair.x).real()));
   };
   normalize(current);
-  Iteration_report report;
-  report.energy = 0.5 * inner_product(current.x, current.hx).real();
-  report.energy_gap = (std::numeric_limits<double>::infinity)();
-  Energy_gap_estimator estimator;
-  internal::Iteration_progress progress(stop);
-  while(report.iterations < stop.maximal_iterations) {
-    const double quotient = 2. * report.energy;
-    for_each_index(n, [&](std::size_t i) { r[i] = current.hx[i]; });
+  Iteration_control control(stop, 0.5 * inner_product(current.x, current.hx).real());
+  while(control.goes_on()) {
+    const double quotient = 2. * control.report().energy;
+    r = current.hx;
     for(const Diagonal_mass::Entry& e : mass.entries())
       r[e.row] -= Real(quotient * e.value) * current.x[e.row];
     precondition(r, residual.x);
@@ -185,8 +182,7 @@ Iteration_report minimize_rayleigh_quotient(const Apply& apply, const Diagonal_m
     for(int count = has_direction ? 3 : 2; y.empty() && count > 1; --count)
       y = internal::best_combination<Real>({&current, &residual, &direction}, count, mass);
     if(y.empty()) { // the residual is 0, or no longer above rounding
-      report.converged = true;
-      report.energy_gap = 0.;
+      control.end(true);
       break;
     }
     // The part of the step that is not along the vector itself is the next direction.
@@ -201,23 +197,12 @@ Iteration_report minimize_rayleigh_quotient(const Apply& apply, const Diagonal_m
     current.scale(y[0]);
     current.add_scaled(1., direction);
     normalize(current);
-    ++report.iterations;
     const double energy = 0.5 * inner_product(current.x, current.hx).real();
-    estimator.add((std::max)(0., report.energy - energy));
-    report.energy = energy;
-    report.energy_gap = estimator.remaining();
-    if(report.iterations >= stop.minimal_iterations
-       && report.energy_gap <= stop.tolerance * report.energy) {
-      report.converged = true;
-      break;
-    }
-    if(!observe(progress(report))) {
-      report.cancelled = true;
-      break;
-    }
+    const double change = control.watches_changes() ? largest_entry(direction.x) : 0.;
+    control.step(energy, (std::max)(0., control.report().energy - energy), change, observe);
   }
   x.swap(current.x);
-  return report;
+  return control.report();
 }
 
 } // namespace Multigrid

@@ -7,6 +7,7 @@
 #include <CGAL/Blocked_execution/blocked_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <complex>
 #include <cstddef>
 #include <vector>
@@ -90,6 +91,37 @@ double squared_norm(const Complex_vector<Real>& a)
         y += p[2 * i + 1] * p[2 * i + 1];
       });
   return sum.real() + sum.imag();
+}
+
+/// \ingroup PkgHLSCMMultigrid
+/// Returns \f$ \max_i |a_i| \f$.
+template <class Real>
+double largest_entry(const Complex_vector<Real>& a)
+{
+  std::vector<Real> part(Blocked_execution::number_of_blocks(a.size(), internal::block_size), 0);
+  Blocked_execution::blocked_for(a.size(), internal::block_size,
+                                 [&](std::size_t begin, std::size_t end) {
+    Real largest = 0;
+    for(std::size_t i = begin; i < end; ++i)
+      largest = (std::max)(largest, std::norm(a[i]));
+    part[begin / internal::block_size] = largest;
+  });
+  return part.empty() ? 0. : std::sqrt(double(*std::max_element(part.begin(), part.end())));
+}
+
+/// \ingroup PkgHLSCMMultigrid
+/// Returns the longer side of the bounding box of the numbers; 0 if there are none.
+template <class Real>
+double extent(const Complex_vector<Real>& a)
+{
+  if(a.empty())
+    return 0.;
+  std::complex<Real> lo = a[0], hi = a[0];
+  for(const std::complex<Real>& z : a) {
+    lo = {(std::min)(lo.real(), z.real()), (std::min)(lo.imag(), z.imag())};
+    hi = {(std::max)(hi.real(), z.real()), (std::max)(hi.imag(), z.imag())};
+  }
+  return double((std::max)(hi.real() - lo.real(), hi.imag() - lo.imag()));
 }
 
 /// \ingroup PkgHLSCMMultigrid

@@ -46,6 +46,15 @@ struct Indexed_triangle_mesh
 
 namespace internal {
 
+// For each of `n` things its position among the members, or `no_vertex`.
+inline std::vector<Vertex_index> ranks(const std::vector<Vertex_index>& members, std::size_t n)
+{
+  std::vector<Vertex_index> result(n, no_vertex);
+  for(Vertex_index i = 0; i < members.size(); ++i)
+    result[members[i]] = i;
+  return result;
+}
+
 // Spreads the low ten bits of x to every third bit.
 inline std::uint32_t spread_bits(std::uint32_t x)
 {

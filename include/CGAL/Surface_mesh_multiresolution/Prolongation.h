@@ -7,6 +7,7 @@
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_multiresolution/Indexed_triangle_mesh.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
@@ -52,6 +53,10 @@ public:
   /// Returns the number of vertices of the fine level.
   std::size_t number_of_fine_vertices() const { return m_kept.size() + m_stencils.size(); }
 
+  /// Returns the coarse vertex from which a fine one gets the most, in indices of the coarse level.
+  /// Linear time at worst.
+  Vertex_index heaviest_source(Vertex_index fine) const;
+
   /// Sets `fine` to \f$ P \f$ times `coarse`.
   template <class Vector>
   void prolongate(const Vector& coarse, Vector& fine) const;
@@ -95,9 +100,7 @@ inline Prolongation::Prolongation(std::vector<Vertex_index> kept, std::vector<St
 
 inline void Prolongation::transpose()
 {
-  std::vector<Vertex_index> rank(number_of_fine_vertices(), no_vertex);
-  for(Vertex_index j = 0; j < m_kept.size(); ++j)
-    rank[m_kept[j]] = j;
+  const std::vector<Vertex_index> rank = internal::ranks(m_kept, number_of_fine_vertices());
   m_begin.assign(m_kept.size() + 1, 0);
   for(const Stencil& s : m_stencils)
     for(const Vertex_index v : s.source) {
@@ -113,6 +116,21 @@ inline void Prolongation::transpose()
   for(const Stencil& s : m_stencils)
     for(int c = 0; c < 3; ++c)
       m_terms[next[rank[s.source[c]]]++] = {s.vertex, s.weight[c]};
+}
+
+inline Vertex_index Prolongation::heaviest_source(Vertex_index fine) const
+{
+  for(;;) {
+    const auto kept = std::lower_bound(m_kept.begin(), m_kept.end(), fine);
+    if(kept != m_kept.end() && *kept == fine)
+      return Vertex_index(kept - m_kept.begin());
+    const auto is_its = [fine](const Stencil& s) { return s.vertex == fine; };
+    auto s = std::lower_bound(m_stencils.begin(), m_stencils.end(), fine,
+                              [](const Stencil& s, Vertex_index v) { return s.vertex < v; });
+    if(s == m_stencils.end() || !is_its(*s)) // they need not be in the order of their vertices
+      s = std::find_if(m_stencils.begin(), m_stencils.end(), is_its);
+    fine = s->source[std::max_element(s->weight.begin(), s->weight.end()) - s->weight.begin()];
+  }
 }
 
 template <class Vector>

@@ -10,6 +10,7 @@
 #include <CGAL/Surface_mesh_parameterization/Conformal_triangle.h>
 
 #include <algorithm>
+#include <array>
 #include <complex>
 #include <utility>
 #include <vector>
@@ -23,7 +24,7 @@ namespace Surface_mesh_parameterization {
 The struct `Conformal_operator` holds the Hermitian matrix \f$ H \f$ of the conformal energy
 \f$ E = \frac12 z^H H z \f$ of a mesh, complex unknowns \f$ z = u + iv \f$ at its vertices. The area
 term leaves imaginary entries at the border only, unless the triangles are weighted. Rows of pinned
-vertices are taken out of the matrix and kept apart.
+vertices are taken out of the matrix and kept apart; they can be put back.
 
 \tparam Real `double` or `float`
 */
@@ -38,8 +39,14 @@ struct Conformal_operator
   };
 
   Multigrid::Hermitian_matrix<Real> matrix; ///< rows of pins are zero
-  std::vector<Pinned_row> pinned;           ///< the rows of the pins
+  std::vector<Pinned_row> pinned;           ///< the rows of the pins, by vertex
   std::size_t mollified_triangles = 0;      ///< triangles that had no area
+
+  /// Takes out the row of vertex `v`, which is not pinned. Linear in the number of pins.
+  void pin(std::uint32_t v);
+
+  /// Puts back the row of vertex `v`, which is pinned. Linear in the number of pins.
+  void release(std::uint32_t v);
 
   /// Sets `y` to \f$ H z \f$, the rows of the pins among them.
   template <class Vector>
@@ -51,6 +58,18 @@ struct Conformal_operator
 };
 
 namespace internal {
+
+inline Conformal_triangle
+conformal_triangle(const Surface_mesh_multiresolution::Indexed_triangle_mesh& mesh, std::size_t t)
+{
+  const auto& v = mesh.triangles[t];
+  return Conformal_triangle(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]);
+}
+
+inline std::array<double, 3> half_cotangents(const Conformal_triangle& t)
+{
+  return {0.5 * t.cotangent(0), 0.5 * t.cotangent(1), 0.5 * t.cotangent(2)};
+}
 
 // Half the cotangents of all triangles, three each: all that the energy needs to know of a metric.
 struct Half_cotangents
@@ -67,16 +86,18 @@ struct Half_cotangents
     const auto fill = [&](std::size_t begin, std::size_t end) {
       std::size_t count = 0;
       for(std::size_t t = begin; t < end; ++t) {
-        const auto& v = mesh.triangles[t];
-        const Conformal_triangle triangle(mesh.points[v[0]], mesh.points[v[1]],
-                                          mesh.points[v[2]]);
-        for(int c = 0; c < 3; ++c)
-          value[3 * t + c] = 0.5 * triangle.cotangent(c);
+        const Conformal_triangle triangle = conformal_triangle(mesh, t);
+        set(t, half_cotangents(triangle));
         count += triangle.is_mollified() ? 1 : 0;
       }
       return count;
     };
     mollified = Blocked_execution::blocked_sum<std::size_t>(mesh.triangles.size(), 16384, fill);
+  }
+
+  void set(std::size_t t, const std::array<double, 3>& c)
+  {
+    std::copy(c.begin(), c.end(), value.begin() + 3 * t);
   }
 };
 
@@ -117,43 +138,33 @@ void fill_conformal_row(
 // a - b is not 0.
 inline std::vector<std::uint32_t>
 numbers_of_neighbors(const std::vector<Surface_mesh_multiresolution::Triangle_indices>& triangles,
-                     const Surface_mesh_multiresolution::internal::Triangles_at_vertices& at,
-                     std::size_t number_of_vertices)
+                     const Surface_mesh_multiresolution::internal::Triangles_at_vertices& at)
 {
-  std::vector<std::uint32_t> sum(number_of_vertices, 0); // modulo 2^32
+  std::vector<std::uint32_t> sum(at.number_of_vertices(), 0); // modulo 2^32
   for(const auto& t : triangles) {
     sum[t[0]] += t[1] - t[2];
     sum[t[1]] += t[2] - t[0];
     sum[t[2]] += t[0] - t[1];
   }
-  for(std::uint32_t v = 0; v < number_of_vertices; ++v)
+  for(std::uint32_t v = 0; v < sum.size(); ++v)
     sum[v] = at.number(v) + (sum[v] == 0 ? 0 : 1);
   return sum;
 }
 
-// The conformal operator of triangles with the given cotangents.
+// The conformal operator of triangles with the given cotangents, without pins.
 template <class Real>
 Conformal_operator<Real>
 assemble_conformal_operator(
   const std::vector<Surface_mesh_multiresolution::Triangle_indices>& triangles,
   const Surface_mesh_multiresolution::internal::Triangles_at_vertices& at,
-  const Half_cotangents& cot, const std::vector<bool>& is_pinned,
-  const std::vector<double>& triangle_weights)
+  const Half_cotangents& cot, const std::vector<double>& triangle_weights)
 {
   Conformal_operator<Real> result;
   result.mollified_triangles = cot.mollified;
-  std::vector<std::uint32_t> lengths = numbers_of_neighbors(triangles, at, is_pinned.size());
   const auto fill = [&](std::uint32_t v, Multigrid::Matrix_row& row) {
-    if(!is_pinned[v])
-      fill_conformal_row(v, triangles, at, cot, triangle_weights, row);
+    fill_conformal_row(v, triangles, at, cot, triangle_weights, row);
   };
-  for(std::uint32_t v = 0; v < lengths.size(); ++v)
-    if(is_pinned[v]) {
-      lengths[v] = 0;
-      result.pinned.push_back({v, Multigrid::Matrix_row()});
-      fill_conformal_row(v, triangles, at, cot, triangle_weights, result.pinned.back().row);
-    }
-  result.matrix = Multigrid::Matrix_builder::build<Real>(lengths, fill);
+  result.matrix = Multigrid::Matrix_builder::build<Real>(numbers_of_neighbors(triangles, at), fill);
   return result;
 }
 
@@ -178,8 +189,29 @@ conformal_operator(const Surface_mesh_multiresolution::Indexed_triangle_mesh& me
 {
   const Surface_mesh_multiresolution::internal::Triangles_at_vertices at(mesh.triangles,
                                                                          mesh.points.size());
-  return internal::assemble_conformal_operator<Real>(
-    mesh.triangles, at, internal::Half_cotangents(mesh), is_pinned, triangle_weights);
+  auto result = internal::assemble_conformal_operator<Real>(
+    mesh.triangles, at, internal::Half_cotangents(mesh), triangle_weights);
+  for(std::uint32_t v = 0; v < is_pinned.size(); ++v)
+    if(is_pinned[v])
+      result.pin(v);
+  return result;
+}
+
+template <class Real>
+void Conformal_operator<Real>::pin(std::uint32_t v)
+{
+  pinned.insert(std::lower_bound(pinned.begin(), pinned.end(), v,
+                                 [](const Pinned_row& p, std::uint32_t w) { return p.vertex < w; }),
+                {v, matrix.take_row(v)});
+}
+
+template <class Real>
+void Conformal_operator<Real>::release(std::uint32_t v)
+{
+  const auto pin = std::find_if(pinned.begin(), pinned.end(),
+                                [v](const Pinned_row& p) { return p.vertex == v; });
+  matrix.put_row(v, pin->row);
+  pinned.erase(pin);
 }
 
 template <class Real>

@@ -107,10 +107,17 @@ struct HLSCM_options
   /// Threads that a parameterizer with `Parallel_tag` may use; 0 for all that the machine has. The
   /// result does not depend on it.
   unsigned int threads = 0;
+  /// The iteration also ends when no uv will change by more than this part of the longer side of the
+  /// map's bounding box, as far as can be estimated, such as a texel of its texture; 0 for never.
+  double uv_tolerance = 0.;
+  /// Seconds after which the map becomes the result as it is; 0 for no limit. Nothing is cut off
+  /// before the map of the coarsest level, which comes after about two thirds of the whole time.
+  double time_limit = 0.;
   /// Told the part done in [0, 1] from time to time; returning `false` cancels.
   std::function<bool(double)> progress;
-  /// Told the map on each level as soon as it is known.
-  std::function<void(const Level_view&)> level_observer;
+  /// Told the map on each level as soon as it is known; returning `false` makes it the result as it
+  /// is, taken to the finest level.
+  std::function<bool(const Level_view&)> level_observer;
 };
 
 } // namespace Surface_mesh_parameterization

@@ -8,6 +8,7 @@
 #include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
 #include <CGAL/Surface_mesh_parameterization/Solver_traits_cholesky.h>
 #include <CGAL/Surface_mesh_parameterization/internal/Conformal_solver.h>
+#include <CGAL/Surface_mesh_parameterization/internal/Progress.h>
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Default.h>
@@ -28,12 +29,6 @@ namespace internal {
 
 // Stands for "the parameterizer chooses the pins itself".
 struct Far_border_pins {};
-
-// The solver of the coarsest level.
-template <class SolverTraits>
-struct Coarsest_solver { typedef Solver_traits_cholesky<SolverTraits> type; };
-template <>
-struct Coarsest_solver<Default> { typedef Multigrid::Sparse_cholesky<> type; };
 
 } // namespace internal
 
@@ -256,6 +251,8 @@ void HLSCM_parameterizer_3<TM, BP, ST, CT>::check_options(internal::Chart& chart
     chart.fail(ERROR_WRONG_PARAMETER, "the ratio of levels must be greater than 1");
   if(!(m_options.angular_defect_bound > 0.))
     chart.fail(ERROR_WRONG_PARAMETER, "the bound of the angular defect must be positive");
+  if(!(m_options.uv_tolerance >= 0.) || !(m_options.time_limit >= 0.))
+    chart.fail(ERROR_WRONG_PARAMETER, "the uv tolerance and the time limit must not be negative");
   if(m_options.schedule && m_options.schedule->coarse_visits == 0)
     chart.fail(ERROR_WRONG_PARAMETER, "the schedule must visit the coarse level at least once");
 }
@@ -293,12 +290,12 @@ parameterize(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvma
   m_report->faces = chart.mesh.triangles.size();
   m_report->borders = chart.borders.size();
   const std::vector<internal::Pin> pins = choose_pins(mesh, bhd, uvmap, vimap, vpmap, chart);
-  internal::check_pins(chart, pins, m_report->warnings);
-  if(!has_pins() && !m_pins.empty())
-    m_report->warnings.push_back("the method has no pins; those that were set are not used");
-  if(has_pins())
+  if(has_pins()) {
+    internal::check_pins(chart, pins, m_report->warnings);
     for(const internal::Pin& pin : pins)
       m_report->pins.push_back({chart.source[pin.vertex], pin.value.real(), pin.value.imag()});
+  } else if(!m_pins.empty())
+    m_report->warnings.push_back("the method has no pins; those that were set are not used");
   m_report->seconds_hierarchy = watch.lap();
   if(chart.error != OK)
     return finish(chart);
@@ -308,10 +305,9 @@ parameterize(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvma
     return finish(chart);
   watch.lap();
   const auto rank = chart.rank(num_vertices(mesh));
-  std::vector<bool> is_pinned(z.size(), false);
-  if(has_pins())
-    for(const internal::Pin& pin : pins)
-      is_pinned[pin.vertex] = true;
+  std::vector<bool> is_pinned(num_vertices(mesh), false);
+  for(const HLSCM_pin& pin : m_report->pins)
+    is_pinned[pin.vertex] = true;
   std::size_t position = 0;
   for(vertex_descriptor v : vertices(mesh)) {
     const auto r = rank[position++];
@@ -319,7 +315,7 @@ parameterize(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvma
       continue;
     typedef typename Kernel::FT FT;
     put(uvmap, v, Point_2(FT(z[r].real()), FT(z[r].imag())));
-    if(is_pinned[r])
+    if(is_pinned[position - 1])
       put(vpmap, v, true);
   }
   m_report->seconds_solve += watch.lap();

@@ -37,9 +37,11 @@ What `HLSCM_parameterizer_3` did, and what came of it.
 */
 struct HLSCM_report
 {
-  std::string method;                     ///< name of the method: hlscm, cascadic, lscm, direct
+  std::string method;                     ///< its name: hlscm, spectral, cascadic, lscm, direct
   bool converged = false;                 ///< whether the tolerance is met, as far as is known
   bool cancelled = false;                 ///< whether the progress function stopped it
+  /// Whether the time limit or the level observer ended it with the map that there was.
+  bool stopped_early = false;
   std::string message;                    ///< one sentence on what went wrong; empty if nothing did
   std::vector<std::string> warnings;      ///< one sentence each
   std::size_t vertices = 0;               ///< vertices of the chart

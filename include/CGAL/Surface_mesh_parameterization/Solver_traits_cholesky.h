@@ -5,6 +5,9 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_SOLVER_TRAITS_CHOLESKY_H
 
 #include <CGAL/Multigrid/Hermitian_matrix.h>
+#include <CGAL/Multigrid/Sparse_cholesky.h>
+
+#include <CGAL/Default.h>
 
 #include <complex>
 #include <cstdint>
@@ -93,6 +96,16 @@ private:
   std::shared_ptr<typename SolverTraits::Matrix> m_matrix; // some factorizations refer to it
   std::vector<std::uint32_t> m_free;
 };
+
+namespace internal {
+
+// What solves the coarsest level for the given template argument of a parameterizer.
+template <class SolverTraits>
+struct Coarsest_solver { typedef Solver_traits_cholesky<SolverTraits> type; };
+template <>
+struct Coarsest_solver<Default> { typedef Multigrid::Sparse_cholesky<> type; };
+
+} // namespace internal
 
 } // namespace Surface_mesh_parameterization
 } // namespace CGAL

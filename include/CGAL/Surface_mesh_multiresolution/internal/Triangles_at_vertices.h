@@ -30,6 +30,7 @@ public:
         m_corner[m_begin[triangles[t][c] + 1]++] = 3 * t + c;
   }
 
+  std::size_t number_of_vertices() const { return m_begin.size() - 2; }
   const std::uint32_t* begin(Vertex_index v) const { return m_corner.data() + m_begin[v]; }
   const std::uint32_t* end(Vertex_index v) const { return m_corner.data() + m_begin[v + 1]; }
   std::uint32_t number(Vertex_index v) const { return m_begin[v + 1] - m_begin[v]; }

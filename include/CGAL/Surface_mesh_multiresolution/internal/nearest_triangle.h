@@ -172,9 +172,7 @@ walk_stencils(const Indexed_triangle_mesh& fine, const Indexed_triangle_mesh& co
               const std::vector<Vertex_index>& kept, const std::vector<Vertex_index>& ancestor)
 {
   const Triangles_at_vertices at(coarse.triangles, coarse.points.size());
-  std::vector<Vertex_index> rank(fine.points.size());
-  for(Vertex_index j = 0; j < kept.size(); ++j)
-    rank[kept[j]] = j;
+  const std::vector<Vertex_index> rank = ranks(kept, fine.points.size());
   std::vector<Vertex_index> removed;
   removed.reserve(fine.points.size() - kept.size());
   for(Vertex_index v = 0; v < fine.points.size(); ++v)

@@ -47,11 +47,7 @@ struct Chart
   // The position of each vertex of the input in the chart, or `no_vertex`.
   std::vector<Vertex_index> rank(std::size_t number_of_input_vertices) const
   {
-    std::vector<Vertex_index> result(number_of_input_vertices,
-                                     Surface_mesh_multiresolution::no_vertex);
-    for(Vertex_index v = 0; v < source.size(); ++v)
-      result[source[v]] = v;
-    return result;
+    return Surface_mesh_multiresolution::internal::ranks(source, number_of_input_vertices);
   }
 };
 

@@ -5,11 +5,8 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_BORDER_MASS_H
 
 #include <CGAL/Multigrid/Rayleigh_quotient.h>
-#include <CGAL/Surface_mesh_multiresolution/Indexed_triangle_mesh.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/Triangles_at_vertices.h>
-#include <CGAL/Surface_mesh_parameterization/Conformal_operator.h>
+#include <CGAL/Surface_mesh_multiresolution/Mesh_hierarchy.h>
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -18,38 +15,30 @@ namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
 
-// Half the length of the two border edges of each border vertex: the integral over the border of the
-// squared map, its mass lumped to the vertices (Mullen et al. 2008, section 4, count vertices, which
-// depends on how finely the border is divided).
+// Half the length of the two border edges of each border vertex of a level: the integral over the
+// border of the squared map, its mass lumped to the vertices (Mullen et al. 2008, section 4, count
+// vertices, which depends on how finely the border is divided). The loops are those of the finest
+// level; coarser ones have some of their vertices, in the same order.
 inline Multigrid::Diagonal_mass
-border_mass(const Surface_mesh_multiresolution::Indexed_triangle_mesh& mesh,
-            const Surface_mesh_multiresolution::internal::Triangles_at_vertices& at)
+border_mass(const Surface_mesh_multiresolution::Mesh_level& level,
+            const std::vector<std::vector<Surface_mesh_multiresolution::Vertex_index>>& loops)
 {
   std::vector<Multigrid::Diagonal_mass::Entry> entries;
-  std::vector<std::uint32_t> successors, predecessors; // a and b of the triangles (v, a, b)
-  const auto half_length_to_unmatched = [&](std::uint32_t v, const auto& some, const auto& others) {
-    double sum = 0.;
-    for(const std::uint32_t w : some)
-      if(std::find(others.begin(), others.end(), w) == others.end())
-        sum += 0.5 * std::sqrt(squared_distance(mesh.points[v], mesh.points[w]));
-    return sum;
-  };
-  const std::vector<std::uint32_t> neighbors
-    = numbers_of_neighbors(mesh.triangles, at, mesh.points.size());
-  for(std::uint32_t v = 0; v < mesh.points.size(); ++v) {
-    if(neighbors[v] == at.number(v)) // inside the surface
-      continue;
-    successors.clear();
-    predecessors.clear();
-    for(const std::uint32_t* corner = at.begin(v); corner != at.end(v); ++corner) {
-      const auto& t = mesh.triangles[*corner / 3];
-      successors.push_back(t[(*corner + 1) % 3]);
-      predecessors.push_back(t[(*corner + 2) % 3]);
+  for(const auto& loop : loops) {
+    const std::size_t first = entries.size();
+    for(const auto v : loop) {
+      const std::size_t position = level.position(v);
+      if(position < level.vertices.size() && level.vertices[position] == v)
+        entries.push_back({std::uint32_t(position), 0.});
     }
-    const double mass = half_length_to_unmatched(v, successors, predecessors)
-                      + half_length_to_unmatched(v, predecessors, successors);
-    if(mass > 0.)
-      entries.push_back({v, mass});
+    for(std::size_t i = first; i < entries.size(); ++i) {
+      auto& a = entries[i];
+      auto& b = entries[i + 1 < entries.size() ? i + 1 : first];
+      const auto& points = level.mesh.points;
+      const double half = 0.5 * std::sqrt(squared_distance(points[a.row], points[b.row]));
+      a.value += half;
+      b.value += half;
+    }
   }
   return Multigrid::Diagonal_mass(std::move(entries));
 }

@@ -155,9 +155,8 @@ Coarse_metric::owner_of(std::uint32_t t, const std::vector<std::uint32_t>& rank,
 
 inline void Coarse_metric::find_owners(const Prolongation& prolongation)
 {
-  std::vector<std::uint32_t> rank(m_fine.mesh.points.size(), none);
-  for(std::uint32_t j = 0; j < m_kept.size(); ++j)
-    rank[m_kept[j]] = j;
+  const std::vector<std::uint32_t> rank
+    = Surface_mesh_multiresolution::internal::ranks(m_kept, m_fine.mesh.points.size());
   std::vector<std::uint32_t> owner_of_vertex(rank.size(), none);
   const auto& stencils = prolongation.stencils();
   Blocked_execution::blocked_for(stencils.size(), 16384, [&](std::size_t begin, std::size_t end) {
@@ -245,8 +244,8 @@ inline Half_cotangents Coarse_metric::cotangents() const
   // triangles disagree about the angles; beyond this they are folded.
   constexpr double folded = 25.;
   const auto& triangles = m_coarse.mesh.triangles;
-  Half_cotangents result(m_coarse.mesh);
-  result.mollified = 0;
+  Half_cotangents result;
+  result.value.resize(3 * triangles.size());
   Blocked_execution::blocked_for(triangles.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for(std::size_t t = begin; t < end; ++t) {
       Sum sum;
@@ -267,11 +266,10 @@ inline Half_cotangents Coarse_metric::cotangents() const
       }
       const double a = sum.value[0] / sum.area, b = sum.value[1] / sum.area,
                    c = sum.value[2] / sum.area;
-      if(sum.area > enough && a * b + b * c + c * a < folded) {
-        result.value[3 * t] = a;
-        result.value[3 * t + 1] = b;
-        result.value[3 * t + 2] = c;
-      }
+      if(sum.area > enough && a * b + b * c + c * a < folded)
+        result.set(t, {a, b, c});
+      else
+        result.set(t, half_cotangents(conformal_triangle(m_coarse.mesh, t)));
     }
   });
   return result;
