@@ -461,6 +461,31 @@ TEST(Conformal_operator, keeps_the_rows_of_pins_apart)
   }
 }
 
+// However vertices were pinned and released, the operator is that of the pins which remain.
+TEST(Conformal_operator, pins_can_be_released)
+{
+  Random_numbers random(14);
+  for(const auto& [name, mesh] : operator_meshes())
+    for(const auto& weights : {std::vector<double>(), random_weights(mesh, random)}) {
+      std::vector<bool> is_pinned = no_pins(mesh);
+      auto op = conformal_operator<double>(mesh, is_pinned, weights);
+      for(int step = 0; step < 60; ++step) {
+        const std::uint32_t v = std::uint32_t(random.below(mesh.points.size()));
+        if(is_pinned[v])
+          op.release(v);
+        else
+          op.pin(v);
+        is_pinned[v] = !is_pinned[v];
+      }
+      const auto expected = conformal_operator<double>(mesh, is_pinned, weights);
+      EXPECT_EQ(to_dense(op.matrix), to_dense(expected.matrix)) << name;
+      EXPECT_EQ(whole_matrix(op), whole_matrix(expected)) << name;
+      ASSERT_EQ(op.pinned.size(), expected.pinned.size()) << name;
+      for(std::size_t i = 0; i < op.pinned.size(); ++i)
+        EXPECT_EQ(op.pinned[i].vertex, expected.pinned[i].vertex) << name;
+    }
+}
+
 // The whole matrix and the energy function are the same thing.
 TEST(Conformal_operator, energy_is_the_quadratic_form)
 {

@@ -18,6 +18,8 @@ namespace Multigrid {
 struct Energy_stop
 {
   double tolerance = 1e-2;         ///< of \f$ (E - E_{\min}) / E \f$
+  /// The least energy for which the tolerance is meant: where \f$ E \f$ is smaller, it counts as this.
+  double least_energy = 0.;
   /// Of the change of an unknown that is still to come; 0 if it does not matter. The first of the two
   /// tolerances that is met ends the iteration.
   double change_tolerance = 0.;
@@ -143,7 +145,7 @@ public:
     m_report.energy_gap = m_gap.remaining();
     m_report.rate = m_gap.rate();
     m_change.add(change);
-    const bool is_enough = m_report.energy_gap <= m_stop.tolerance * std::abs(energy)
+    const bool is_enough = m_report.energy_gap <= goal()
                         || (watches_changes() && m_change.remaining() <= m_stop.change_tolerance);
     m_report.converged = is_enough && m_report.iterations >= m_stop.minimal_iterations;
     if(!m_report.converged)
@@ -163,15 +165,21 @@ public:
   const Iteration_report& report() const { return m_report; }
 
 private:
+  // The gap that is small enough.
+  double goal() const
+  {
+    return m_stop.tolerance * (std::max)(std::abs(m_report.energy), m_stop.least_energy);
+  }
+
   // The part that is done: on a logarithmic scale from the first estimate to the tolerance.
   double part()
   {
     if(!(m_first_gap < (std::numeric_limits<double>::infinity)()))
       m_first_gap = m_report.energy_gap;
-    const double goal = m_stop.tolerance * std::abs(m_report.energy);
-    if(!(goal > 0. && goal < m_first_gap && m_report.energy_gap < m_first_gap))
+    if(!(goal() > 0. && goal() < m_first_gap && m_report.energy_gap < m_first_gap))
       return 0.;
-    const double part = std::log(m_first_gap / m_report.energy_gap) / std::log(m_first_gap / goal);
+    const double part
+      = std::log(m_first_gap / m_report.energy_gap) / std::log(m_first_gap / goal());
     return (std::max)(0., (std::min)(part, 1.));
   }
 

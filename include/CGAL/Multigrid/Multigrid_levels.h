@@ -9,7 +9,9 @@
 
 #include <CGAL/assertions.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -43,6 +45,9 @@ public:
     level.matrix = &matrix;
     level.inverse_diagonal = l1_inverse_diagonal(matrix);
     level.from_coarser = from_coarser;
+    for(std::uint32_t i = 0; i < matrix.size(); ++i)
+      if(matrix.diagonal()[i] == 0.f)
+        level.pins.push_back(i);
     m_levels.push_back(std::move(level));
   }
 
@@ -51,6 +56,10 @@ public:
   {
     const Matrix& h = matrix(level);
     m_levels[level].inverse_diagonal[i] = internal::l1_inverse(h, h.slot_of_row(i));
+    std::vector<std::uint32_t>& pins = m_levels[level].pins;
+    pins.erase(std::remove(pins.begin(), pins.end(), i), pins.end());
+    if(h.diagonal()[i] == 0.f)
+      pins.push_back(i);
   }
 
   /// Returns the number of levels.
@@ -108,6 +117,7 @@ private:
     const Matrix* matrix = nullptr;
     std::vector<float> inverse_diagonal;
     const Transfer* from_coarser = nullptr;
+    std::vector<std::uint32_t> pins; // rows of zeros, whose corrections stay 0
     Vector u, f;                   // the system of the moment
     Vector r, z;                   // residual f - H u, and the step of the smoother
     bool is_zero = true;           // u is 0, whatever is stored
@@ -121,6 +131,13 @@ private:
   {
     m_levels[l].is_zero = true;
     forget_residual(m_levels[l]);
+  }
+
+  // What comes from or goes to a coarser level that does not have a pin leaves it alone.
+  static void clear_pins(const Level& level, Vector& x)
+  {
+    for(const std::uint32_t i : level.pins)
+      x[i] = 0;
   }
 
   static void forget_residual(Level& level) { level.has_residual = level.has_step = false; }
@@ -178,6 +195,7 @@ void Multigrid_levels<Transfer, CoarsestSolver>::restrict_residual(std::size_t l
   Level& level = m_levels[l];
   Level& coarse = m_levels[l - 1];
   update_residual(level);
+  clear_pins(level, level.r);
   level.from_coarser->restrict_in_place(level.r, coarse.f);
   forget_residual(level);
   start_at_zero(l - 1);
@@ -190,6 +208,7 @@ void Multigrid_levels<Transfer, CoarsestSolver>::correct(std::size_t l)
   materialize(m_levels[l - 1]);
   materialize(level);
   level.from_coarser->prolongate(m_levels[l - 1].u, level.z);
+  clear_pins(level, level.z);
   for_each_index(level.u.size(), [&](std::size_t i) { level.u[i] += level.z[i]; });
   forget_residual(level);
 }

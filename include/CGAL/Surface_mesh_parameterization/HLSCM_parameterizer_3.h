@@ -9,6 +9,7 @@
 #include <CGAL/Surface_mesh_parameterization/Solver_traits_cholesky.h>
 #include <CGAL/Surface_mesh_parameterization/internal/Conformal_solver.h>
 #include <CGAL/Surface_mesh_parameterization/internal/Progress.h>
+#include <CGAL/Surface_mesh_parameterization/internal/check_options.h>
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Default.h>
@@ -163,8 +164,6 @@ private:
               VertexIndexMap vimap, VertexParameterizedMap vpmap, internal::Chart& chart) const;
   std::vector<internal::Pin> user_pins(const TriangleMesh& mesh, internal::Chart& chart) const;
   bool has_pins() const { return m_options.method != Conformal_method::SPECTRAL; }
-  void name_method() const;
-  void check_options(internal::Chart& chart) const;
   Error_code finish(const internal::Chart& chart) const;
 
   HLSCM_options m_options;
@@ -236,28 +235,6 @@ choose_pins(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvmap
 }
 
 template <class TM, class BP, class ST, class CT>
-void HLSCM_parameterizer_3<TM, BP, ST, CT>::name_method() const
-{
-  static const char* const names[] = {"hlscm", "spectral", "cascadic", "lscm", "direct"};
-  m_report->method = names[int(m_options.method)];
-}
-
-template <class TM, class BP, class ST, class CT>
-void HLSCM_parameterizer_3<TM, BP, ST, CT>::check_options(internal::Chart& chart) const
-{
-  if(!(m_options.tolerance > 0.))
-    chart.fail(ERROR_WRONG_PARAMETER, "the tolerance must be positive");
-  if(!(m_options.level_ratio == 0. || m_options.level_ratio > 1.))
-    chart.fail(ERROR_WRONG_PARAMETER, "the ratio of levels must be greater than 1");
-  if(!(m_options.angular_defect_bound > 0.))
-    chart.fail(ERROR_WRONG_PARAMETER, "the bound of the angular defect must be positive");
-  if(!(m_options.uv_tolerance >= 0.) || !(m_options.time_limit >= 0.))
-    chart.fail(ERROR_WRONG_PARAMETER, "the uv tolerance and the time limit must not be negative");
-  if(m_options.schedule && m_options.schedule->coarse_visits == 0)
-    chart.fail(ERROR_WRONG_PARAMETER, "the schedule must visit the coarse level at least once");
-}
-
-template <class TM, class BP, class ST, class CT>
 Error_code HLSCM_parameterizer_3<TM, BP, ST, CT>::finish(const internal::Chart& chart) const
 {
   HLSCM_report& report = *m_report;
@@ -274,11 +251,11 @@ parameterize(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvma
              VertexIndexMap vimap, VertexParameterizedMap vpmap)
 {
   *m_report = HLSCM_report();
-  name_method();
+  m_report->method = internal::name_of(m_options.method);
   const Blocked_execution::Thread_scope threads(is_parallel ? m_options.threads : 1);
   internal::Stopwatch watch;
   internal::Chart chart;
-  check_options(chart);
+  internal::check_options(m_options, chart);
   if(bhd == boost::graph_traits<TriangleMesh>::null_halfedge() || !is_border(bhd, mesh))
     chart.fail(ERROR_NO_TOPOLOGICAL_DISC,
                "the given halfedge is not on a border; a closed surface must be cut open first");
@@ -291,7 +268,8 @@ parameterize(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvma
   m_report->borders = chart.borders.size();
   const std::vector<internal::Pin> pins = choose_pins(mesh, bhd, uvmap, vimap, vpmap, chart);
   if(has_pins()) {
-    internal::check_pins(chart, pins, m_report->warnings);
+    internal::check_pins(chart, pins);
+    internal::warn_of_pins(chart, pins, m_report->warnings);
     for(const internal::Pin& pin : pins)
       m_report->pins.push_back({chart.source[pin.vertex], pin.value.real(), pin.value.imag()});
   } else if(!m_pins.empty())

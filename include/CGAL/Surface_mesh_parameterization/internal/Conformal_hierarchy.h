@@ -94,8 +94,20 @@ public:
   CoarsestSolver& coarsest_solver() { return m_cycle->coarsest_solver(); }
   bool factorize_coarsest() { return coarsest_solver().factorize(coarsest().matrix); }
 
-  // A vector of level l that is 0 but at its pins.
-  Vector at_pins(std::size_t l, const std::vector<Pin>& pins) const;
+  // Gives the pins of level l their values.
+  void set_pins(std::size_t l, const std::vector<Pin>& pins, Vector& z) const
+  {
+    for(const Pin& pin : pins)
+      z[m_pins.at(pin.vertex)[l]] = pin.value;
+  }
+
+  // The vector of the coarsest level that is 0 but at the pins.
+  Vector at_pins(const std::vector<Pin>& pins) const
+  {
+    Vector z(m_levels[0].vertices.size(), 0.);
+    set_pins(0, pins, z);
+    return z;
+  }
 
   // Takes a vector of level l - 1 to level l.
   Vector prolonged(std::size_t l, const Vector& z) const
@@ -237,16 +249,6 @@ void Conformal_hierarchy<CoarsestSolver>::release(Vertex_index v)
       m_cycle->update_row(l, w);
   }
   m_pins.erase(pin);
-}
-
-template <class CoarsestSolver>
-typename Conformal_hierarchy<CoarsestSolver>::Vector
-Conformal_hierarchy<CoarsestSolver>::at_pins(std::size_t l, const std::vector<Pin>& pins) const
-{
-  Vector z(m_levels[l].vertices.size(), 0.);
-  for(const Pin& pin : pins)
-    z[m_pins.at(pin.vertex)[l]] = pin.value;
-  return z;
 }
 
 template <class CoarsestSolver>

@@ -86,6 +86,7 @@ protected:
   bool is_cascade() const { return m_options.method == Conformal_method::CASCADIC; }
   bool is_spectral() const { return m_options.method == Conformal_method::SPECTRAL; }
 
+  void restart();
   void build();
   void build_hierarchy();
   void build_operators();
@@ -95,7 +96,7 @@ protected:
   void solve_directly(Vector& z);
   void solve_monogrid(Vector& z);
   void solve_hierarchy(Vector& z);
-  Multigrid::Iteration_report improve(std::size_t l, Vector& z);
+  Multigrid::Iteration_report improve(std::size_t l, Vector& z, double least_energy = 0.);
   Multigrid::Iteration_report relax(std::size_t l, Vector& z) const;
   void solve_coarsest(Vector& z);
   void finish(const Multigrid::Iteration_report& result, Vector& z);
@@ -144,9 +145,10 @@ void Conformal_solver<CoarsestSolver>::finish_level(std::size_t l)
 {
   Level& level = m_hierarchy.levels()[l];
   const bool is_finest = l + 1 == m_hierarchy.number_of_levels();
-  if(is_spectral())
+  const bool needs_no_pins = is_spectral() || m_keeps_meshes;
+  if(needs_no_pins)
     m_masses[l] = border_mass(level, m_chart.borders);
-  if(is_spectral() && is_finest)
+  if(needs_no_pins && is_finest)
     for(std::size_t t = 0; t < level.mesh.triangles.size(); ++t)
       m_surface_area += conformal_triangle(level.mesh, t).area();
   if(m_options.level_observer || m_keeps_meshes)
@@ -160,7 +162,7 @@ template <class CoarsestSolver>
 void Conformal_solver<CoarsestSolver>::build_operators()
 {
   const std::size_t count = m_hierarchy.number_of_levels();
-  m_masses.resize(is_spectral() ? count : 0);
+  m_masses.resize(count);
   m_surface_area = 0.;
   std::vector<double> weights = m_face_weights;
   if(weights.empty() && m_options.weights == Conformal_weights::CGAL_LSCM)
@@ -242,12 +244,14 @@ Multigrid::Iteration_report Conformal_solver<CoarsestSolver>::relax(std::size_t 
 // Conjugate gradients preconditioned by a cycle. Levels below the finest are only starting points:
 // two steps are enough, since their minimisers differ from the finest one anyway.
 template <class CoarsestSolver>
-Multigrid::Iteration_report Conformal_solver<CoarsestSolver>::improve(std::size_t l, Vector& z)
+Multigrid::Iteration_report Conformal_solver<CoarsestSolver>::improve(std::size_t l, Vector& z,
+                                                                      double least_energy)
 {
   const bool is_finest = l + 1 == m_hierarchy.number_of_levels();
   Multigrid::Energy_stop stop;
   stop.tolerance = m_options.tolerance;
   stop.maximal_iterations = is_finest ? maximal_iterations(500) : 2;
+  stop.least_energy = least_energy;
   stop.known_rate = is_finest ? m_rate : 0.;
   if(is_finest && m_options.uv_tolerance > 0.)
     stop.change_tolerance = m_options.uv_tolerance * Multigrid::extent(z);
@@ -358,6 +362,8 @@ void Conformal_solver<CoarsestSolver>::solve_hierarchy(Vector& z)
   for(std::size_t l = 1; l < count; ++l) {
     Stopwatch watch;
     z = m_hierarchy.prolonged(l, z);
+    if(!is_spectral())
+      m_hierarchy.set_pins(l, m_pins, z);
     if(!goes_on)
       continue;
     const auto result = is_cascade() ? relax(l, z) : improve(l, z);
@@ -369,6 +375,19 @@ void Conformal_solver<CoarsestSolver>::solve_hierarchy(Vector& z)
       return;
     goes_on = observe(l, z);
   }
+}
+
+// Forgets what came of an earlier run, but for its hierarchy.
+template <class CoarsestSolver>
+void Conformal_solver<CoarsestSolver>::restart()
+{
+  m_chart.error = OK;
+  m_chart.message.clear();
+  m_report.cancelled = m_report.stopped_early = m_report.converged = false;
+  m_report.iterations = 0;
+  m_progress.restart();
+  m_watch.lap();
+  m_since_begin.lap();
 }
 
 template <class CoarsestSolver>
@@ -386,7 +405,7 @@ void Conformal_solver<CoarsestSolver>::build()
 template <class CoarsestSolver>
 void Conformal_solver<CoarsestSolver>::solve(Vector& z)
 {
-  z = m_hierarchy.at_pins(0, m_pins);
+  z = m_hierarchy.at_pins(m_pins);
   switch(m_options.method) {
   case Conformal_method::DIRECT: solve_directly(z); break;
   case Conformal_method::LSCM: solve_monogrid(z); break;

@@ -49,6 +49,12 @@ public:
 
   bool is_cancelled() const { return m_is_cancelled; }
 
+  void restart()
+  {
+    m_done = 0.;
+    m_is_cancelled = false;
+  }
+
 private:
   const std::function<bool(double)>& m_function;
   double m_done = 0.;

@@ -52,16 +52,18 @@ inline std::vector<Pin> far_border_pins(const Chart& chart)
   return {{a, 0.}, {farthest(a), 1.}};
 }
 
-// Says in `chart` what is wrong with the pins, and in `warnings` what is odd.
-inline void check_pins(Chart& chart, const std::vector<Pin>& pins,
-                       std::vector<std::string>& warnings)
+inline std::string name_of(const Chart& chart, const Pin& pin)
 {
-  const auto name = [&](const Pin& pin) {
-    return "vertex " + std::to_string(chart.source[pin.vertex]);
-  };
+  return "vertex " + std::to_string(chart.source[pin.vertex]);
+}
+
+// Says in `chart` what is wrong with the pins.
+inline void check_pins(Chart& chart, const std::vector<Pin>& pins)
+{
+  const auto name = [&](const Pin& pin) { return name_of(chart, pin); };
   if(pins.size() < 2)
     return chart.fail(ERROR_WRONG_PARAMETER, "fewer than two vertices are pinned; pin two or more");
-  std::vector<bool> is_pinned(chart.mesh.points.size(), false);
+  std::vector<bool> is_pinned(chart.source.size(), false);
   bool is_spread = false;
   for(const Pin& pin : pins) {
     if(!std::isfinite(pin.value.real()) || !std::isfinite(pin.value.imag()))
@@ -75,12 +77,18 @@ inline void check_pins(Chart& chart, const std::vector<Pin>& pins,
   if(!is_spread)
     return chart.fail(ERROR_WRONG_PARAMETER, "the pins of " + name(pins[0]) + " and "
                       + name(pins[1]) + " lie in one point of the parameter plane; move one of them");
-  if(pins.size() > 2)
+}
+
+// Says what is odd about the pins of a chart that still has its rings.
+inline void warn_of_pins(const Chart& chart, const std::vector<Pin>& pins,
+                         std::vector<std::string>& warnings)
+{
+  if(chart.error != OK || pins.size() > 2)
     return;
   const std::uint32_t* ring = chart.rings.ring(pins[0].vertex);
-  if(std::find(ring, ring + chart.rings.degree(pins[0].vertex), pins[1].vertex)
-     != ring + chart.rings.degree(pins[0].vertex))
-    warnings.push_back("the pins " + name(pins[0]) + " and " + name(pins[1])
+  const std::uint32_t* end = ring + chart.rings.degree(pins[0].vertex);
+  if(std::find(ring, end, pins[1].vertex) != end)
+    warnings.push_back("the pins " + name_of(chart, pins[0]) + " and " + name_of(chart, pins[1])
                        + " are neighbours; the map will be large far from them");
 }
 
