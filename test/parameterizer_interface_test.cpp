@@ -397,6 +397,80 @@ TEST(Level_observer, sees_every_level)
   }
 }
 
+// --- Ending early
+
+TEST(Ending_early, observer_takes_the_map_that_there_is)
+{
+  const auto arrays = hills();
+  Surface_mesh mesh = to_surface_mesh(arrays);
+  for(const auto method : {Conformal_method::HLSCM, Conformal_method::SPECTRAL,
+                           Conformal_method::CASCADIC}) {
+    const std::size_t levels = parameterize(mesh, with_many_levels(method)).report.levels.size();
+    EXPECT_GE(levels, 2u);
+    for(std::size_t last = 0; last + 1 < levels; ++last) {
+      HLSCM_options options = with_many_levels(method);
+      Parameters level_uv;
+      std::vector<std::uint32_t> source;
+      options.level_observer = [&](const SMP::Level_view& view) {
+        EXPECT_LE(view.level, last);
+        level_uv = *view.uv;
+        source = *view.vertices;
+        return view.level < last;
+      };
+      const Outcome run = parameterize(mesh, options);
+      EXPECT_EQ(run.error, SMP::OK) << run.report.message;
+      EXPECT_TRUE(run.report.stopped_early);
+      EXPECT_FALSE(run.report.converged);
+      EXPECT_GT(run.report.energy, 0.);
+      ASSERT_FALSE(source.empty());
+      for(const Complex& z : run.uv)
+        ASSERT_NE(z, Complex(untouched, untouched));
+      if(method != Conformal_method::SPECTRAL) { // whose map is fitted to each level anew
+        for(std::size_t i = 0; i < source.size(); ++i)
+          ASSERT_EQ(run.uv[source[i]], level_uv[i]) << int(method) << " level " << last;
+      }
+    }
+  }
+}
+
+TEST(Ending_early, time_limit_takes_the_map_that_there_is)
+{
+  Surface_mesh mesh = to_surface_mesh(hills());
+  HLSCM_options options = with_many_levels(Conformal_method::HLSCM);
+  options.time_limit = 1e-9;
+  const Outcome run = parameterize(mesh, options);
+  EXPECT_EQ(run.error, SMP::OK) << run.report.message;
+  EXPECT_TRUE(run.report.stopped_early);
+  EXPECT_FALSE(run.report.cancelled);
+  EXPECT_LE(run.report.iterations, 1u);
+  options.time_limit = 1e9;
+  const Outcome unlimited = parameterize(mesh, options);
+  EXPECT_FALSE(unlimited.report.stopped_early);
+  EXPECT_TRUE(unlimited.report.converged);
+}
+
+// The iteration that ends by its uv tolerance is that near to the exact map.
+TEST(Ending_early, uv_tolerance_bounds_the_distance_from_the_minimiser)
+{
+  Surface_mesh mesh = to_surface_mesh(hills());
+  HLSCM_options options = with_many_levels(Conformal_method::DIRECT);
+  const Outcome exact = parameterize(mesh, options);
+  std::size_t before = 0;
+  for(const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5}) {
+    options.method = Conformal_method::HLSCM;
+    options.tolerance = 1e-30;
+    options.uv_tolerance = tolerance;
+    const Outcome run = parameterize(mesh, options);
+    EXPECT_EQ(run.error, SMP::OK) << run.report.message;
+    EXPECT_TRUE(run.report.converged);
+    EXPECT_LE(difference(run.uv, exact.uv), tolerance);
+    EXPECT_GE(run.report.iterations, before);
+    before = run.report.iterations;
+  }
+  options.uv_tolerance = -1.;
+  EXPECT_EQ(parameterize(mesh, options).error, SMP::ERROR_WRONG_PARAMETER);
+}
+
 // --- Several components
 
 Indexed_triangle_mesh together(const Indexed_triangle_mesh& a, const Indexed_triangle_mesh& b)

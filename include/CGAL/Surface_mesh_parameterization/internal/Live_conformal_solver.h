@@ -281,8 +281,6 @@ void Live_conformal_solver<CoarsestSolver>::follow_pins()
     else
       add_map_of_moves(all);
     m_is_solved = m_is_solved && is_good_enough();
-    if(is_dragged_on && !m_is_solved) // too far for it
-      m_unit_move = Unit_move();
   }
   for(const Pin& pin : m_pins)
     m_map[pin.vertex] = pin.value; // whatever was rounded
