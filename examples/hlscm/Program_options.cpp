@@ -125,6 +125,11 @@ void add_solver_options(CLI::App& app, SMP::HLSCM_options& o)
       o.weights, "the conformal energy (default), or the energy of CGAL's LSCM_parameterizer_3");
   add_number(app, "--tolerance", 0, 1, o.tolerance,
              "stop when (E - Emin) / E is below it (default 0.01)");
+  add_number(app, "--uv-tolerance", 0, 1, o.uv_tolerance,
+             "also stop when no uv will move by more than this part of the map's longer side, such "
+             "as 1/4096 for a texel");
+  add_number(app, "--time-limit", 0, 1e9, o.time_limit,
+             "after that many seconds take the map as it is, once there is one");
   app.add_option_function<std::string>(
          "--schedule", [&o](const std::string& text) { set_schedule(text, o); },
          "sweeps before, sweeps after, and visits of each coarser level")

@@ -106,6 +106,7 @@ std::string to_json(const Run_report& report, const Program_options& options)
                      {"level_table", levels},
                      {"iterations", s.iterations},
                      {"converged", s.converged},
+                     {"stopped_early", s.stopped_early},
                      {"energy", number(s.energy)},
                      {"energy_gap_estimate", number(s.energy_gap_estimate)},
                      {"flips", d.flipped_faces},
@@ -144,7 +145,9 @@ std::string to_table(const Run_report& report, const Program_options& options)
   } else {
     table.add("method", s.method, ", ", s.iterations,
               s.iterations == 1 ? " iteration" : " iterations", " on the finest level, ",
-              s.converged ? "converged" : "tolerance not reached");
+              s.converged       ? "converged"
+              : s.stopped_early ? "stopped early"
+                                : "tolerance not reached");
   }
   table.add("levels", levels_text(report));
   table.add("pins", pins_text(report));

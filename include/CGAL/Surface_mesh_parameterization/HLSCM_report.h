@@ -54,7 +54,7 @@ struct HLSCM_report
   /// \f$ E \f$, Dirichlet energy minus area of the map; with `Conformal_weights::CGAL_LSCM` the sum
   /// that CGAL minimises, in squared units of length of the mesh.
   double energy = 0.;
-  double energy_gap_estimate = 0.;        ///< estimate of \f$ E - E_{\min} \f$
+  double energy_gap_estimate = 0.;        ///< estimate of \f$ E - E_{\min} \f$; infinite if unknown
   double seconds_hierarchy = 0.;          ///< time of reading the mesh, decimation and levels
   double seconds_operators = 0.;          ///< time of matrices, and of their factorization
   double seconds_solve = 0.;              ///< time of the iterations

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -355,6 +356,7 @@ template <class CoarsestSolver>
 void Conformal_solver<CoarsestSolver>::solve_hierarchy(Vector& z)
 {
   const std::size_t count = m_hierarchy.number_of_levels();
+  m_report.energy_gap_estimate = count > 1 ? (std::numeric_limits<double>::infinity)() : 0.;
   solve_coarsest(z);
   if(m_chart.error != OK)
     return;
