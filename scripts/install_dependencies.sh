@@ -4,9 +4,10 @@
 #
 # Installs the Debian packages that are missing, as root or by sudo.
 #
-# Usage: scripts/install_dependencies.sh [--doc] [--bench]
+# Usage: scripts/install_dependencies.sh [--doc] [--bench] [--clang]
 #   --doc    also what the manual needs
 #   --bench  also what the plots of the benchmarks need
+#   --clang  also clang++, for the fuzzer
 
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -21,7 +22,8 @@ for option in "$@"; do
   case "$option" in
     --doc) packages+=(doxygen) ;;
     --bench) packages+=(python3-matplotlib) ;;
-    *) fail "unknown option $option; there are --doc and --bench" ;;
+    --clang) packages+=(clang libclang-rt-14-dev) ;;
+    *) fail "unknown option $option; there are --doc, --bench and --clang" ;;
   esac
 done
 
