@@ -15,7 +15,7 @@ seconds="${1:-600}"
 [[ "$seconds" =~ ^[1-9][0-9]*$ ]] || fail "SECONDS is a number, not $seconds"
 
 cd "$root"
-scripts/install_dependencies.sh --clang
+scripts/install_dependencies.sh
 
 say "building"
 cmake --preset fuzz >&2
