@@ -6,23 +6,27 @@ if(HLSCM_NATIVE)
   check_cxx_compiler_flag(-march=native HLSCM_HAS_MARCH_NATIVE)
 endif()
 
+# How our own code is compiled: C++17, warnings, the processor of this machine if HLSCM_NATIVE.
+# CGAL::HLSCM is linked always.
+function(hlscm_set_up target)
+  target_link_libraries(${target} PRIVATE CGAL::HLSCM ${ARGN})
+  target_compile_features(${target} PRIVATE cxx_std_17)
+  # GCC 12 takes variables of its own vector intrinsics for uninitialized when Eigen uses them;
+  # vectors by value, inside one program, are no matter of the ABI.
+  target_compile_options(${target} PRIVATE -Wall -Wextra -fno-math-errno
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-psabi>)
+  if(HLSCM_NATIVE AND HLSCM_HAS_MARCH_NATIVE)
+    target_compile_options(${target} PRIVATE -march=native)
+  endif()
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+endfunction()
+
 # hlscm_add_program(<name> SOURCES <file>... [LIBRARIES <target>...])
 #
-# A program of this repository, ${CMAKE_BINARY_DIR}/bin/<name>: C++17, warnings, the processor of
-# this machine if HLSCM_NATIVE. CGAL::HLSCM is linked always.
+# A program of this repository, ${CMAKE_BINARY_DIR}/bin/<name>.
 function(hlscm_add_program name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBRARIES")
   add_executable(${name} ${arg_SOURCES})
-  target_link_libraries(${name} PRIVATE CGAL::HLSCM ${arg_LIBRARIES})
-  target_compile_features(${name} PRIVATE cxx_std_17)
-  # GCC 12 takes variables of its own vector intrinsics for uninitialized when Eigen uses them;
-  # vectors by value, inside one program, are no matter of the ABI.
-  target_compile_options(${name} PRIVATE -Wall -Wextra -fno-math-errno
-    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-psabi>)
-  if(HLSCM_NATIVE AND HLSCM_HAS_MARCH_NATIVE)
-    target_compile_options(${name} PRIVATE -march=native)
-  endif()
-  set_target_properties(${name} PROPERTIES
-    CXX_EXTENSIONS OFF
-    RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+  hlscm_set_up(${name} ${arg_LIBRARIES})
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 endfunction()

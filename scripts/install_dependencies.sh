@@ -4,9 +4,10 @@
 #
 # Installs the Debian packages that are missing, as root or by sudo.
 #
-# Usage: scripts/install_dependencies.sh [--doc] [--bench]
-#   --doc    also what the manual needs
-#   --bench  also what the plots of the benchmarks need
+# Usage: scripts/install_dependencies.sh [--doc] [--bench] [--coverage]
+#   --doc       also what the manual needs
+#   --bench     also what the plots and the memory of the benchmarks need
+#   --coverage  also gcovr
 
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -15,13 +16,15 @@ packages=(
   libcgal-dev libcgal-demo libeigen3-dev
   libsuitesparse-dev libopenmesh-dev libtbb-dev
   libcli11-dev nlohmann-json3-dev libstb-dev
-  libgtest-dev libbenchmark-dev)
+  libgtest-dev libbenchmark-dev
+  clang libclang-rt-14-dev)
 
 for option in "$@"; do
   case "$option" in
     --doc) packages+=(doxygen) ;;
-    --bench) packages+=(python3-matplotlib) ;;
-    *) fail "unknown option $option; there are --doc and --bench" ;;
+    --bench) packages+=(python3-matplotlib valgrind) ;;
+    --coverage) packages+=(gcovr) ;;
+    *) fail "unknown option $option; there are --doc, --bench and --coverage" ;;
   esac
 done
 

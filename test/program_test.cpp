@@ -559,6 +559,7 @@ std::vector<Bad_file> bad_files()
       {"index.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", {"face 0", "vertex 3"}},
       {"index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", {"face 0"}},
       {"index2.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -7\n", {"face 0"}},
+      {"index3.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4294967299\n", {"face 0"}},
       {"index.ply",
        "ply\nformat ascii 1.0\nelement vertex 3\nproperty int x\nproperty int y\nproperty int z\n"
        "element face 1\nproperty list uchar int vertex_index\nend_header\n"

@@ -69,6 +69,14 @@ std::string lower_case_extension(const std::string& file_name)
 
 Read_mesh read_mesh(const std::string& file_name, Progress_bar& progress)
 {
+  progress.start_stage("reading");
+  const File_bytes bytes = load(file_name);
+  return read_mesh(file_name, bytes.data.get(), bytes.data.get() + bytes.size, progress);
+}
+
+Read_mesh read_mesh(const std::string& file_name, const char* begin, const char* end,
+                    Progress_bar& progress)
+{
   struct Format
   {
     const char* extension;
@@ -77,18 +85,16 @@ Read_mesh read_mesh(const std::string& file_name, Progress_bar& progress)
   static const Format formats[] = {
       {".off", read_off}, {".obj", read_obj}, {".ply", read_ply}, {".stl", read_stl}};
 
-  progress.start_stage("reading");
   const std::string extension = lower_case_extension(file_name);
   const Format* format = std::find_if(std::begin(formats), std::end(formats),
                                       [&](const Format& f) { return extension == f.extension; });
-  const File_bytes bytes = load(file_name);
   if(format == std::end(formats)) {
     throw Program_error(file_name, "the extension \"" + extension
                                        + "\" is unknown, convert the mesh "
                                          "to .off, .obj, .ply or .stl");
   }
-  const Mesh_source source{file_name, bytes.data.get(), bytes.data.get() + bytes.size, progress};
-  if(bytes.size == 0) {
+  const Mesh_source source{file_name, begin, end, progress};
+  if(begin == end) {
     source.fail("the file is empty, export the mesh again");
   }
   Read_mesh mesh = format->read(source);

@@ -27,6 +27,10 @@ struct Read_mesh
 /// compare both on the same files.
 Read_mesh read_mesh(const std::string& file_name, Progress_bar& progress);
 
+/// The same from the bytes of the file, whose name tells the format.
+Read_mesh read_mesh(const std::string& file_name, const char* begin, const char* end,
+                    Progress_bar& progress);
+
 } // namespace hlscm
 
 #endif // HLSCM_PROGRAM_MESH_READING_H

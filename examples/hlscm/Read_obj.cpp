@@ -5,10 +5,14 @@
 #include "Text_scanner.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace hlscm {
 
 namespace {
+
+// What no vertex has for an index, so that the check at the end finds it.
+constexpr std::uint32_t no_vertex = std::numeric_limits<std::uint32_t>::max();
 
 void read_vertex(const Mesh_source& source, Text_scanner& scanner, Polygon_soup& soup)
 {
@@ -33,8 +37,9 @@ void read_face(const Mesh_source& source, Text_scanner& scanner, Polygon_soup& s
                   + " should hold the corners of face " + std::to_string(soup.number_of_faces())
                   + ", the file is cut short or damaged: export it again");
     }
-    soup.corners.push_back(
-        std::uint32_t(*index > 0 ? *index - 1 : *index + (long long)(soup.number_of_vertices())));
+    const long long vertex =
+        *index > 0 ? *index - 1 : *index + (long long)(soup.number_of_vertices());
+    soup.corners.push_back(0 <= vertex && vertex < no_vertex ? std::uint32_t(vertex) : no_vertex);
   }
   soup.close_face();
 }

@@ -9,4 +9,6 @@ set(ENV{UBSAN_OPTIONS} print_stacktrace=1)
 run(${CMAKE_COMMAND} --preset asan-ubsan -S ${source_dir} -B ${work_dir}
     -D CMAKE_CXX_COMPILER=${compiler} -D CGAL_DIR=${cgal_dir})
 run(${CMAKE_COMMAND} --build ${work_dir})
-run(${CMAKE_CTEST_COMMAND} --test-dir ${work_dir} --output-on-failure --no-tests=error)
+cmake_host_system_information(RESULT processors QUERY NUMBER_OF_LOGICAL_CORES)
+run(${CMAKE_CTEST_COMMAND} --test-dir ${work_dir} --parallel ${processors} --output-on-failure
+    --no-tests=error)

@@ -4,14 +4,11 @@
 #ifndef CGAL_BLOCKED_EXECUTION_BLOCKED_FOR_H
 #define CGAL_BLOCKED_EXECUTION_BLOCKED_FOR_H
 
+#include <CGAL/Blocked_execution/internal/Arena.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <vector>
-
-#ifdef CGAL_LINKED_WITH_TBB
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-#endif
 
 namespace CGAL {
 namespace Blocked_execution {
@@ -28,16 +25,8 @@ class Thread_scope
 {
 public:
   /// Allows `threads` threads; 0 stands for all that the machine has.
-  explicit Thread_scope(unsigned int threads)
-    : m_outer(current())
-#ifdef CGAL_LINKED_WITH_TBB
-    , m_arena(threads == 0 ? tbb::task_arena::automatic : int(threads))
-    , m_is_parallel(threads != 1)
-#endif
+  explicit Thread_scope(unsigned int threads) : m_outer(current()), m_arena(threads)
   {
-#ifndef CGAL_LINKED_WITH_TBB
-    (void)threads;
-#endif
     current() = this;
   }
 
@@ -68,24 +57,17 @@ private:
   }
 
   Thread_scope* m_outer;
-#ifdef CGAL_LINKED_WITH_TBB
-  tbb::task_arena m_arena;
-  bool m_is_parallel;
-#endif
+  internal::Arena m_arena;
 };
 
 template <class Body>
 void Thread_scope::run(std::size_t n, const Body& body)
 {
-#ifdef CGAL_LINKED_WITH_TBB
   Thread_scope* scope = current();
-  if(scope != nullptr && scope->m_is_parallel && n > 1) {
-    scope->m_arena.execute([&] {
-      tbb::parallel_for(std::size_t(0), n, [&](std::size_t block) { run_block(body, block); });
-    });
+  if(scope != nullptr && scope->m_arena.is_parallel() && n > 1) {
+    scope->m_arena.run(n, [&](std::size_t block) { run_block(body, block); });
     return;
   }
-#endif
   for(std::size_t block = 0; block < n; ++block)
     run_block(body, block);
 }
