@@ -125,6 +125,8 @@ void add_solver_options(CLI::App& app, SMP::HLSCM_options& o)
       o.weights, "the conformal energy (default), or the energy of CGAL's LSCM_parameterizer_3");
   add_number(app, "--tolerance", 0, 1, o.tolerance,
              "stop when (E - Emin) / E is below it (default 0.01)");
+  app.add_flag("--repair-flips", o.repair_flips,
+               "move vertices around flipped triangles of the map until none is left, if possible");
   app.add_option_function<std::string>(
          "--schedule", [&o](const std::string& text) { set_schedule(text, o); },
          "sweeps before, sweeps after, and visits of each coarser level")

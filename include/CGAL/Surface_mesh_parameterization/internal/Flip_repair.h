@@ -52,8 +52,8 @@ private:
   int winding_at(std::uint32_t v, std::uint32_t a, std::uint32_t b) const;
   std::size_t number_of_branches(const Flip_patch& patch) const;
   std::optional<double> mend(const Flip_patch& patch, double barrier);
-  void mend_around(const Faces& bad, int rings, Flip_patch_finder& finder,
-                   const Flip_repair_options& options, Flip_repair_report& report);
+  std::size_t mend_around(const Faces& bad, int rings, Flip_patch_finder& finder,
+                          const Flip_repair_options& options, Flip_repair_report& report);
 
   const Triangles& m_triangles;
   const std::vector<bool>& m_is_fixed;
@@ -210,10 +210,10 @@ inline std::optional<double> Flip_repair::mend(const Flip_patch& patch, double b
   return std::nullopt;
 }
 
-// Mends the patches of so many rings around the faces.
-inline void Flip_repair::mend_around(const Faces& bad, int rings, Flip_patch_finder& finder,
-                                     const Flip_repair_options& options,
-                                     Flip_repair_report& report)
+// Mends the patches of so many rings around the faces; returns the number of their vertices.
+inline std::size_t Flip_repair::mend_around(const Faces& bad, int rings, Flip_patch_finder& finder,
+                                            const Flip_repair_options& options,
+                                            Flip_repair_report& report)
 {
   const std::vector<Flip_patch> patches = finder.patches_around(bad, rings);
   std::vector<std::optional<double>> rise(patches.size());
@@ -221,11 +221,15 @@ inline void Flip_repair::mend_around(const Faces& bad, int rings, Flip_patch_fin
     if(patches[i].vertices.size() <= options.largest_patch)
       rise[i] = mend(patches[i], options.barrier);
   });
-  for(std::size_t i = 0; i < patches.size(); ++i)
+  std::size_t size = 0;
+  for(std::size_t i = 0; i < patches.size(); ++i) {
+    size += patches[i].vertices.size();
     if(rise[i]) {
       ++report.patches;
       report.energy_after += *rise[i];
     }
+  }
+  return size;
 }
 
 inline Flip_repair_report Flip_repair::run(const Flip_repair_options& options)
@@ -240,9 +244,13 @@ inline Flip_repair_report Flip_repair::run(const Flip_repair_options& options)
     return report;
   const Values before = m_z;
   Flip_patch_finder finder(m_triangles, m_is_fixed);
+  std::size_t last_size = 0;
   for(int rings = options.first_rings; !bad.empty() && rings <= options.last_rings; rings *= 2) {
-    mend_around(bad, rings, finder, options, report);
+    const std::size_t size = mend_around(bad, rings, finder, options, report);
     bad = bad_faces(bad);
+    if(size == last_size) // the patches are whole components
+      break;
+    last_size = size;
   }
   report.unmended_faces.assign(bad.begin(), bad.end());
   report.flipped_after = number_of_flipped(bad);

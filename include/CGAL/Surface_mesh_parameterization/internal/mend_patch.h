@@ -26,8 +26,8 @@ public:
 
   explicit Patch_minimizer(const Patch_energy& energy) : m_energy(energy) {}
 
-  // Lowers the energy of `z` until a step gains less than the part `precision` of it; returns it.
-  double minimize(Values& z, const Energy_terms& terms, int steps, double precision);
+  // Lowers the energy of `z` until a step gains less than the part `precision` of it.
+  void minimize(Values& z, const Energy_terms& terms, int steps, double precision);
 
 private:
   double take_step(Values& z, const Energy_terms& terms, double value);
@@ -39,8 +39,8 @@ private:
   Patch_energy::Matrix m_hessian;
 };
 
-inline double Patch_minimizer::minimize(Values& z, const Energy_terms& terms, int steps,
-                                        double precision)
+inline void Patch_minimizer::minimize(Values& z, const Energy_terms& terms, int steps,
+                                      double precision)
 {
   double value = m_energy.value(z, terms);
   for(int i = 0; i < steps; ++i) {
@@ -49,7 +49,6 @@ inline double Patch_minimizer::minimize(Values& z, const Energy_terms& terms, in
     if(!(before - value > precision * before))
       break;
   }
-  return value;
 }
 
 // Returns the energy after the step, which is `value` if there was none.
@@ -85,16 +84,6 @@ inline double Patch_minimizer::take_step(Values& z, const Energy_terms& terms, d
   return value;
 }
 
-// The next epsilon of the untangling (Garanzha et al. 2021, section 3): so small that the least
-// determinant `d` must rise, if the energy goes on falling as it did, by the part `gain`.
-inline double next_epsilon(double epsilon, double d, double gain)
-{
-  const double root = std::hypot(epsilon, d);
-  const double chi = d > 0. ? 0.5 * (d + root) : 0.5 * epsilon * epsilon / (root - d);
-  const double mu = (1. - (std::max)(gain, 0.1)) * chi;
-  return d < mu ? (std::max)(1e-9, 2. * std::sqrt(mu * (mu - d))) : 1e-9;
-}
-
 // Moves the free values to where all triangles have positive areas; returns whether such a place was
 // found. The area scale must be about 1.
 inline bool untangle(const Patch_energy& energy, Patch_minimizer& minimizer,
@@ -102,10 +91,8 @@ inline bool untangle(const Patch_energy& energy, Patch_minimizer& minimizer,
 {
   // A greater epsilon is no worse a start: the first minimiser is then the conformal map.
   double epsilon = (std::max)(1., -energy.least_determinant(z));
-  for(int round = 0; round < 100; ++round) {
-    const Energy_terms terms = {0., 1., epsilon};
-    const double before = energy.value(z, terms);
-    const double after = minimizer.minimize(z, terms, 10, 1e-2);
+  for(int round = 0; round < 60; ++round, epsilon *= 0.5) {
+    minimizer.minimize(z, Energy_terms{0., 1., epsilon}, 10, 1e-2);
     const double least = energy.least_determinant(z);
     if(least > 0.)
       return true;
@@ -113,7 +100,6 @@ inline bool untangle(const Patch_energy& energy, Patch_minimizer& minimizer,
     // instance, the border of the patch turns the wrong way round.
     if(!(least > -30. * epsilon))
       return false;
-    epsilon = (std::min)(0.5 * epsilon, next_epsilon(epsilon, least, 1. - after / before));
   }
   return false;
 }
@@ -130,12 +116,11 @@ inline bool mend_patch(const Patch_energy& energy, double barrier, Patch_energy:
   for(auto& value : z)
     value = (value - origin) / scale;
   Patch_minimizer minimizer(energy);
-  bool is_mended = untangle(energy, minimizer, z);
+  const bool is_mended = untangle(energy, minimizer, z);
   if(is_mended)
     for(double weight = 0.1; weight > 0.5 * barrier; weight *= 0.1)
-      {
-      double a = minimizer.minimize(z, Energy_terms{1., (std::max)(weight, barrier), 0.}, 30, 1e-6);
-    for(auto& value : z)
+      minimizer.minimize(z, Energy_terms{1., (std::max)(weight, barrier), 0.}, 30, 1e-6);
+  for(auto& value : z)
     value = origin + scale * value;
   return is_mended;
 }
