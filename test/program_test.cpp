@@ -887,6 +887,29 @@ TEST_F(Program, knows_all_its_options)
   EXPECT_EQ(cascadic["method"], "cascadic");
 }
 
+// A surface so rough that its least squares conformal map has flipped triangles.
+TEST_F(Program, repairs_flipped_triangles)
+{
+  unsigned state = 1;
+  const std::string in = write("in.off", off(grid(40, [&state](double, double) {
+    state = state * 1664525u + 1013904223u;
+    return 0.05 * double(state >> 8) / double(1 << 24);
+  })));
+  const Json plain = report(in), repaired = report(in, {"--repair-flips"});
+  ASSERT_GT(plain["flips"].get<int>(), 0); // or this test would not test anything
+  EXPECT_FALSE(plain.contains("flip_repair"));
+  const Json& repair = repaired["flip_repair"];
+  EXPECT_EQ(repair["flipped_before"], plain["flips"]);
+  EXPECT_EQ(repair["flipped_after"], 0);
+  EXPECT_TRUE(repair["unmended_faces"].empty());
+  EXPECT_GT(repair["moved_vertices"].get<int>(), 0);
+  EXPECT_EQ(repair["energy_after"], repaired["energy"]);
+  EXPECT_EQ(repaired["flips"], 0);
+  EXPECT_EQ(repaired["degenerate_faces"], 0);
+  const Outcome outcome = parameterize(in, "out.obj", {"--repair-flips"});
+  EXPECT_NE(outcome.out.find("repair "), std::string::npos) << outcome.out;
+}
+
 TEST_F(Program, says_so_when_it_does_not_converge)
 {
   const std::string in = write("in.off", off(grid(60, hilly)));

@@ -130,6 +130,8 @@ void add_solver_options(CLI::App& app, SMP::HLSCM_options& o)
              "as 1/4096 for a texel");
   add_number(app, "--time-limit", 0, 1e9, o.time_limit,
              "after that many seconds take the map as it is, once there is one");
+  app.add_flag("--repair-flips", o.repair_flips,
+               "move vertices around flipped triangles of the map until none is left, if possible");
   app.add_option_function<std::string>(
          "--schedule", [&o](const std::string& text) { set_schedule(text, o); },
          "sweeps before, sweeps after, and visits of each coarser level")

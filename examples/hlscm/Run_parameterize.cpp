@@ -158,8 +158,13 @@ Similarity fit_to_unit_square(const Mesh& mesh, Uv_map uv, SMP::HLSCM_report& re
     pin.u = p[0];
     pin.v = p[1];
   }
-  report.energy *= to_square.scale * to_square.scale;
-  report.energy_gap_estimate *= to_square.scale * to_square.scale;
+  const double area_scale = to_square.scale * to_square.scale;
+  report.energy *= area_scale;
+  report.energy_gap_estimate *= area_scale;
+  if(report.flip_repair) {
+    report.flip_repair->energy_before *= area_scale;
+    report.flip_repair->energy_after *= area_scale;
+  }
   return to_square;
 }
 

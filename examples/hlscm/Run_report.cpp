@@ -71,6 +71,20 @@ std::string levels_text(const Run_report& report)
   return std::to_string(report.solver.levels.size()) + " (vertices: " + text.str() + ")";
 }
 
+Json to_json(const CGAL::Surface_mesh_parameterization::Flip_repair_report& repair)
+{
+  return {{"flipped_before", repair.flipped_before},
+          {"degenerate_before", repair.degenerate_before},
+          {"flipped_after", repair.flipped_after},
+          {"degenerate_after", repair.degenerate_after},
+          {"patches", repair.patches},
+          {"moved_vertices", repair.moved_vertices},
+          {"energy_before", number(repair.energy_before)},
+          {"energy_after", number(repair.energy_after)},
+          {"seconds", repair.seconds},
+          {"unmended_faces", repair.unmended_faces}};
+}
+
 } // namespace
 
 double peak_memory_mb()
@@ -94,42 +108,44 @@ std::string to_json(const Run_report& report, const Program_options& options)
                       {"iterations", level.iterations},
                       {"seconds", level.seconds}});
   }
-  const Json json = {{"input", options.input},
-                     {"output", options.output},
-                     {"method", s.method},
-                     {"tolerance", options.library.tolerance},
-                     {"vertices", s.vertices},
-                     {"faces", s.faces},
-                     {"borders", s.borders},
-                     {"pins", pins},
-                     {"levels", s.levels.size()},
-                     {"level_table", levels},
-                     {"iterations", s.iterations},
-                     {"converged", s.converged},
-                     {"stopped_early", s.stopped_early},
-                     {"energy", number(s.energy)},
-                     {"energy_gap_estimate", number(s.energy_gap_estimate)},
-                     {"flips", d.flipped_faces},
-                     {"degenerate_faces", d.degenerate_faces},
-                     {"mollified_faces", s.mollified_faces},
-                     {"distortion",
-                      {{"conformal_energy", number(d.conformal_energy)},
-                       {"quasi_conformal_mean", number(d.quasi_conformal_mean)},
-                       {"quasi_conformal_99", number(d.quasi_conformal_99)},
-                       {"quasi_conformal_max", number(d.quasi_conformal_max)},
-                       {"area_scale_range", number(d.area_scale_range)},
-                       {"stretch_L2", number(d.stretch_L2)},
-                       {"stretch_Linf", number(d.stretch_Linf)}}},
-                     {"seconds",
-                      {{"read", report.seconds_read},
-                       {"hierarchy", s.seconds_hierarchy},
-                       {"operators", s.seconds_operators},
-                       {"solve", s.seconds_solve},
-                       {"measure", report.seconds_measure},
-                       {"total", report.seconds_total},
-                       {"write", report.seconds_write}}},
-                     {"peak_memory_mb", report.peak_memory_mb},
-                     {"warnings", report.warnings}};
+  Json json = {{"input", options.input},
+               {"output", options.output},
+               {"method", s.method},
+               {"tolerance", options.library.tolerance},
+               {"vertices", s.vertices},
+               {"faces", s.faces},
+               {"borders", s.borders},
+               {"pins", pins},
+               {"levels", s.levels.size()},
+               {"level_table", levels},
+               {"iterations", s.iterations},
+               {"converged", s.converged},
+               {"energy", number(s.energy)},
+               {"energy_gap_estimate", number(s.energy_gap_estimate)},
+               {"flips", d.flipped_faces},
+               {"degenerate_faces", d.degenerate_faces},
+               {"mollified_faces", s.mollified_faces},
+               {"distortion",
+                {{"conformal_energy", number(d.conformal_energy)},
+                 {"quasi_conformal_mean", number(d.quasi_conformal_mean)},
+                 {"quasi_conformal_99", number(d.quasi_conformal_99)},
+                 {"quasi_conformal_max", number(d.quasi_conformal_max)},
+                 {"area_scale_range", number(d.area_scale_range)},
+                 {"stretch_L2", number(d.stretch_L2)},
+                 {"stretch_Linf", number(d.stretch_Linf)}}},
+               {"seconds",
+                {{"read", report.seconds_read},
+                 {"hierarchy", s.seconds_hierarchy},
+                 {"operators", s.seconds_operators},
+                 {"solve", s.seconds_solve},
+                 {"measure", report.seconds_measure},
+                 {"total", report.seconds_total},
+                 {"write", report.seconds_write}}},
+               {"peak_memory_mb", report.peak_memory_mb},
+               {"warnings", report.warnings}};
+  if(s.flip_repair) {
+    json["flip_repair"] = to_json(*s.flip_repair);
+  }
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -156,6 +172,13 @@ std::string to_table(const Run_report& report, const Program_options& options)
             d.quasi_conformal_99, ", max ", d.quasi_conformal_max);
   table.add("areas", "scale range ", d.area_scale_range, ", stretch L2 ", d.stretch_L2);
   table.add("flips", d.flipped_faces, " of ", s.faces, " faces");
+  if(s.flip_repair) {
+    const auto& repair = *s.flip_repair;
+    table.add("repair", repair.flipped_before + repair.degenerate_before,
+              " flipped or degenerate faces before, ", repair.unmended_faces.size(), " after; ",
+              repair.moved_vertices, " vertices moved, energy ", repair.energy_before, " before, ",
+              seconds(repair.seconds), " s");
+  }
   table.add("seconds", seconds(report.seconds_total), " = hierarchy ", seconds(s.seconds_hierarchy),
             " + operators ", seconds(s.seconds_operators), " + solve ", seconds(s.seconds_solve),
             " + other ",

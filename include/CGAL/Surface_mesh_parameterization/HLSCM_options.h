@@ -95,6 +95,9 @@ struct HLSCM_options
   double angular_defect_bound = 70.;
   /// Which energy is minimised.
   Conformal_weights weights = Conformal_weights::EXACT;
+  /// Whether flipped faces of the map are mended, at the price of a little energy: see
+  /// `repair_flipped_faces()`.
+  bool repair_flips = false;
   /// What decimates the mesh.
   Decimation_engine engine = Decimation_engine::FLAT;
   /// How values go to finer levels.

@@ -10,6 +10,7 @@
 #include <CGAL/Surface_mesh_parameterization/internal/Conformal_solver.h>
 #include <CGAL/Surface_mesh_parameterization/internal/Progress.h>
 #include <CGAL/Surface_mesh_parameterization/internal/check_options.h>
+#include <CGAL/Surface_mesh_parameterization/internal/repair_map.h>
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Default.h>
@@ -49,7 +50,8 @@ several components, that of the given border halfedge is mapped. At least two ve
 by default two far vertices of the longest border, at (0, 0) and (1, 0).
 
 As with every least squares conformal map, neither the absence of flipped triangles nor that of
-global overlaps is guaranteed (see `measure_distortion()` and `has_global_overlap()`).
+global overlaps is guaranteed (see `certify_map()`). With `HLSCM_options::repair_flips` flipped
+triangles are mended where possible, and the others are listed.
 
 \tparam TriangleMesh a model of `FaceGraph`
 \tparam BorderParameterizer a model of `Parameterizer_3` that pins two or more vertices, such as
@@ -278,14 +280,16 @@ parameterize(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvma
   if(chart.error != OK)
     return finish(chart);
   internal::Conformal_solver<Coarsest_solver> solver(chart, pins, m_options, *m_report);
-  const auto z = solver.run();
+  auto z = solver.run();
   if(chart.error != OK || m_report->cancelled)
     return finish(chart);
   watch.lap();
   const auto rank = chart.rank(num_vertices(mesh));
-  std::vector<bool> is_pinned(num_vertices(mesh), false);
+  std::vector<bool> is_pinned(z.size(), false);
   for(const HLSCM_pin& pin : m_report->pins)
-    is_pinned[pin.vertex] = true;
+    is_pinned[rank[pin.vertex]] = true;
+  if(m_options.repair_flips)
+    internal::repair_chart(mesh, rank, is_pinned, m_options.weights, z, *m_report);
   std::size_t position = 0;
   for(vertex_descriptor v : vertices(mesh)) {
     const auto r = rank[position++];
@@ -293,7 +297,7 @@ parameterize(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvma
       continue;
     typedef typename Kernel::FT FT;
     put(uvmap, v, Point_2(FT(z[r].real()), FT(z[r].imag())));
-    if(is_pinned[position - 1])
+    if(is_pinned[r])
       put(vpmap, v, true);
   }
   m_report->seconds_solve += watch.lap();

@@ -4,7 +4,10 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_HLSCM_REPORT_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_HLSCM_REPORT_H
 
+#include <CGAL/Surface_mesh_parameterization/Flip_repair_report.h>
+
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,6 +58,7 @@ struct HLSCM_report
   /// that CGAL minimises, in squared units of length of the mesh.
   double energy = 0.;
   double energy_gap_estimate = 0.;        ///< estimate of \f$ E - E_{\min} \f$; infinite if unknown
+  std::optional<Flip_repair_report> flip_repair; ///< if `HLSCM_options::repair_flips` is set
   double seconds_hierarchy = 0.;          ///< time of reading the mesh, decimation and levels
   double seconds_operators = 0.;          ///< time of matrices, and of their factorization
   double seconds_solve = 0.;              ///< time of the iterations

@@ -1,0 +1,112 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_REPAIR_MAP_H
+#define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_REPAIR_MAP_H
+
+#include <CGAL/Surface_mesh_parameterization/Distortion_measures.h>
+#include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
+#include <CGAL/Surface_mesh_parameterization/internal/Flip_repair.h>
+
+#include <chrono>
+#include <complex>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_parameterization {
+namespace internal {
+
+// The faces of a mesh whose vertices all have a place in a map, as arrays.
+template <class TriangleMesh>
+struct Mapped_faces
+{
+  typedef typename boost::graph_traits<TriangleMesh>::face_descriptor face_descriptor;
+
+  std::vector<Surface_mesh_multiresolution::Triangle_indices> triangles; // by those places
+  std::vector<face_descriptor> faces;
+  std::vector<std::size_t> positions; // in faces(mesh)
+
+  // `place`: of each vertex its place, or `no_vertex`
+  template <class VertexPlaceMap>
+  Mapped_faces(const TriangleMesh& mesh, VertexPlaceMap place)
+  {
+    std::size_t position = 0;
+    for(const face_descriptor f : CGAL::faces(mesh)) {
+      const auto h = halfedge(f, mesh), h1 = next(h, mesh);
+      const std::uint32_t a = get(place, target(h, mesh)), b = get(place, target(h1, mesh)),
+                          c = get(place, target(next(h1, mesh), mesh));
+      if(a != Surface_mesh_multiresolution::no_vertex) { // all of a component, or none
+        triangles.push_back({a, b, c});
+        faces.push_back(f);
+        positions.push_back(position);
+      }
+      ++position;
+    }
+  }
+};
+
+// The shape of each of these faces, in units of the mean edge, and the weight of its energy.
+template <class TriangleMesh>
+Flip_repair::Shape_of_face shapes_of_faces(const TriangleMesh& mesh,
+                                           const Mapped_faces<TriangleMesh>& mapped,
+                                           Conformal_weights weights)
+{
+  const double unit = mean_edge_length(mesh);
+  return [&mesh, &mapped, weights, unit](std::uint32_t t) {
+    const Conformal_triangle shape = conformal_triangle(mesh, mapped.faces[t], unit);
+    const bool is_exact = weights == Conformal_weights::EXACT;
+    return std::make_pair(shape, is_exact ? 1. : 8. * shape.area() * unit * unit);
+  };
+}
+
+// Repairs the map `z` of these faces. Of the energies the report has the difference only: that before
+// is 0.
+template <class TriangleMesh>
+Flip_repair_report repair_map(const TriangleMesh& mesh, const Mapped_faces<TriangleMesh>& mapped,
+                              const std::vector<bool>& is_fixed,
+                              const Flip_repair_options& options,
+                              std::vector<std::complex<double>>& z)
+{
+  const auto start = std::chrono::steady_clock::now();
+  Flip_repair repair(mapped.triangles, is_fixed, shapes_of_faces(mesh, mapped, options.weights), z);
+  Flip_repair_report report = repair.run(options);
+  for(std::size_t& face : report.unmended_faces)
+    face = mapped.positions[face];
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return report;
+}
+
+// Repairs the map of a chart of `mesh`, given by the place of each vertex of the mesh in it or
+// `no_vertex`, and takes the change of energy over into the report.
+template <class TriangleMesh>
+void repair_chart(const TriangleMesh& mesh, const std::vector<std::uint32_t>& places,
+                  const std::vector<bool>& is_pinned, Conformal_weights weights,
+                  std::vector<std::complex<double>>& z, HLSCM_report& report)
+{
+  const auto place = get(CGAL::dynamic_vertex_property_t<std::uint32_t>(), mesh);
+  std::size_t position = 0;
+  for(const auto v : vertices(mesh))
+    put(place, v, places[position++]);
+  Flip_repair_options options;
+  options.weights = weights;
+  Flip_repair_report repair
+    = repair_map(mesh, Mapped_faces<TriangleMesh>(mesh, place), is_pinned, options, z);
+  const double rise = repair.energy_after;
+  repair.energy_before = report.energy;
+  report.energy += rise;
+  report.energy_gap_estimate += rise;
+  repair.energy_after = report.energy;
+  if(!repair.unmended_faces.empty())
+    report.warnings.push_back(std::to_string(repair.unmended_faces.size())
+                              + " flipped faces could not be repaired");
+  report.flip_repair = std::move(repair);
+}
+
+} // namespace internal
+} // namespace Surface_mesh_parameterization
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_REPAIR_MAP_H

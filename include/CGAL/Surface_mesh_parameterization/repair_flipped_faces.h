@@ -1,0 +1,116 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_REPAIR_FLIPPED_FACES_H
+#define CGAL_SURFACE_MESH_PARAMETERIZATION_REPAIR_FLIPPED_FACES_H
+
+#include <CGAL/Surface_mesh_parameterization/Flip_repair_options.h>
+#include <CGAL/Surface_mesh_parameterization/Flip_repair_report.h>
+#include <CGAL/Surface_mesh_parameterization/internal/repair_map.h>
+
+#include <CGAL/boost/graph/properties.h>
+
+#include <boost/property_map/property_map.hpp>
+
+#include <complex>
+#include <cstdint>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_parameterization {
+
+namespace internal {
+
+inline double energy_of_map(const std::vector<Surface_mesh_multiresolution::Triangle_indices>& triangles,
+                            const Flip_repair::Shape_of_face& shape_of_face,
+                            const std::vector<std::complex<double>>& z)
+{
+  double sum = 0.;
+  for(std::uint32_t t = 0; t < triangles.size(); ++t) {
+    const auto [a, b, c] = triangles[t];
+    const auto [shape, weight] = shape_of_face(t);
+    sum += weight * shape.energy({z[a], z[b], z[c]});
+  }
+  return sum;
+}
+
+} // namespace internal
+
+/*!
+\ingroup PkgHLSCMMeasures
+
+Moves vertices of the map `uvmap` of `mesh` so that no face is flipped or degenerate, as far as
+possible. Only vertices in small patches around such faces move; pinned vertices never do. In each
+patch the map is first untangled by a family of energies that are finite for flipped faces, too
+(Garanzha, Kaporin, Kudryavtseva, Protais, Ray and Sokolov 2021, _Foldover-free maps in 50 lines of
+code_), and then brought near to the least conformal energy that it can have without flips. A patch
+is taken over only if all its faces have positive areas by an exact predicate, and if its faces do
+not wind twice around a vertex around which they did not before; otherwise it stays as it was and is
+tried again with more rings around the faces. So no face becomes flipped that was not.
+
+The border of the surface is free: faces that do not overlap before may do so afterwards; see
+`certify_map()`.
+
+\tparam TriangleMesh a model of `FaceListGraph` whose faces are triangles
+\tparam VertexUVMap a model of `ReadWritePropertyMap` with the vertex descriptor as key and a model
+        of `Kernel::Point_2` as value, whose coordinates are made of numbers of type `double`
+\tparam VertexPinnedMap a model of `ReadablePropertyMap` with the vertex descriptor as key and `bool`
+        as value
+
+\param mesh the mesh
+\param uvmap the map; only values of vertices that move are written
+\param is_pinned the vertices that must not move. If a whole component is in one patch and fewer
+       than two of its vertices are pinned, the ones farthest to the left and to the right stay.
+\param options the options
+
+\return what was done, and the faces that could not be mended, for instance those with three pinned
+        vertices
+
+Linear time, plus that of a sparse Cholesky factorization of the unknowns of a patch for each of some
+ten to some hundred steps of Newton's method. Patches are worked on in parallel within a
+`Blocked_execution::Thread_scope`; the result does not depend on it.
+*/
+template <class TriangleMesh, class VertexUVMap, class VertexPinnedMap>
+Flip_repair_report repair_flipped_faces(const TriangleMesh& mesh, VertexUVMap uvmap,
+                                        VertexPinnedMap is_pinned,
+                                        const Flip_repair_options& options = Flip_repair_options())
+{
+  typedef typename boost::property_traits<VertexUVMap>::value_type Point_2;
+  const auto place = get(CGAL::dynamic_vertex_property_t<std::uint32_t>(), mesh);
+  std::vector<std::complex<double>> z;
+  std::vector<bool> is_fixed;
+  for(const auto v : vertices(mesh)) {
+    const auto uv = get(uvmap, v);
+    put(place, v, std::uint32_t(z.size()));
+    z.push_back({to_double(uv.x()), to_double(uv.y())});
+    is_fixed.push_back(get(is_pinned, v));
+  }
+  const std::vector<std::complex<double>> before = z;
+  const internal::Mapped_faces<TriangleMesh> mapped(mesh, place);
+  Flip_repair_report report = internal::repair_map(mesh, mapped, is_fixed, options, z);
+  report.energy_before = internal::energy_of_map(
+    mapped.triangles, internal::shapes_of_faces(mesh, mapped, options.weights), before);
+  report.energy_after += report.energy_before;
+  for(const auto v : vertices(mesh)) {
+    const std::uint32_t i = get(place, v);
+    if(z[i] != before[i])
+      put(uvmap, v, Point_2(z[i].real(), z[i].imag()));
+  }
+  return report;
+}
+
+/// \ingroup PkgHLSCMMeasures
+/// The same without pins.
+template <class TriangleMesh, class VertexUVMap>
+Flip_repair_report repair_flipped_faces(const TriangleMesh& mesh, VertexUVMap uvmap,
+                                        const Flip_repair_options& options = Flip_repair_options())
+{
+  typedef typename boost::graph_traits<TriangleMesh>::vertex_descriptor vertex_descriptor;
+  return repair_flipped_faces(mesh, uvmap, Constant_property_map<vertex_descriptor, bool>(false),
+                              options);
+}
+
+} // namespace Surface_mesh_parameterization
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_REPAIR_FLIPPED_FACES_H
