@@ -1,8 +1,8 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Runs each seed of the fuzzer once; the folder of the seeds is HLSCM_FUZZ_SEEDS. Among them are the
-// inputs on which something failed once.
+// Runs each seed of the fuzzer once; the folder of the seeds is HLSCM_FUZZ_SEEDS. Among them are
+// the inputs on which something failed once.
 
 #include "error_of_mesh_bytes.h"
 
