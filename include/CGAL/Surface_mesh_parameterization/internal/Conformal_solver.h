@@ -54,8 +54,8 @@ bool solve_for_free(Solver& solver, const Conformal_operator<double>& op,
   return true;
 }
 
-// Minimises the conformal energy of a chart under pins, or without them: then two pins are only a
-// part of the first guess and of the preconditioner.
+// Minimises the conformal energy of a chart under pins, or without them: then two pins are only for
+// the first guess, and the first of them makes the preconditioner regular.
 template <class CoarsestSolver>
 class Conformal_solver
 {
@@ -87,6 +87,7 @@ protected:
   bool is_cascade() const { return m_options.method == Conformal_method::CASCADIC; }
   bool is_spectral() const { return m_options.method == Conformal_method::SPECTRAL; }
 
+  std::vector<Surface_mesh_multiresolution::Vertex_index> vertices_to_pin() const;
   void restart();
   void build();
   void build_hierarchy();
@@ -140,6 +141,18 @@ void Conformal_solver<CoarsestSolver>::build_hierarchy()
     m_report.levels.push_back({level.vertices.size(), level.mesh.triangles.size(), 0, 0.});
 }
 
+template <class CoarsestSolver>
+std::vector<Surface_mesh_multiresolution::Vertex_index>
+Conformal_solver<CoarsestSolver>::vertices_to_pin() const
+{
+  if(is_spectral())
+    return {m_pins[0].vertex};
+  std::vector<Surface_mesh_multiresolution::Vertex_index> result;
+  for(const Pin& pin : m_pins)
+    result.push_back(pin.vertex);
+  return result;
+}
+
 // Takes from level l what is still needed of its mesh.
 template <class CoarsestSolver>
 void Conformal_solver<CoarsestSolver>::finish_level(std::size_t l)
@@ -176,8 +189,8 @@ void Conformal_solver<CoarsestSolver>::build_operators()
     return;
   if(is_hierarchical(m_options.method) && !is_cascade())
     m_hierarchy.build_cycle();
-  for(const Pin& pin : m_pins)
-    m_hierarchy.pin(pin.vertex);
+  for(const auto v : vertices_to_pin())
+    m_hierarchy.pin(v);
   m_report.mollified_faces = m_hierarchy.finest().mollified_triangles;
   if(m_report.mollified_faces > 0)
     m_report.warnings.push_back(std::to_string(m_report.mollified_faces)
@@ -270,8 +283,12 @@ Multigrid::Iteration_report Conformal_solver<CoarsestSolver>::improve(std::size_
 template <class CoarsestSolver>
 void Conformal_solver<CoarsestSolver>::solve_coarsest(Vector& z)
 {
-  if(!m_hierarchy.factorize_coarsest()
-     || !solve_for_free(m_hierarchy.coarsest_solver(), m_hierarchy.coarsest(), z))
+  const bool is_solved
+    = m_hierarchy.factorize_coarsest()
+   && solve_for_free(m_hierarchy.coarsest_solver(), m_hierarchy.coarsest(), z);
+  if(is_spectral())
+    m_hierarchy.release(m_pins[1].vertex);
+  if(!is_solved || (is_spectral() && !m_hierarchy.factorize_coarsest()))
     return m_chart.fail(ERROR_CANNOT_SOLVE_LINEAR_SYSTEM,
                         "the matrix of the coarsest level cannot be factorized");
   const bool is_only = m_hierarchy.number_of_levels() == 1;
@@ -407,6 +424,8 @@ void Conformal_solver<CoarsestSolver>::build()
 template <class CoarsestSolver>
 void Conformal_solver<CoarsestSolver>::solve(Vector& z)
 {
+  if(is_spectral())
+    m_hierarchy.pin(m_pins[1].vertex); // for the first guess
   z = m_hierarchy.at_pins(m_pins);
   switch(m_options.method) {
   case Conformal_method::DIRECT: solve_directly(z); break;

@@ -118,9 +118,8 @@ private:
 template <class CoarsestSolver>
 void Live_conformal_solver<CoarsestSolver>::set_pinned()
 {
-  m_pinned.clear();
-  for(const Pin& pin : m_pins)
-    m_pinned.insert(pin.vertex);
+  const auto vertices = this->vertices_to_pin();
+  m_pinned = std::set<Vertex_index>(vertices.begin(), vertices.end());
 }
 
 template <class CoarsestSolver>
