@@ -26,7 +26,7 @@ struct Mapped_faces
   typedef typename boost::graph_traits<TriangleMesh>::face_descriptor face_descriptor;
 
   std::vector<Surface_mesh_multiresolution::Triangle_indices> triangles; // by those places
-  std::vector<face_descriptor> faces;
+  std::vector<face_descriptor> descriptors;
   std::vector<std::size_t> positions; // in faces(mesh)
 
   // `place`: of each vertex its place, or `no_vertex`
@@ -34,13 +34,13 @@ struct Mapped_faces
   Mapped_faces(const TriangleMesh& mesh, VertexPlaceMap place)
   {
     std::size_t position = 0;
-    for(const face_descriptor f : CGAL::faces(mesh)) {
+    for(const face_descriptor f : faces(mesh)) {
       const auto h = halfedge(f, mesh), h1 = next(h, mesh);
       const std::uint32_t a = get(place, target(h, mesh)), b = get(place, target(h1, mesh)),
                           c = get(place, target(next(h1, mesh), mesh));
       if(a != Surface_mesh_multiresolution::no_vertex) { // all of a component, or none
         triangles.push_back({a, b, c});
-        faces.push_back(f);
+        descriptors.push_back(f);
         positions.push_back(position);
       }
       ++position;
@@ -56,7 +56,7 @@ Flip_repair::Shape_of_face shapes_of_faces(const TriangleMesh& mesh,
 {
   const double unit = mean_edge_length(mesh);
   return [&mesh, &mapped, weights, unit](std::uint32_t t) {
-    const Conformal_triangle shape = conformal_triangle(mesh, mapped.faces[t], unit);
+    const Conformal_triangle shape = conformal_triangle(mesh, mapped.descriptors[t], unit);
     const bool is_exact = weights == Conformal_weights::EXACT;
     return std::make_pair(shape, is_exact ? 1. : 8. * shape.area() * unit * unit);
   };
