@@ -174,7 +174,8 @@ TEST(Untangling_energy, has_its_derivatives)
 {
   Random random(1);
   const SMP::internal::Energy_terms all_terms[]
-    = {{1., 0., 1.}, {0., 1., 1.}, {0., 1., 0.01}, {1., 0.1, 0.}};
+    = {{1., 0., 0., 1.}, {0., 1., 0., 1.}, {0., 1., 0., 0.01}, {0., 1., 0.1, 0.1}, {0., 0., 1., 1.},
+       {1., 0.1, 0., 0.}};
   for(const auto& terms : all_terms)
     for(int trial = 0; trial < 100; ++trial) {
       const double y = uniform(random, 0.1, 2.);
@@ -182,7 +183,8 @@ TEST(Untangling_energy, has_its_derivatives)
       const auto value = [&terms](double x, double y) {
         const double d = 0.25 * (x * x - y * y);
         const double chi = 0.5 * (d + std::sqrt(d * d + terms.epsilon * terms.epsilon));
-        return 0.5 * y * y * (terms.conformal + terms.barrier / chi);
+        return 0.5 * (y * y * (terms.conformal + terms.barrier / chi)
+                      + terms.area * (1. + d * d) / chi);
       };
       const SMP::internal::Triangle_energy e(x, y, 0.25 * (x * x - y * y), terms);
       const double h = 1e-5;
@@ -496,6 +498,23 @@ TEST(Repair, is_the_same_in_every_run)
 Indexed_triangle_mesh rough_chart(std::uint64_t seed)
 {
   return with_noise(with_hills(irregular_grid(40, 30, seed), 8., seed + 1), 0.45, seed + 2);
+}
+
+// Angles at inner vertices with sums of far more than 2 pi, around which a conformal map winds twice
+TEST(Repair, makes_no_branch_points)
+{
+  for(std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const auto mesh = with_noise(irregular_grid(30, 30, seed), 5., seed + 1);
+    Surface_mesh surface_mesh = to_surface_mesh(mesh);
+    SMP::HLSCM_options options = with_method(Conformal_method::DIRECT);
+    options.repair_flips = true;
+    const Outcome run = parameterize(surface_mesh, options);
+    const Flip_repair_report& r = *run.report.flip_repair;
+    std::cout << "seed " << seed << ": " << r.flipped_before << " -> " << r.flipped_after
+              << ", energy +" << 100. * (r.energy_after / r.energy_before - 1.) << " %\n";
+    EXPECT_GT(r.flipped_before, 20u); // or this test would not test anything
+    EXPECT_TRUE(r.unmended_faces.empty());
+  }
 }
 
 // Against the limit that the mended map costs at most 5 % more energy than the least one.

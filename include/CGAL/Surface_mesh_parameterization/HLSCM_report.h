@@ -61,7 +61,7 @@ struct HLSCM_report
   std::optional<Flip_repair_report> flip_repair; ///< if `HLSCM_options::repair_flips` is set
   double seconds_hierarchy = 0.;          ///< time of reading the mesh, decimation and levels
   double seconds_operators = 0.;          ///< time of matrices, and of their factorization
-  double seconds_solve = 0.;              ///< time of the iterations
+  double seconds_solve = 0.;              ///< time of the iterations, and of the repair of flips
   double seconds_total = 0.;              ///< time of all
 };
 

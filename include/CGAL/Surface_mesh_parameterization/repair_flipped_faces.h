@@ -21,7 +21,7 @@ namespace Surface_mesh_parameterization {
 
 namespace internal {
 
-inline double energy_of_map(const std::vector<Surface_mesh_multiresolution::Triangle_indices>& triangles,
+inline double energy_of_map(const Flip_repair::Triangles& triangles,
                             const Flip_repair::Shape_of_face& shape_of_face,
                             const std::vector<std::complex<double>>& z)
 {

@@ -145,8 +145,8 @@ patch_triangles(const Flip_patch& patch, const Flip_repair::Triangles& triangles
   return result;
 }
 
-// How often a ray from `v` to the right leaves its faces through the edge (a, b) of one of them: -1 if
-// that face is flipped. The sum over the faces at `v` is their winding number around it.
+// How often a ray from `v` to the right leaves its faces through the edge (a, b) of one of them: -1
+// if that face is flipped. The sum over the faces at `v` is their winding number around it.
 inline int Flip_repair::winding_at(std::uint32_t v, std::uint32_t a, std::uint32_t b) const
 {
   const auto is_above = [&](std::uint32_t w) {
@@ -195,17 +195,23 @@ inline std::optional<double> Flip_repair::mend(const Flip_patch& patch, double b
   Values old;
   for(const std::uint32_t v : vertices.all)
     old.push_back(m_z[v]);
-  Values z = old;
-  if(vertices.all.size() < vertices.number_free + 2 || !mend_patch(energy, barrier, z))
+  if(vertices.all.size() < vertices.number_free + 2)
     return std::nullopt;
   const auto write = [&](const Values& values) {
     for(std::size_t i = 0; i < vertices.number_free; ++i)
       m_z[vertices.all[i]] = values[i];
   };
   const std::size_t branches = number_of_branches(patch);
-  write(z);
-  if(bad_faces(patch.faces).empty() && number_of_branches(patch) <= branches)
-    return unit * (energy.conformal_energy(z) - energy.conformal_energy(old));
+  // Around a vertex whose angles have a sum of 4 pi, say, a conformal map winds twice; equal angles
+  // lead to another start. From there on, no way without flips changes a winding number.
+  for(const Patch_energy& start : {energy, energy.with_equal_angles()}) {
+    Values z = old;
+    if(!mend_patch(energy, start, barrier, z))
+      break;
+    write(z);
+    if(bad_faces(patch.faces).empty() && number_of_branches(patch) <= branches)
+      return unit * (energy.conformal_energy(z) - energy.conformal_energy(old));
+  }
   write(old);
   return std::nullopt;
 }

@@ -15,6 +15,7 @@
 #include <complex>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -24,41 +25,49 @@ namespace internal {
 // The energy of one triangle as a function of x = |h| = s1 + s2 and y = |g| = s1 - s2 (s1 and s2 the
 // singular values, s2 negative on a flipped triangle; D = (x^2 - y^2) / 4 the determinant)
 //
-//   f = 1/2 c y^2 + 1/2 m y^2 / chi(D),    chi(D) = (D + R) / 2,  R = sqrt(D^2 + eps^2),
+//   f = 1/2 c y^2 + 1/2 m y^2 / chi(D) + 1/2 a (1 + D^2) / chi(D),
+//   chi(D) = (D + R) / 2,  R = sqrt(D^2 + eps^2),
 //
 // and its derivatives. The first term is the conformal energy. The second one is 0 for similarities,
-// too, and is large near and below D = 0: with eps > 0 it is finite for all maps, and its minimisers
-// untangle as eps tends to 0 (Garanzha et al. 2021); with eps = 0 it is a barrier, since chi(D) = D.
+// too, and is large near and below D = 0; the third one holds D near 1, lest triangles shrink to
+// points together. With eps > 0 all are finite for all maps, and their minimisers untangle as eps
+// tends to 0 (Garanzha et al. 2021); with eps = 0 they are barriers, since chi(D) = D.
 struct Energy_terms
 {
   double conformal; // c
   double barrier;   // m
+  double area;      // a
   double epsilon;
 };
 
 struct Triangle_energy
 {
   double f, f_x, f_y;
-  double f_xx, f_xy, f_yy; // projected to a positive semidefinite matrix
+  double f_xx, f_xy, f_yy;   // projected to a positive semidefinite matrix
   double across_h, across_g; // second derivatives across h and g: f_x / x and f_y / y, if positive
 
   Triangle_energy(double x, double y, double d, const Energy_terms& terms)
   {
-    const double y2 = y * y, eps = terms.epsilon;
-    const double root = eps > 0. ? std::hypot(d, eps) : d;
+    const double c = terms.conformal, m = terms.barrier, a = terms.area, eps = terms.epsilon;
+    const double y2 = y * y, root = eps > 0. ? std::hypot(d, eps) : d;
     // no difference that cancels
     const double chi = d > 0. ? 0.5 * (d + root) : 0.5 * eps * eps / (root - d);
     const double r = 1. / (chi * root); // chi' / chi^2, as chi' = chi / R; and its derivative:
     const double dr = (0.5 * eps * eps / (root * chi) - 2.) / (root * root * chi);
-    const double c = terms.conformal, m = terms.barrier;
-    f = 0.5 * y2 * (c + m / chi);
-    f_x = -0.25 * m * x * y2 * r;
-    across_g = c + m * (1. / chi + 0.25 * y2 * r);
+    f = 0.5 * (c * y2 + (m * y2 + a * (1. + d * d)) / chi);
+    // of f with y^2 fixed, by D
+    const double f_d = -0.5 * (m * y2 + a * (1. + d * d)) * r + a * d / chi;
+    const double f_dd = -0.5 * (m * y2 + a * (1. + d * d)) * dr + a * (1. / chi - 2. * d * r);
+    const double along_y = c + m / chi;
+    across_h = 0.5 * f_d; // D_x = x / 2, D_y = -y / 2
+    across_g = along_y - 0.5 * f_d;
+    f_x = x * across_h;
     f_y = y * across_g;
-    across_h = 0.; // f_x / x is negative
-    f_xx = -0.25 * m * y2 * (r + 0.5 * x * x * dr);
-    f_xy = m * x * y * (-0.5 * r + 0.125 * y2 * dr);
-    f_yy = c + m * (1. / chi + 1.25 * y2 * r - 0.125 * y2 * y2 * dr);
+    f_xx = across_h + 0.25 * x * x * f_dd;
+    f_xy = -0.25 * x * y * f_dd - 0.5 * m * x * y * r;
+    f_yy = across_g + 0.25 * y2 * f_dd + m * y2 * r;
+    across_h = (std::max)(0., across_h);
+    across_g = (std::max)(0., across_g);
     project();
   }
 
@@ -113,6 +122,9 @@ public:
     : m_triangles(std::move(triangles)), m_free(number_free)
   {}
 
+  // The same with equilateral triangles of the same areas.
+  Patch_energy with_equal_angles() const;
+
   std::size_t number_free() const { return m_free; }
 
   double value(const Values& z, const Energy_terms& terms) const;
@@ -125,7 +137,7 @@ public:
   // The sum of the conformal energies, with their weights.
   double conformal_energy(const Values& z) const
   {
-    return value(z, Energy_terms{1., 0., 1.});
+    return value(z, Energy_terms{1., 0., 0., 1.});
   }
 
   double least_determinant(const Values& z) const;
@@ -159,7 +171,8 @@ private:
 
   static Energy_terms weighted(const Patch_triangle& t, const Energy_terms& terms)
   {
-    return {terms.conformal * t.weight * t.area, terms.barrier * t.area, terms.epsilon};
+    return {terms.conformal * t.weight * t.area, terms.barrier * t.area, terms.area * t.area,
+            terms.epsilon};
   }
 
   typedef Eigen::Matrix<double, 4, 6> Chain;
@@ -170,6 +183,19 @@ private:
   std::vector<Patch_triangle> m_triangles;
   std::size_t m_free;
 };
+
+inline Patch_energy Patch_energy::with_equal_angles() const
+{
+  typedef Conformal_triangle::Point_3 Point_3;
+  std::vector<Patch_triangle> equilateral;
+  for(const Patch_triangle& t : m_triangles) {
+    const double side = std::sqrt(4. / std::sqrt(3.) * t.area), height = 2. * t.area / side;
+    const Conformal_triangle shape(Point_3(0., 0., 0.), Point_3(side, 0., 0.),
+                                   Point_3(0.5 * side, height, 0.));
+    equilateral.push_back(Patch_triangle(t.corner, shape, t.weight));
+  }
+  return Patch_energy(std::move(equilateral), m_free);
+}
 
 inline double Patch_energy::value(const Values& z, const Energy_terms& terms) const
 {
@@ -228,7 +254,7 @@ inline void Patch_energy::differentiate(const Values& z, const Energy_terms& ter
     const double x = std::abs(j.h), y = std::abs(j.g);
     const Triangle_energy e(x, y, j.determinant, weighted(t, terms));
     const Complex at_h = x > 0. ? e.f_x / x * j.h : Complex(0.);
-    const Complex at_g = e.across_g * j.g;
+    const Complex at_g = y > 0. ? e.f_y / y * j.g : Complex(0.);
     const Chain m = chain(t);
     const Eigen::Matrix<double, 6, 1> local_gradient
       = m.transpose() * Eigen::Vector4d(at_h.real(), at_h.imag(), at_g.real(), at_g.imag());

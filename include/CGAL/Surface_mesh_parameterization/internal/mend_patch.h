@@ -86,13 +86,13 @@ inline double Patch_minimizer::take_step(Values& z, const Energy_terms& terms, d
 
 // Moves the free values to where all triangles have positive areas; returns whether such a place was
 // found. The area scale must be about 1.
-inline bool untangle(const Patch_energy& energy, Patch_minimizer& minimizer,
-                     Patch_energy::Values& z)
+inline bool untangle(const Patch_energy& energy, Patch_energy::Values& z)
 {
+  Patch_minimizer minimizer(energy);
   // A greater epsilon is no worse a start: the first minimiser is then the conformal map.
   double epsilon = (std::max)(1., -energy.least_determinant(z));
   for(int round = 0; round < 60; ++round, epsilon *= 0.5) {
-    minimizer.minimize(z, Energy_terms{0., 1., epsilon}, 10, 1e-2);
+    minimizer.minimize(z, Energy_terms{0., 1., 0.1, epsilon}, 10, 1e-2);
     const double least = energy.least_determinant(z);
     if(least > 0.)
       return true;
@@ -105,9 +105,10 @@ inline bool untangle(const Patch_energy& energy, Patch_minimizer& minimizer,
 }
 
 // Moves the free values of a patch to where all its triangles have positive areas and its conformal
-// energy is near the least one that can be had so; returns whether it succeeded. `barrier` is the
-// weight of the term that keeps areas away from 0.
-inline bool mend_patch(const Patch_energy& energy, double barrier, Patch_energy::Values& z)
+// energy is near the least one that can be had so; returns whether it succeeded. `start` is the energy
+// that untangles, `barrier` the weight of the term that keeps areas away from 0.
+inline bool mend_patch(const Patch_energy& energy, const Patch_energy& start, double barrier,
+                       Patch_energy::Values& z)
 {
   const double scale = std::sqrt(energy.area_scale(z));
   if(!(scale > 0.) || !std::isfinite(scale))
@@ -115,11 +116,11 @@ inline bool mend_patch(const Patch_energy& energy, double barrier, Patch_energy:
   const std::complex<double> origin = z.back();
   for(auto& value : z)
     value = (value - origin) / scale;
+  const bool is_mended = untangle(start, z);
   Patch_minimizer minimizer(energy);
-  const bool is_mended = untangle(energy, minimizer, z);
   if(is_mended)
     for(double weight = 0.1; weight > 0.5 * barrier; weight *= 0.1)
-      minimizer.minimize(z, Energy_terms{1., (std::max)(weight, barrier), 0.}, 30, 1e-6);
+      minimizer.minimize(z, Energy_terms{1., (std::max)(weight, barrier), 0., 0.}, 30, 1e-6);
   for(auto& value : z)
     value = origin + scale * value;
   return is_mended;
