@@ -119,6 +119,8 @@ compare table_1 --table1
 max_faces=$((max_faces < 2000000 ? max_faces : 2000000))
 compare decimation --decimation
 "$HLSCM_BIN/flip_repair" "$HLSCM_DATA_DIR"/{lion-head,mannequin-devil}.off > "$out/flip_repair.csv"
+mapfile -t large < <(find "$charts" -maxdepth 1 -name '*_1[0-9][0-9][0-9]k.ply' | sort)
+"$HLSCM_BIN/live_map" "${large[@]}" > "$out/live_map.csv"
 # Debian's python3 has matplotlib; another one that comes first may not.
 python="$(command -v /usr/bin/python3 || command -v python3)"
 for name in side_by_side other_charts; do

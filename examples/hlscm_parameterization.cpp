@@ -56,8 +56,8 @@ int main(int argc, char* argv[])
   const SMP::Distortion_measures distortion = SMP::measure_distortion(mesh, uvmap);
   std::cout << report.faces << " faces, " << report.levels.size() << " levels, "
             << report.iterations << " iterations, " << report.seconds_total << " s\nenergy "
-            << report.energy << ", quasi-conformal ratio " << distortion.quasi_conformal_mean << " on average, "
-            << distortion.flipped_faces << " flipped faces\n";
+            << report.energy << ", quasi-conformal ratio " << distortion.quasi_conformal_mean
+            << " on average, " << distortion.flipped_faces << " flipped faces\n";
   std::ofstream out("hlscm_parameterization.off");
   SMP::IO::output_uvmap_to_off(mesh, border, uvmap, out);
 

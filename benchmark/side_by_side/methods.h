@@ -16,7 +16,6 @@
 
 namespace side_by_side {
 
-// Which energy a method minimises.
 // What a method minimises: nothing, an energy under pins, or the energy for the size of the border.
 enum class Energy { NONE, EXACT, CGAL_LSCM, WITHOUT_PINS };
 
