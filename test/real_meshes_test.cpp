@@ -72,6 +72,24 @@ TEST_P(Debian_chart, comes_out_so_with_the_weights_of_cgal)
   expect_agreement(GetParam(), read(debian_mesh(GetParam())), {1e-8}, Conformal_weights::CGAL_LSCM);
 }
 
+TEST_P(Debian_chart, can_be_repaired)
+{
+  for(const auto weights : {Conformal_weights::EXACT, Conformal_weights::CGAL_LSCM}) {
+    Surface_mesh mesh = read(debian_mesh(GetParam()));
+    SMP::HLSCM_options options = with_method(Conformal_method::DIRECT);
+    options.weights = weights;
+    options.repair_flips = true;
+    const Outcome run = parameterize(mesh, options);
+    ASSERT_EQ(run.error, SMP::OK);
+    const SMP::Flip_repair_report& r = *run.report.flip_repair;
+    std::cout << GetParam() << " flips " << r.flipped_before << " + " << r.degenerate_before
+              << " -> " << r.unmended_faces.size() << ", energy +"
+              << 100. * (r.energy_after / r.energy_before - 1.) << " %\n";
+    EXPECT_TRUE(r.unmended_faces.empty());
+    EXPECT_EQ(measure(mesh, run.uv).flipped_faces, 0u);
+  }
+}
+
 std::string name_of_chart(const ::testing::TestParamInfo<const char*>& info)
 {
   std::string name = std::filesystem::path(info.param).stem().string();
