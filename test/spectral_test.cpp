@@ -177,7 +177,7 @@ TEST(Spectral, solves_its_equation_on_large_charts)
   for(auto [name, mesh] : large_charts(5)) {
     normalize(mesh);
     Surface_mesh surface_mesh = to_surface_mesh(mesh);
-    const Outcome run = spectral_map(surface_mesh, with_tolerance(1e-10, 2000));
+    const Outcome run = spectral_map(surface_mesh, with_tolerance(1e-12, 2000));
     ASSERT_EQ(run.error, SMP::OK) << name << ": " << run.report.message;
     EXPECT_LE(Eigen_equation(mesh, run.uv).residual(), 2e-2) << name;
     const Outcome rough = spectral_map(surface_mesh, with_tolerance(1e-2, 2000));

@@ -100,6 +100,7 @@ protected:
   void solve_hierarchy(Vector& z);
   Multigrid::Iteration_report improve(std::size_t l, Vector& z, double least_energy = 0.);
   Multigrid::Iteration_report relax(std::size_t l, Vector& z) const;
+  bool release_second_pin(double energy, double size);
   void solve_coarsest(Vector& z);
   void finish(const Multigrid::Iteration_report& result, Vector& z);
   double fit_to_surface(std::size_t l, Vector& z) const;
@@ -124,6 +125,7 @@ protected:
   Stopwatch m_watch;
   Stopwatch m_since_begin;
   bool m_keeps_meshes = false;
+  bool m_needs_second_pin = false;                       // the preconditioner, if there are no pins
   std::vector<double> m_face_weights;                    // of the user, if any
   double m_rate = 0.;                                    // of the last iteration, if it converged
   Conformal_hierarchy<CoarsestSolver> m_hierarchy;
@@ -145,7 +147,7 @@ template <class CoarsestSolver>
 std::vector<Surface_mesh_multiresolution::Vertex_index>
 Conformal_solver<CoarsestSolver>::vertices_to_pin() const
 {
-  if(is_spectral())
+  if(is_spectral() && !m_needs_second_pin)
     return {m_pins[0].vertex};
   std::vector<Surface_mesh_multiresolution::Vertex_index> result;
   for(const Pin& pin : m_pins)
@@ -278,17 +280,35 @@ Multigrid::Iteration_report Conformal_solver<CoarsestSolver>::improve(std::size_
   return m_hierarchy.minimize(l, m_schedule, stop, progress, z);
 }
 
+// Whether a map of that size has no energy but rounding errors.
+inline bool is_without_energy(double energy, double size) { return !(energy > 1e-12 * size * size); }
+
+// Takes the second pin out of the preconditioner. In a plane, where there is a map without energy, it
+// is needed: with one pin the matrix would be singular.
+template <class CoarsestSolver>
+bool Conformal_solver<CoarsestSolver>::release_second_pin(double energy, double size)
+{
+  const auto v = m_pins[1].vertex;
+  m_needs_second_pin = is_without_energy(energy, size);
+  if(m_needs_second_pin)
+    return true;
+  m_hierarchy.release(v);
+  if(m_hierarchy.factorize_coarsest())
+    return true;
+  m_needs_second_pin = true;
+  m_hierarchy.pin(v);
+  return m_hierarchy.factorize_coarsest();
+}
+
 // The map of the coarsest level: that of the pins, from which inverse iterations go on if there
 // are to be none.
 template <class CoarsestSolver>
 void Conformal_solver<CoarsestSolver>::solve_coarsest(Vector& z)
 {
-  const bool is_solved
-    = m_hierarchy.factorize_coarsest()
-   && solve_for_free(m_hierarchy.coarsest_solver(), m_hierarchy.coarsest(), z);
-  if(is_spectral())
-    m_hierarchy.release(m_pins[1].vertex);
-  if(!is_solved || (is_spectral() && !m_hierarchy.factorize_coarsest()))
+  const auto& op = m_hierarchy.coarsest();
+  if(!m_hierarchy.factorize_coarsest()
+     || !solve_for_free(m_hierarchy.coarsest_solver(), op, z)
+     || (is_spectral() && !release_second_pin(op.energy(z), Multigrid::extent(z))))
     return m_chart.fail(ERROR_CANNOT_SOLVE_LINEAR_SYSTEM,
                         "the matrix of the coarsest level cannot be factorized");
   const bool is_only = m_hierarchy.number_of_levels() == 1;
@@ -424,7 +444,7 @@ void Conformal_solver<CoarsestSolver>::build()
 template <class CoarsestSolver>
 void Conformal_solver<CoarsestSolver>::solve(Vector& z)
 {
-  if(is_spectral())
+  if(is_spectral() && !m_needs_second_pin)
     m_hierarchy.pin(m_pins[1].vertex); // for the first guess
   z = m_hierarchy.at_pins(m_pins);
   switch(m_options.method) {

@@ -78,6 +78,7 @@ private:
   using Base::m_face_weights;
   using Base::m_hierarchy;
   using Base::m_keeps_meshes;
+  using Base::m_needs_second_pin;
   using Base::m_options;
   using Base::m_pins;
   using Base::m_rate;
@@ -163,7 +164,10 @@ void Live_conformal_solver<CoarsestSolver>::update_pins()
       m_hierarchy.pin(v);
   m_unit_move = Unit_move();
   m_rate = 0.;
-  m_hierarchy.factorize_coarsest();
+  if(!m_hierarchy.factorize_coarsest() && this->is_spectral() && !m_needs_second_pin) {
+    m_needs_second_pin = true;
+    update_pins();
+  }
 }
 
 // By how much each pin is to move.
@@ -307,6 +311,9 @@ template <class CoarsestSolver>
 void Live_conformal_solver<CoarsestSolver>::solve()
 {
   this->restart();
+  if(!m_was_spectral && this->is_spectral() && !m_map.empty())
+    m_needs_second_pin
+      = is_without_energy(m_hierarchy.finest().energy(m_map), Multigrid::extent(m_map));
   update_operators();
   update_pins();
   if(m_was_spectral != this->is_spectral()) {
@@ -318,6 +325,7 @@ void Live_conformal_solver<CoarsestSolver>::solve()
     Base::solve(m_map);
     m_gap = m_report.energy_gap_estimate / this->energy_unit();
     m_is_solved = m_report.converged;
+    set_pinned(); // what the first guess has left
     if(this->is_stopped())
       m_map.clear();
     return;
