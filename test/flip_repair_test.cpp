@@ -514,7 +514,27 @@ TEST(Repair, makes_no_branch_points)
               << ", energy +" << 100. * (r.energy_after / r.energy_before - 1.) << " %\n";
     EXPECT_GT(r.flipped_before, 20u); // or this test would not test anything
     EXPECT_TRUE(r.unmended_faces.empty());
+    EXPECT_EQ(r.branch_vertices, 0u);
   }
+}
+
+// The border of the patch runs around twice: without flips the map must branch in it.
+TEST(Repair, branches_where_it_must)
+{
+  const auto mesh = disk(6, 24);
+  Parameters uv = map_of(mesh, [](Complex w) { return w * w / (1. + std::abs(w)); });
+  const std::size_t inner = 24 + 1;
+  std::vector<std::size_t> pins; // all but the innermost circles
+  for(std::size_t v = 2 * inner; v < uv.size(); ++v)
+    pins.push_back(v);
+  std::swap(uv[3], uv[7]);
+  ASSERT_GT(bad_faces(mesh, uv).size(), 0u);
+  uv[0] += Complex(0.5, 0.);
+  const Repaired repaired = repair(mesh, uv, pins);
+  EXPECT_EQ(error_in_repair(mesh, uv, pins, repaired), "");
+  EXPECT_TRUE(repaired.report.unmended_faces.empty());
+  EXPECT_TRUE(certify(mesh, repaired.uv).certificate.overlaps);
+  EXPECT_LE(repaired.report.branch_vertices, 1u);
 }
 
 // Against the limit that the mended map costs at most 5 % more energy than the least one.

@@ -79,6 +79,7 @@ Json to_json(const CGAL::Surface_mesh_parameterization::Flip_repair_report& repa
           {"degenerate_after", repair.degenerate_after},
           {"patches", repair.patches},
           {"moved_vertices", repair.moved_vertices},
+          {"branch_vertices", repair.branch_vertices},
           {"energy_before", number(repair.energy_before)},
           {"energy_after", number(repair.energy_after)},
           {"seconds", repair.seconds},

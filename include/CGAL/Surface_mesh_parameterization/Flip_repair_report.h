@@ -20,6 +20,9 @@ struct Flip_repair_report
   std::size_t degenerate_after = 0;  ///< faces without area after the repair
   std::size_t patches = 0;           ///< patches that were mended
   std::size_t moved_vertices = 0;    ///< vertices that have another parameter than before
+  /// Vertices around which the faces wind more than once since then: where the map did so around a
+  /// patch already, nothing else can be had without flips.
+  std::size_t branch_vertices = 0;
   double energy_before = 0.;         ///< conformal energy before, with the weights of the options
   double energy_after = 0.;          ///< and after the repair
   double seconds = 0.;               ///< time of the repair

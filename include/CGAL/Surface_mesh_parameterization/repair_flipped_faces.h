@@ -44,9 +44,10 @@ possible. Only vertices in small patches around such faces move; pinned vertices
 patch the map is first untangled by a family of energies that are finite for flipped faces, too
 (Garanzha, Kaporin, Kudryavtseva, Protais, Ray and Sokolov 2021, _Foldover-free maps in 50 lines of
 code_), and then brought near to the least conformal energy that it can have without flips. A patch
-is taken over only if all its faces have positive areas by an exact predicate, and if its faces do
-not wind twice around a vertex around which they did not before; otherwise it stays as it was and is
-tried again with more rings around the faces. So no face becomes flipped that was not.
+is taken over only if all its faces have positive areas by an exact predicate, so that no face becomes
+flipped that was not, and, where that is possible, if its faces do not wind twice around a vertex
+around which they did not before. Otherwise it stays as it was, and is tried again with more rings
+around the faces.
 
 The border of the surface is free: faces that do not overlap before may do so afterwards; see
 `certify_map()`.
@@ -64,7 +65,7 @@ The border of the surface is free: faces that do not overlap before may do so af
 \param options the options
 
 \return what was done, and the faces that could not be mended, for instance those with three pinned
-        vertices
+        vertices, or of images that are smaller than 1e-13 of their coordinates
 
 Linear time, plus that of a sparse Cholesky factorization of the unknowns of a patch for each of some
 ten to some hundred steps of Newton's method. Patches are worked on in parallel within a

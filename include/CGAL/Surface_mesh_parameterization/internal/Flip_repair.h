@@ -46,14 +46,27 @@ public:
   Flip_repair_report run(const Flip_repair_options& options);
 
 private:
+  struct Mended
+  {
+    double rise;          // of the energy
+    std::size_t branches; // vertices around which the faces now wind more than once
+  };
+
+  // What to do with a patch that comes out with such vertices, and might not if it were larger
+  enum class Branches { REFUSE, ACCEPT };
+
   Orientation orientation_of_face(std::uint32_t t) const;
   Faces bad_faces(const Faces& among) const;
   std::size_t number_of_flipped(const Faces& bad) const;
   int winding_at(std::uint32_t v, std::uint32_t a, std::uint32_t b) const;
   std::size_t number_of_branches(const Flip_patch& patch) const;
-  std::optional<double> mend(const Flip_patch& patch, double barrier);
-  std::size_t mend_around(const Faces& bad, int rings, Flip_patch_finder& finder,
-                          const Flip_repair_options& options, Flip_repair_report& report);
+  bool has_border(const Flip_patch& patch) const;
+  bool is_too_small(std::uint32_t t) const;
+  std::optional<Mended> mend(const Flip_patch& patch, double barrier, Branches choice);
+  void mend_all(Faces bad, const Flip_repair_options& options, Flip_repair_report& report);
+  std::size_t mend_around(const Faces& bad, int rings, Branches choice,
+                          Flip_patch_finder& finder, const Flip_repair_options& options,
+                          Flip_repair_report& report);
 
   const Triangles& m_triangles;
   const std::vector<bool>& m_is_fixed;
@@ -183,25 +196,55 @@ inline std::size_t Flip_repair::number_of_branches(const Flip_patch& patch) cons
   return count;
 }
 
-// Returns how much the energy rises; nothing if the patch cannot be mended, which then stays as it
-// was.
-inline std::optional<double> Flip_repair::mend(const Flip_patch& patch, double barrier)
+// Whether one of the patch's vertices is on the border of the surface: there its faces (v, a, b) do
+// not close, so that the sum of the differences a - b is not 0.
+inline bool Flip_repair::has_border(const Flip_patch& patch) const
+{
+  std::vector<std::uint32_t> sum(patch.vertices.size(), 0); // modulo 2^32
+  for(const std::uint32_t t : patch.faces)
+    for(int c = 0; c < 3; ++c) {
+      const auto& corner = m_triangles[t];
+      const auto found
+        = std::lower_bound(patch.vertices.begin(), patch.vertices.end(), corner[c]);
+      if(found != patch.vertices.end() && *found == corner[c])
+        sum[found - patch.vertices.begin()] += corner[(c + 1) % 3] - corner[(c + 2) % 3];
+    }
+  return std::any_of(sum.begin(), sum.end(), [](std::uint32_t s) { return s != 0; });
+}
+
+// Whether numbers of type `double` hardly tell the corners of the face from each other. Where its
+// surroundings are larger, one of its neighbours is degenerate, too, and stands for it.
+inline bool Flip_repair::is_too_small(std::uint32_t t) const
+{
+  double size = 0., greatest = 0.;
+  for(int c = 0; c < 3; ++c) {
+    const Complex z = m_z[m_triangles[t][c]];
+    greatest = (std::max)(greatest, std::abs(z));
+    size = (std::max)(size, std::abs(z - m_z[m_triangles[t][(c + 1) % 3]]));
+  }
+  return !(size > 0x1p-44 * greatest);
+}
+
+// Returns nothing if the patch cannot be mended, which then stays as it was.
+inline std::optional<Flip_repair::Mended>
+Flip_repair::mend(const Flip_patch& patch, double barrier, Branches choice)
 {
   const Patch_vertices vertices(patch, m_triangles, m_z);
+  if(vertices.all.size() < vertices.number_free + 2)
+    return std::nullopt;
   double unit = 1.;
   const Patch_energy energy(
     patch_triangles(patch, m_triangles, vertices.all, m_shape_of_face, unit),
     vertices.number_free);
-  Values old;
+  Values old, branched_values;
   for(const std::uint32_t v : vertices.all)
     old.push_back(m_z[v]);
-  if(vertices.all.size() < vertices.number_free + 2)
-    return std::nullopt;
   const auto write = [&](const Values& values) {
     for(std::size_t i = 0; i < vertices.number_free; ++i)
       m_z[vertices.all[i]] = values[i];
   };
   const std::size_t branches = number_of_branches(patch);
+  std::optional<Mended> branched;
   // Around a vertex whose angles have a sum of 4 pi, say, a conformal map winds twice; equal angles
   // lead to another start. From there on, no way without flips changes a winding number.
   for(const Patch_energy& start : {energy, energy.with_equal_angles()}) {
@@ -209,33 +252,66 @@ inline std::optional<double> Flip_repair::mend(const Flip_patch& patch, double b
     if(!mend_patch(energy, start, barrier, z))
       break;
     write(z);
-    if(bad_faces(patch.faces).empty() && number_of_branches(patch) <= branches)
-      return unit * (energy.conformal_energy(z) - energy.conformal_energy(old));
+    if(!bad_faces(patch.faces).empty())
+      break;
+    const std::size_t now = number_of_branches(patch);
+    const double rise = energy.conformal_energy(z) - energy.conformal_energy(old);
+    const Mended mended = {unit * rise, now > branches ? now - branches : 0};
+    if(mended.branches == 0)
+      return mended;
+    if(!branched) {
+      branched = mended;
+      branched_values = z;
+    }
   }
-  write(old);
-  return std::nullopt;
+  // Within the surface the edge of the patch decides alone how often all its fillings branch.
+  if(choice == Branches::REFUSE && has_border(patch))
+    branched.reset();
+  write(branched ? branched_values : old);
+  return branched;
 }
 
 // Mends the patches of so many rings around the faces; returns the number of their vertices.
-inline std::size_t Flip_repair::mend_around(const Faces& bad, int rings, Flip_patch_finder& finder,
+inline std::size_t Flip_repair::mend_around(const Faces& bad, int rings, Branches choice,
+                                            Flip_patch_finder& finder,
                                             const Flip_repair_options& options,
                                             Flip_repair_report& report)
 {
   const std::vector<Flip_patch> patches = finder.patches_around(bad, rings);
-  std::vector<std::optional<double>> rise(patches.size());
+  std::vector<std::optional<Mended>> mended(patches.size());
   Blocked_execution::blocked_for(patches.size(), 1, [&](std::size_t i, std::size_t) {
     if(patches[i].vertices.size() <= options.largest_patch)
-      rise[i] = mend(patches[i], options.barrier);
+      mended[i] = mend(patches[i], options.barrier, choice);
   });
   std::size_t size = 0;
   for(std::size_t i = 0; i < patches.size(); ++i) {
     size += patches[i].vertices.size();
-    if(rise[i]) {
+    if(mended[i]) {
       ++report.patches;
-      report.energy_after += *rise[i];
+      report.energy_after += mended[i]->rise;
+      report.branch_vertices += mended[i]->branches;
     }
   }
   return size;
+}
+
+// In rounds, with patches that grow.
+inline void Flip_repair::mend_all(Faces bad, const Flip_repair_options& options,
+                                  Flip_repair_report& report)
+{
+  bad.erase(std::remove_if(bad.begin(), bad.end(),
+                           [this](std::uint32_t t) { return is_too_small(t); }), bad.end());
+  Flip_patch_finder finder(m_triangles, m_is_fixed);
+  std::size_t last_size = 0;
+  for(int rings = options.first_rings; !bad.empty() && rings <= options.last_rings; rings *= 2) {
+    const std::size_t size = mend_around(bad, rings, Branches::REFUSE, finder, options, report);
+    bad = bad_faces(bad);
+    if(size == last_size) // the patches are whole components
+      break;
+    last_size = size;
+  }
+  if(!bad.empty())
+    mend_around(bad, options.first_rings, Branches::ACCEPT, finder, options, report);
 }
 
 inline Flip_repair_report Flip_repair::run(const Flip_repair_options& options)
@@ -249,15 +325,8 @@ inline Flip_repair_report Flip_repair::run(const Flip_repair_options& options)
   if(bad.empty())
     return report;
   const Values before = m_z;
-  Flip_patch_finder finder(m_triangles, m_is_fixed);
-  std::size_t last_size = 0;
-  for(int rings = options.first_rings; !bad.empty() && rings <= options.last_rings; rings *= 2) {
-    const std::size_t size = mend_around(bad, rings, finder, options, report);
-    bad = bad_faces(bad);
-    if(size == last_size) // the patches are whole components
-      break;
-    last_size = size;
-  }
+  mend_all(bad, options, report);
+  bad = bad_faces(bad);
   report.unmended_faces.assign(bad.begin(), bad.end());
   report.flipped_after = number_of_flipped(bad);
   report.degenerate_after = bad.size() - report.flipped_after;
