@@ -893,7 +893,7 @@ TEST_F(Program, repairs_flipped_triangles)
   unsigned state = 1;
   const std::string in = write("in.off", off(grid(40, [&state](double, double) {
     state = state * 1664525u + 1013904223u;
-    return 0.12 * double(state >> 8) / double(1 << 24);
+    return 0.15 * double(state >> 8) / double(1 << 24);
   })));
   const Json plain = report(in), repaired = report(in, {"--repair-flips"});
   ASSERT_GT(plain["flips"].get<int>(), 0); // or this test would not test anything

@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <functional>
 #include <numeric>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -46,10 +45,13 @@ public:
   Flip_repair_report run(const Flip_repair_options& options);
 
 private:
-  struct Mended
+  enum class Outcome { MENDED, TRY_LARGER, GIVE_UP };
+
+  struct Mending
   {
-    double rise;          // of the energy
-    std::size_t branches; // vertices around which the faces now wind more than once
+    Outcome outcome;
+    double rise = 0.;         // of the energy
+    std::size_t branches = 0; // vertices around which the faces now wind more than once
   };
 
   // What to do with a patch that comes out with such vertices, and might not if it were larger
@@ -60,13 +62,12 @@ private:
   std::size_t number_of_flipped(const Faces& bad) const;
   int winding_at(std::uint32_t v, std::uint32_t a, std::uint32_t b) const;
   std::size_t number_of_branches(const Flip_patch& patch) const;
-  bool has_border(const Flip_patch& patch) const;
   bool is_too_small(std::uint32_t t) const;
-  std::optional<Mended> mend(const Flip_patch& patch, double barrier, Branches choice);
+  Mending mend(const Flip_patch& patch, double barrier, Branches choice);
+  std::vector<Mending> mend_patches(const std::vector<Flip_patch>& patches, Branches choice,
+                                    const Flip_repair_options& options,
+                                    Flip_repair_report& report);
   void mend_all(Faces bad, const Flip_repair_options& options, Flip_repair_report& report);
-  std::size_t mend_around(const Faces& bad, int rings, Branches choice,
-                          Flip_patch_finder& finder, const Flip_repair_options& options,
-                          Flip_repair_report& report);
 
   const Triangles& m_triangles;
   const std::vector<bool>& m_is_fixed;
@@ -196,22 +197,6 @@ inline std::size_t Flip_repair::number_of_branches(const Flip_patch& patch) cons
   return count;
 }
 
-// Whether one of the patch's vertices is on the border of the surface: there its faces (v, a, b) do
-// not close, so that the sum of the differences a - b is not 0.
-inline bool Flip_repair::has_border(const Flip_patch& patch) const
-{
-  std::vector<std::uint32_t> sum(patch.vertices.size(), 0); // modulo 2^32
-  for(const std::uint32_t t : patch.faces)
-    for(int c = 0; c < 3; ++c) {
-      const auto& corner = m_triangles[t];
-      const auto found
-        = std::lower_bound(patch.vertices.begin(), patch.vertices.end(), corner[c]);
-      if(found != patch.vertices.end() && *found == corner[c])
-        sum[found - patch.vertices.begin()] += corner[(c + 1) % 3] - corner[(c + 2) % 3];
-    }
-  return std::any_of(sum.begin(), sum.end(), [](std::uint32_t s) { return s != 0; });
-}
-
 // Whether numbers of type `double` hardly tell the corners of the face from each other. Where its
 // surroundings are larger, one of its neighbours is degenerate, too, and stands for it.
 inline bool Flip_repair::is_too_small(std::uint32_t t) const
@@ -225,26 +210,27 @@ inline bool Flip_repair::is_too_small(std::uint32_t t) const
   return !(size > 0x1p-44 * greatest);
 }
 
-// Returns nothing if the patch cannot be mended, which then stays as it was.
-inline std::optional<Flip_repair::Mended>
-Flip_repair::mend(const Flip_patch& patch, double barrier, Branches choice)
+// Unless the patch is mended it stays as it was.
+inline Flip_repair::Mending Flip_repair::mend(const Flip_patch& patch, double barrier,
+                                              Branches choice)
 {
+  constexpr std::size_t largest_branched = 2000; // vertices; larger ones are hardly better
   const Patch_vertices vertices(patch, m_triangles, m_z);
   if(vertices.all.size() < vertices.number_free + 2)
-    return std::nullopt;
+    return {Outcome::TRY_LARGER};
   double unit = 1.;
   const Patch_energy energy(
     patch_triangles(patch, m_triangles, vertices.all, m_shape_of_face, unit),
     vertices.number_free);
-  Values old, branched_values;
+  Values old;
   for(const std::uint32_t v : vertices.all)
     old.push_back(m_z[v]);
   const auto write = [&](const Values& values) {
     for(std::size_t i = 0; i < vertices.number_free; ++i)
       m_z[vertices.all[i]] = values[i];
   };
-  const std::size_t branches = number_of_branches(patch);
-  std::optional<Mended> branched;
+  const std::size_t before = number_of_branches(patch);
+  Mending result = {Outcome::TRY_LARGER};
   // Around a vertex whose angles have a sum of 4 pi, say, a conformal map winds twice; equal angles
   // lead to another start. From there on, no way without flips changes a winding number.
   for(const Patch_energy& start : {energy, energy.with_equal_angles()}) {
@@ -252,66 +238,69 @@ Flip_repair::mend(const Flip_patch& patch, double barrier, Branches choice)
     if(!mend_patch(energy, start, barrier, z))
       break;
     write(z);
-    if(!bad_faces(patch.faces).empty())
+    if(!bad_faces(patch.faces).empty()) { // by rounding
+      result.outcome = Outcome::GIVE_UP;
       break;
-    const std::size_t now = number_of_branches(patch);
-    const double rise = energy.conformal_energy(z) - energy.conformal_energy(old);
-    const Mended mended = {unit * rise, now > branches ? now - branches : 0};
-    if(mended.branches == 0)
-      return mended;
-    if(!branched) {
-      branched = mended;
-      branched_values = z;
     }
+    const std::size_t after = (std::max)(before, number_of_branches(patch));
+    if(after == before || choice == Branches::ACCEPT)
+      return {Outcome::MENDED,
+              unit * (energy.conformal_energy(z) - energy.conformal_energy(old)), after - before};
+    if(patch.vertices.size() > largest_branched)
+      result.outcome = Outcome::GIVE_UP;
   }
-  // Within the surface the edge of the patch decides alone how often all its fillings branch.
-  if(choice == Branches::REFUSE && has_border(patch))
-    branched.reset();
-  write(branched ? branched_values : old);
-  return branched;
+  write(old);
+  return result;
 }
 
-// Mends the patches of so many rings around the faces; returns the number of their vertices.
-inline std::size_t Flip_repair::mend_around(const Faces& bad, int rings, Branches choice,
-                                            Flip_patch_finder& finder,
-                                            const Flip_repair_options& options,
-                                            Flip_repair_report& report)
+inline std::vector<Flip_repair::Mending>
+Flip_repair::mend_patches(const std::vector<Flip_patch>& patches, Branches choice,
+                          const Flip_repair_options& options, Flip_repair_report& report)
 {
-  const std::vector<Flip_patch> patches = finder.patches_around(bad, rings);
-  std::vector<std::optional<Mended>> mended(patches.size());
+  std::vector<Mending> mendings(patches.size(), {Outcome::GIVE_UP});
   Blocked_execution::blocked_for(patches.size(), 1, [&](std::size_t i, std::size_t) {
     if(patches[i].vertices.size() <= options.largest_patch)
-      mended[i] = mend(patches[i], options.barrier, choice);
+      mendings[i] = mend(patches[i], options.barrier, choice);
   });
-  std::size_t size = 0;
-  for(std::size_t i = 0; i < patches.size(); ++i) {
-    size += patches[i].vertices.size();
-    if(mended[i]) {
+  for(const Mending& mending : mendings)
+    if(mending.outcome == Outcome::MENDED) {
       ++report.patches;
-      report.energy_after += mended[i]->rise;
-      report.branch_vertices += mended[i]->branches;
+      report.energy_after += mending.rise;
+      report.branch_vertices += mending.branches;
     }
-  }
-  return size;
+  return mendings;
 }
 
-// In rounds, with patches that grow.
+// In rounds, with patches that grow. At last small patches are accepted with branch vertices.
 inline void Flip_repair::mend_all(Faces bad, const Flip_repair_options& options,
                                   Flip_repair_report& report)
 {
   bad.erase(std::remove_if(bad.begin(), bad.end(),
                            [this](std::uint32_t t) { return is_too_small(t); }), bad.end());
   Flip_patch_finder finder(m_triangles, m_is_fixed);
+  Faces growing = bad;
   std::size_t last_size = 0;
-  for(int rings = options.first_rings; !bad.empty() && rings <= options.last_rings; rings *= 2) {
-    const std::size_t size = mend_around(bad, rings, Branches::REFUSE, finder, options, report);
-    bad = bad_faces(bad);
+  for(int rings = options.first_rings; !growing.empty() && rings <= options.last_rings;
+      rings *= 2) {
+    const std::vector<Flip_patch> patches = finder.patches_around(growing, rings);
+    const std::vector<Mending> mendings
+      = mend_patches(patches, Branches::REFUSE, options, report);
+    Faces hopeful;
+    std::size_t size = 0;
+    for(std::size_t i = 0; i < patches.size(); ++i)
+      if(mendings[i].outcome == Outcome::TRY_LARGER) {
+        size += patches[i].vertices.size();
+        hopeful.insert(hopeful.end(), patches[i].faces.begin(), patches[i].faces.end());
+      }
     if(size == last_size) // the patches are whole components
       break;
     last_size = size;
+    growing = bad_faces(hopeful);
   }
+  bad = bad_faces(bad);
   if(!bad.empty())
-    mend_around(bad, options.first_rings, Branches::ACCEPT, finder, options, report);
+    mend_patches(finder.patches_around(bad, options.first_rings), Branches::ACCEPT, options,
+                 report);
 }
 
 inline Flip_repair_report Flip_repair::run(const Flip_repair_options& options)
