@@ -72,10 +72,11 @@ void print_rows(const std::string& path, double tolerance)
   options.tolerance = tolerance;
   const auto border = CGAL::Polygon_mesh_processing::longest_border(mesh).first;
   std::unique_ptr<Conformal_map> map;
-  table.add("first", seconds_of([&] {
+  const double first = seconds_of([&] {
     map = std::make_unique<Conformal_map>(mesh, border, options);
     map->solve();
-  }), *map);
+  });
+  table.add("first", first, *map);
 
   const auto solve = [&map] { map->solve(); };
   const auto vertex = [&mesh](std::size_t part) {
