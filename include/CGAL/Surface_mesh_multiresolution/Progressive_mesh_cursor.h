@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_PROGRESSIVE_MESH_CURSOR_H
 
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
+#include <CGAL/Surface_mesh_multiresolution/Vsplit_table.h>
 
 #include <CGAL/assertions.h>
 
@@ -22,13 +23,16 @@ coarser one by a halfedge collapse or to the next finer one by the vertex split 
 Triangles keep their index; at a position those with `is_alive(t)` make up the mesh. A step costs the
 triangles that it changes.
 
-Memory: 28 bytes a triangle, 8 bytes a vertex and 4 bytes a collapse.
+Memory: 12 bytes a triangle beside the `Vsplit_table`.
 */
 class Progressive_mesh_cursor
 {
 public:
-  /// Stands at the fine mesh of `pm`, which must live as long as the cursor.
-  explicit Progressive_mesh_cursor(const Progressive_mesh& pm);
+  /// Stands at the fine mesh of `pm`, which must live as long as the cursor. Linear time.
+  explicit Progressive_mesh_cursor(const Progressive_mesh& pm)
+    : m_pm(pm), m_table(pm), m_number_of_triangles(pm.triangles.size())
+    , m_triangles(pm.triangles)
+  {}
 
   /// Returns the number of collapses that lead from the fine mesh to this one.
   std::size_t position() const { return m_position; }
@@ -40,13 +44,28 @@ public:
   const std::vector<Triangle_indices>& triangles() const { return m_triangles; }
 
   /// Returns whether triangle `t` is part of the present mesh.
-  bool is_alive(std::uint32_t t) const { return m_death[t] == none; }
+  bool is_alive(std::uint32_t t) const { return m_table.death(t) >= m_position; }
+
+  /// Returns what the steps change.
+  const Vsplit_table& table() const { return m_table; }
 
   /// Goes to the next coarser mesh. Precondition: there is one.
-  void collapse();
+  void collapse()
+  {
+    CGAL_precondition(m_position < m_pm.collapses.size());
+    write(m_position, m_pm.collapses[m_position].kept);
+    m_number_of_triangles -= m_table.dying(m_position).size();
+    ++m_position;
+  }
 
   /// Goes to the next finer mesh. Precondition: `position() > 0`.
-  void split();
+  void split()
+  {
+    CGAL_precondition(m_position > 0);
+    --m_position;
+    write(m_position, m_pm.collapses[m_position].removed);
+    m_number_of_triangles += m_table.dying(m_position).size();
+  }
 
   /// Goes to the mesh after `k` collapses.
   void move_to(std::size_t k)
@@ -58,97 +77,28 @@ public:
   }
 
   /// Returns the living triangles that the collapse before the present position changed.
-  std::vector<std::uint32_t> last_changed_triangles() const;
+  std::vector<std::uint32_t> last_changed_triangles() const
+  {
+    std::vector<std::uint32_t> result;
+    if(m_position > 0)
+      for(const Vsplit_table::Corner corner : m_table.moved(m_position - 1))
+        result.push_back(corner / 3);
+    return result;
+  }
 
 private:
-  static constexpr std::uint32_t none = std::uint32_t(-1);
-
-  // Calls use(triangle, c) for each corner c of a living triangle in the list of v.
-  template <class Use>
-  void for_each_living_corner(Vertex_index v, const Use& use) const
+  void write(std::size_t i, Vertex_index v)
   {
-    for(std::uint32_t corner = m_first[v]; corner != none; corner = m_next[corner]) {
-      if(is_alive(corner / 3))
-        use(corner / 3, corner % 3);
-      if(corner == m_last[v]) // the lists of others may follow
-        break;
-    }
+    for(const Vsplit_table::Corner corner : m_table.moved(i))
+      m_triangles[corner / 3][corner % 3] = v;
   }
 
   const Progressive_mesh& m_pm;
+  Vsplit_table m_table;
   std::size_t m_position = 0;
   std::size_t m_number_of_triangles;
   std::vector<Triangle_indices> m_triangles;
-  std::vector<std::uint32_t> m_death; // the collapse that a triangle died of, or `none`
-  // The corners at each vertex as a linked list. The list of a removed vertex becomes the tail of
-  // the list of the vertex that is kept, and a split cuts it off again at the joint.
-  std::vector<std::uint32_t> m_first, m_last, m_next;
-  std::vector<std::uint32_t> m_joint; // for each collapse made: the corner before the tail
 };
-
-inline Progressive_mesh_cursor::Progressive_mesh_cursor(const Progressive_mesh& pm)
-  : m_pm(pm), m_number_of_triangles(pm.triangles.size()), m_triangles(pm.triangles)
-  , m_death(pm.triangles.size(), none)
-  , m_first(pm.number_of_vertices, none), m_last(pm.number_of_vertices, none)
-  , m_next(3 * pm.triangles.size(), none)
-{
-  for(std::uint32_t corner = 0; corner < m_next.size(); ++corner) {
-    const Vertex_index v = m_triangles[corner / 3][corner % 3];
-    (m_first[v] == none ? m_first[v] : m_next[m_last[v]]) = corner;
-    m_last[v] = corner;
-  }
-}
-
-inline void Progressive_mesh_cursor::collapse()
-{
-  CGAL_precondition(m_position < m_pm.collapses.size());
-  const auto [removed, kept] = m_pm.collapses[m_position];
-  for_each_living_corner(removed, [&, kept = kept](std::uint32_t t, std::uint32_t c) {
-    Triangle_indices& triangle = m_triangles[t];
-    if(triangle[(c + 1) % 3] == kept || triangle[(c + 2) % 3] == kept) {
-      m_death[t] = std::uint32_t(m_position);
-      --m_number_of_triangles;
-    } else {
-      triangle[c] = kept;
-    }
-  });
-  m_joint.push_back(m_last[kept]);
-  if(m_first[removed] != none) {
-    (m_first[kept] == none ? m_first[kept] : m_next[m_last[kept]]) = m_first[removed];
-    m_last[kept] = m_last[removed];
-  }
-  ++m_position;
-}
-
-inline void Progressive_mesh_cursor::split()
-{
-  CGAL_precondition(m_position > 0);
-  --m_position;
-  const auto [removed, kept] = m_pm.collapses[m_position];
-  m_last[kept] = m_joint.back();
-  m_joint.pop_back();
-  (m_last[kept] == none ? m_first[kept] : m_next[m_last[kept]]) = none;
-  for_each_living_corner(removed, [&, removed = removed](std::uint32_t t, std::uint32_t c) {
-    m_triangles[t][c] = removed;
-  });
-  for(std::uint32_t corner = m_first[removed]; corner != none; corner = m_next[corner]) {
-    if(m_death[corner / 3] == m_position) {
-      m_death[corner / 3] = none;
-      ++m_number_of_triangles;
-    }
-    if(corner == m_last[removed])
-      break;
-  }
-}
-
-inline std::vector<std::uint32_t> Progressive_mesh_cursor::last_changed_triangles() const
-{
-  std::vector<std::uint32_t> result;
-  if(m_position > 0)
-    for_each_living_corner(m_pm.collapses[m_position - 1].removed,
-                           [&](std::uint32_t t, std::uint32_t) { result.push_back(t); });
-  return result;
-}
 
 } // namespace Surface_mesh_multiresolution
 } // namespace CGAL

@@ -1,0 +1,191 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_TEXTURED_PROGRESSIVE_MESH_H
+#define CGAL_SURFACE_MESH_MULTIRESOLUTION_TEXTURED_PROGRESSIVE_MESH_H
+
+#include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
+#include <CGAL/Surface_mesh_multiresolution/Vsplit_table.h>
+
+#include <CGAL/assertions.h>
+
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_multiresolution {
+
+/*!
+\ingroup PkgHLSCMLevelsOfDetail
+
+The struct `Textured_progressive_mesh` is a `Progressive_mesh` with texture coordinates: all its
+levels share one texture, as no vertex that is left ever moves on the surface or in the texture.
+
+Where the texture has a seam, a vertex of the surface has several texture coordinates. The progressive
+mesh is therefore one of *wedges* (Hoppe 1996): a wedge is a vertex with one texture coordinate, the
+corners at a vertex between one seam and the next. In terms of wedges each chart is a mesh of its own,
+whose border is made of seams and of the border of the surface. Collapsing an edge on a seam takes two
+halfedge collapses, one a chart, which follow each other; a level between them would have a crack.
+
+    chart A   a                a           The vertex v has the wedge v' in chart A and v'' in chart
+            / | \             / |          B. Its collapse into t is the pair (v', t'), (v'', t'') of
+       s === v === t    s ======= t        collapses of wedges, each of which removes one triangle.
+            \ | /             \ |
+    chart B   b                b
+
+Invariants
+- The wedges are numbered *coarse first*: collapse \f$ i \f$ removes the wedge \f$ n - 1 - i \f$, so
+  that the wedges of each level are the first ones. The triangles come in the order in which splits
+  make them, so that those of each level are the first ones too.
+- `vertex` does not descend from wedge to wedge and takes every value below `points.size()`: the
+  vertices of each level are the first ones as well.
+- The wedges of a vertex are removed one directly after the other; how many there are is any number
+  for a vertex of the coarsest level, one or two for the others.
+- A triangle that a collapse removes has, when it dies, the removed wedge as its first corner; of two
+  triangles that die together, that to the left of the halfedge from the removed to the kept wedge
+  comes first.
+
+Memory: 12 bytes a triangle, 28 bytes a wedge, 28 bytes a vertex.
+*/
+struct Textured_progressive_mesh
+{
+  typedef Simple_cartesian<double>::Point_2 Point_2; ///< a texture coordinate
+  typedef Simple_cartesian<double>::Point_3 Point_3; ///< a point of the surface
+
+  Progressive_mesh progressive_mesh; ///< of the wedges
+  std::vector<Vertex_index> vertex;  ///< of each wedge
+  std::vector<Point_2> uv;           ///< of each wedge
+  std::vector<Point_3> points;       ///< of each vertex
+  /// The number of each vertex in the mesh from which this was built; empty if that is not known.
+  std::vector<Vertex_index> source_vertex;
+
+  /// Returns the number of wedges of the fine mesh.
+  std::size_t number_of_wedges() const { return progressive_mesh.number_of_vertices; }
+
+  /// Returns the number of collapses.
+  std::size_t number_of_collapses() const { return progressive_mesh.collapses.size(); }
+
+  /// Returns the number of wedges after `k` collapses.
+  std::size_t number_of_wedges_after(std::size_t k) const { return number_of_wedges() - k; }
+
+  /// Returns the number of vertices after `k` collapses. Precondition: `is_whole(k)`.
+  std::size_t number_of_vertices_after(std::size_t k) const
+  {
+    const std::size_t wedges = number_of_wedges_after(k);
+    return wedges == 0 ? 0 : vertex[wedges - 1] + 1;
+  }
+
+  /// Returns the wedge into which wedge `w` collapses. Precondition: it is removed at some time.
+  Vertex_index parent(Vertex_index w) const
+  {
+    return progressive_mesh.collapses[number_of_wedges() - 1 - w].kept;
+  }
+
+  /// Returns whether the mesh after `k` collapses is not between the two collapses of one vertex.
+  bool is_whole(std::size_t k) const
+  {
+    const std::size_t wedges = number_of_wedges_after(k);
+    return wedges == 0 || wedges == vertex.size() || vertex[wedges - 1] != vertex[wedges];
+  }
+
+  /// Returns the nearest position from `k` on, towards the coarser ones, that is whole.
+  std::size_t whole_position(std::size_t k) const
+  {
+    CGAL_precondition(k <= number_of_collapses());
+    while(!is_whole(k)) // at most once
+      ++k;
+    return k;
+  }
+};
+
+namespace internal {
+
+// The triangles in the order in which splits make them, each turned as the invariants want it: the
+// corner that comes first, as an index into the corners of `pm`.
+inline std::vector<Vsplit_table::Corner> coarse_first_corners(const Progressive_mesh& pm,
+                                                              const Vsplit_table& table)
+{
+  std::vector<Vsplit_table::Corner> first;
+  first.reserve(pm.triangles.size());
+  for(std::uint32_t t = 0; t < pm.triangles.size(); ++t)
+    if(table.death(t) == Vsplit_table::never)
+      first.push_back(3 * t);
+  for(std::size_t i = pm.collapses.size(); i-- > 0;) {
+    const Vsplit_table::Corners dying = table.dying(i);
+    const auto is_left = [&](Vsplit_table::Corner corner) {
+      const Triangle_indices& t = table.triangles_at_death()[corner / 3];
+      return t[(corner % 3 + 1) % 3] == pm.collapses[i].kept;
+    };
+    for(const bool side : {true, false})
+      for(const Vsplit_table::Corner corner : dying)
+        if(is_left(corner) == side)
+          first.push_back(corner);
+  }
+  return first;
+}
+
+} // namespace internal
+
+/*!
+\ingroup PkgHLSCMLevelsOfDetail
+
+Returns `mesh`, which has the invariants of `Textured_progressive_mesh` but for the numbering, with
+the numbering that they want. Wedges that are never removed and triangles that never die keep their
+order, vertices follow their wedges. Linear time.
+
+\pre the wedges of a vertex that are removed at all are removed one directly after the other, and
+     either all or none of them.
+*/
+inline Textured_progressive_mesh coarse_first(const Textured_progressive_mesh& mesh)
+{
+  const Progressive_mesh& pm = mesh.progressive_mesh;
+  const std::size_t n = pm.number_of_vertices, removed = pm.collapses.size();
+  // The new number of each wedge; those of the base by vertex, which is a stable counting sort
+  std::vector<Vertex_index> wedge(n, no_vertex), source(n);
+  for(std::size_t i = 0; i < removed; ++i)
+    wedge[pm.collapses[i].removed] = Vertex_index(n - 1 - i);
+  std::vector<Vertex_index> begin(mesh.points.size() + 1, 0);
+  for(Vertex_index w = 0; w < n; ++w)
+    if(wedge[w] == no_vertex)
+      ++begin[mesh.vertex[w] + 1];
+  for(std::size_t v = 0; v < mesh.points.size(); ++v)
+    begin[v + 1] += begin[v];
+  for(Vertex_index w = 0; w < n; ++w) {
+    if(wedge[w] == no_vertex)
+      wedge[w] = begin[mesh.vertex[w]]++;
+    source[wedge[w]] = w;
+  }
+
+  Textured_progressive_mesh result;
+  result.vertex.resize(n);
+  result.uv.resize(n);
+  result.points.reserve(mesh.points.size());
+  result.source_vertex.reserve(mesh.points.size());
+  for(Vertex_index w = 0; w < n; ++w) {
+    const Vertex_index v = mesh.vertex[source[w]];
+    if(w == 0 || v != mesh.vertex[source[w - 1]]) {
+      result.points.push_back(mesh.points[v]);
+      result.source_vertex.push_back(mesh.source_vertex.empty() ? v : mesh.source_vertex[v]);
+    }
+    result.vertex[w] = Vertex_index(result.points.size() - 1);
+    result.uv[w] = mesh.uv[source[w]];
+  }
+  Progressive_mesh& fine = result.progressive_mesh;
+  fine.number_of_vertices = n;
+  fine.batch_ends = pm.batch_ends;
+  fine.collapses.reserve(removed);
+  for(const Halfedge_collapse& c : pm.collapses)
+    fine.collapses.push_back({wedge[c.removed], wedge[c.kept]});
+  fine.triangles.reserve(pm.triangles.size());
+  for(const Vsplit_table::Corner corner : internal::coarse_first_corners(pm, Vsplit_table(pm))) {
+    const Triangle_indices& t = pm.triangles[corner / 3];
+    const int c = int(corner % 3);
+    fine.triangles.push_back({wedge[t[c]], wedge[t[(c + 1) % 3]], wedge[t[(c + 2) % 3]]});
+  }
+  return result;
+}
+
+} // namespace Surface_mesh_multiresolution
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_MULTIRESOLUTION_TEXTURED_PROGRESSIVE_MESH_H
