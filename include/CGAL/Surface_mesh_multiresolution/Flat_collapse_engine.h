@@ -7,6 +7,7 @@
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_policies.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/Texture_layer.h>
 
 #include <algorithm>
 #include <atomic>
@@ -55,10 +56,12 @@ not on the number of threads (`Blocked_execution::Thread_scope`).
 \tparam Cost a model of `GetCost`; called by several threads at the same time for vertices that have
         no neighbour in common
 \tparam Filter a model of `PlacementFilter`; the same holds
+\tparam Texture what the engine knows of a texture; see `build_textured_progressive_mesh()`
 
 Expected linear time in the number of vertices (batched), O(n log n) (strict); 85 bytes a vertex.
 */
-template <class Cost = Hierarchy_collapse_cost<>, class Filter = Hierarchy_collapse_filter>
+template <class Cost = Hierarchy_collapse_cost<>, class Filter = Hierarchy_collapse_filter,
+          class Texture = internal::No_texture_layer>
 class Flat_collapse_engine
 {
 public:
@@ -70,13 +73,17 @@ public:
   Flat_collapse_engine(const Indexed_triangle_mesh& mesh, internal::Vertex_rings rings,
                        const std::vector<bool>& is_locked,
                        const Cost& cost = hierarchy_collapse_cost(),
-                       const Filter& filter = hierarchy_collapse_filter());
+                       const Filter& filter = hierarchy_collapse_filter(),
+                       const Texture& texture = Texture());
 
   /// Collapses until the target is reached or nothing more can be collapsed.
   Progressive_mesh run(const Flat_collapse_options& options);
 
   /// Returns the number of costs computed so far, one a vertex and its ring.
   std::size_t number_of_evaluations() const { return m_evaluations; }
+
+  /// Returns what has become of the texture.
+  const Texture& texture() const { return m_texture; }
 
 private:
   typedef Surface_mesh_simplification::internal::Vertex_star Vertex_star;
@@ -152,7 +159,11 @@ private:
   // Whether topology and the size of a ring allow the collapse of v into its ring vertex k.
   bool is_possible(Vertex_index v, std::uint32_t k) const
   {
-    return m_rings.is_collapse_valid(v, k) && !m_rings.needs_new_spill(v, k);
+    if(!m_rings.is_collapse_valid(v, k) || m_rings.needs_new_spill(v, k))
+      return false;
+    if constexpr(Texture::is_textured)
+      return m_texture.is_possible(v, k);
+    return true;
   }
   // Where w is in the ring of v: the degree of v if it is not.
   std::uint32_t position(Vertex_index v, Vertex_index w) const
@@ -164,6 +175,7 @@ private:
   bool load_star(Worker& worker, Vertex_index v) const;
   void set_profile(Worker& worker, Vertex_index v, std::uint32_t k) const;
   float cost_of(const Flat_collapse_profile& profile) const;
+  float cost_of(Worker& worker, Vertex_index v, std::uint32_t k) const;
   Target best_target(Worker& worker, Vertex_index v, bool check_topology) const;
   void evaluate(Worker& worker, Vertex_index v, bool check_topology);
   bool try_collapse(Worker& worker, Vertex_index v, float limit, Collapses& collapses);
@@ -183,31 +195,38 @@ private:
   internal::Vertex_rings m_rings;
   Cost m_cost;
   Filter m_filter;
+  Texture m_texture;
   std::vector<float> m_best_cost;
   std::vector<Vertex_index> m_best_target;
   std::vector<State> m_state;
   std::atomic<std::size_t> m_evaluations{0};
 };
 
-template <class Cost, class Filter>
-Flat_collapse_engine<Cost, Filter>::
+template <class Cost, class Filter, class Texture>
+Flat_collapse_engine<Cost, Filter, Texture>::
 Flat_collapse_engine(const Indexed_triangle_mesh& mesh, internal::Vertex_rings rings,
-                     const std::vector<bool>& is_locked, const Cost& cost, const Filter& filter)
-  : m_mesh(mesh), m_rings(std::move(rings)), m_cost(cost), m_filter(filter)
+                     const std::vector<bool>& is_locked, const Cost& cost, const Filter& filter,
+                     const Texture& texture)
+  : m_mesh(mesh), m_rings(std::move(rings)), m_cost(cost), m_filter(filter), m_texture(texture)
   , m_best_cost(mesh.points.size(), no_cost)
   , m_best_target(mesh.points.size(), no_vertex)
   , m_state(mesh.points.size())
 {
   for(std::size_t v = 0; v < mesh.points.size(); ++v)
     m_state[v] = {0, std::uint8_t(!is_locked.empty() && is_locked[v]), 1};
+  if constexpr(Texture::is_textured) {
+    m_texture.set_rings(m_rings);
+    for(Vertex_index v = 0; v < mesh.points.size(); ++v)
+      m_state[v].is_locked |= std::uint8_t(m_texture.is_fixed(v));
+  }
   if constexpr(Surface_mesh_simplification::internal::Needs_update<Cost>::value) {
     const Flat_collapse_profile profile(surface());
     m_cost.initialize(profile.surface_mesh(), profile.vertex_point_map(), profile.geom_traits());
   }
 }
 
-template <class Cost, class Filter>
-bool Flat_collapse_engine<Cost, Filter>::load_star(Worker& worker, Vertex_index v) const
+template <class Cost, class Filter, class Texture>
+bool Flat_collapse_engine<Cost, Filter, Texture>::load_star(Worker& worker, Vertex_index v) const
 {
   const std::uint32_t d = m_rings.degree(v);
   if(m_state[v].is_locked || d > std::uint32_t(Vertex_star::max_degree))
@@ -231,8 +250,8 @@ bool Flat_collapse_engine<Cost, Filter>::load_star(Worker& worker, Vertex_index 
 }
 
 // Lets the profile describe the collapse of v, whose star is loaded, into its ring vertex k.
-template <class Cost, class Filter>
-void Flat_collapse_engine<Cost, Filter>::set_profile(Worker& worker, Vertex_index v,
+template <class Cost, class Filter, class Texture>
+void Flat_collapse_engine<Cost, Filter, Texture>::set_profile(Worker& worker, Vertex_index v,
                                                      std::uint32_t k) const
 {
   Flat_collapse_profile& profile = worker.profile;
@@ -244,8 +263,8 @@ void Flat_collapse_engine<Cost, Filter>::set_profile(Worker& worker, Vertex_inde
 
 // The cost of the collapse that the profile describes, or `no_cost` if the policies forbid it.
 // Declared inline because it is what the loop over the targets does.
-template <class Cost, class Filter>
-inline float Flat_collapse_engine<Cost, Filter>::cost_of(const Flat_collapse_profile& profile) const
+template <class Cost, class Filter, class Texture>
+inline float Flat_collapse_engine<Cost, Filter, Texture>::cost_of(const Flat_collapse_profile& profile) const
 {
   if(!m_filter(profile, profile.placement()))
     return no_cost;
@@ -253,11 +272,27 @@ inline float Flat_collapse_engine<Cost, Filter>::cost_of(const Flat_collapse_pro
   return cost && float(*cost) < no_cost ? float(*cost) : no_cost; // not a number: no cost
 }
 
+// The cost of collapsing v, whose star is loaded, into its ring vertex k.
+template <class Cost, class Filter, class Texture>
+inline float Flat_collapse_engine<Cost, Filter, Texture>::cost_of(Worker& worker, Vertex_index v,
+                                                                  std::uint32_t k) const
+{
+  if constexpr(Texture::is_textured)
+    if(!m_texture.is_target(v, m_rings.ring(v)[k]))
+      return no_cost;
+  set_profile(worker, v, k);
+  float cost = cost_of(worker.profile);
+  if constexpr(Texture::is_textured)
+    if(cost < no_cost)
+      cost += m_texture.cost(v, k);
+  return cost;
+}
+
 // Asks for what the vertices between alive[i] and alive[end] will need: their lines first and, when
 // these are there, the points of their rings and the lines that a collapse changes. Beyond `end`
 // another thread may be changing the rings.
-template <class Cost, class Filter>
-void Flat_collapse_engine<Cost, Filter>::prefetch(const std::vector<Vertex_index>& alive,
+template <class Cost, class Filter, class Texture>
+void Flat_collapse_engine<Cost, Filter, Texture>::prefetch(const std::vector<Vertex_index>& alive,
                                                   std::size_t i, std::size_t end) const
 {
   if(i + 2 * prefetch_distance >= end)
@@ -281,9 +316,9 @@ void Flat_collapse_engine<Cost, Filter>::prefetch(const std::vector<Vertex_index
 
 // The cheapest target of v that the policies, and if asked topology, allow; the smaller vertex
 // index on a tie. Precondition: the star of v is loaded.
-template <class Cost, class Filter>
-typename Flat_collapse_engine<Cost, Filter>::Target
-Flat_collapse_engine<Cost, Filter>::best_target(Worker& worker, Vertex_index v,
+template <class Cost, class Filter, class Texture>
+typename Flat_collapse_engine<Cost, Filter, Texture>::Target
+Flat_collapse_engine<Cost, Filter, Texture>::best_target(Worker& worker, Vertex_index v,
                                                 bool check_topology) const
 {
   const Vertex_index* r = m_rings.ring(v);
@@ -292,8 +327,7 @@ Flat_collapse_engine<Cost, Filter>::best_target(Worker& worker, Vertex_index v,
   float costs[Vertex_star::max_degree];
   std::fill_n(costs, d, no_cost);
   for(std::uint32_t k = 0; k < d; k += step) {
-    set_profile(worker, v, k);
-    costs[k] = cost_of(worker.profile);
+    costs[k] = cost_of(worker, v, k);
   }
   while(true) {
     // Loops without branches: which target is the best is nothing that a processor can predict.
@@ -312,8 +346,8 @@ Flat_collapse_engine<Cost, Filter>::best_target(Worker& worker, Vertex_index v,
 }
 
 // Notes the best target of v.
-template <class Cost, class Filter>
-void Flat_collapse_engine<Cost, Filter>::evaluate(Worker& worker, Vertex_index v,
+template <class Cost, class Filter, class Texture>
+void Flat_collapse_engine<Cost, Filter, Texture>::evaluate(Worker& worker, Vertex_index v,
                                                   bool check_topology)
 {
   m_state[v].is_stale = 0;
@@ -328,8 +362,8 @@ void Flat_collapse_engine<Cost, Filter>::evaluate(Worker& worker, Vertex_index v
 
 // Collapses v into its best target if that still costs at most `limit`. If topology forbids it, v
 // gets the best target that it allows, and stays for now.
-template <class Cost, class Filter>
-bool Flat_collapse_engine<Cost, Filter>::try_collapse(Worker& worker, Vertex_index v, float limit,
+template <class Cost, class Filter, class Texture>
+bool Flat_collapse_engine<Cost, Filter, Texture>::try_collapse(Worker& worker, Vertex_index v, float limit,
                                                       Collapses& collapses)
 {
   const Vertex_index* r = m_rings.ring(v);
@@ -337,8 +371,7 @@ bool Flat_collapse_engine<Cost, Filter>::try_collapse(Worker& worker, Vertex_ind
   const std::uint32_t k = position(v, m_best_target[v]);
   if(k == d || !load_star(worker, v))
     return false;
-  set_profile(worker, v, k);
-  if(!(cost_of(worker.profile) <= limit))
+  if(!(cost_of(worker, v, k) <= limit))
     return false;
   if(!is_possible(v, k)) {
     evaluate(worker, v, true);
@@ -347,6 +380,8 @@ bool Flat_collapse_engine<Cost, Filter>::try_collapse(Worker& worker, Vertex_ind
   if constexpr(Surface_mesh_simplification::internal::Needs_update<Cost>::value)
     m_cost.update_before_collapse(worker.profile, worker.profile.placement());
   collapses.push_back({v, r[k]});
+  if constexpr(Texture::is_textured)
+    m_texture.collapse(v, k);
   m_rings.collapse(v, k);
   m_state[v].is_gone = 1;
   for(std::uint32_t i = 0; i < d; ++i)
@@ -355,8 +390,8 @@ bool Flat_collapse_engine<Cost, Filter>::try_collapse(Worker& worker, Vertex_ind
 }
 
 // The cost that the cheapest `fraction` of the vertices, but not many more than `wanted`, have.
-template <class Cost, class Filter>
-float Flat_collapse_engine<Cost, Filter>::
+template <class Cost, class Filter, class Texture>
+float Flat_collapse_engine<Cost, Filter, Texture>::
 pass_threshold(const std::vector<Vertex_index>& alive, std::size_t wanted, double fraction) const
 {
   std::vector<float> costs;
@@ -375,8 +410,8 @@ pass_threshold(const std::vector<Vertex_index>& alive, std::size_t wanted, doubl
 
 // Brings all costs up to date. Costs fall, too, where long thin triangles give way to better ones:
 // vertices that would be passed over would spoil the levels.
-template <class Cost, class Filter>
-void Flat_collapse_engine<Cost, Filter>::
+template <class Cost, class Filter, class Texture>
+void Flat_collapse_engine<Cost, Filter, Texture>::
 evaluate_stale(const std::vector<Vertex_index>& alive, Progress& progress,
                const Progressive_mesh& pm)
 {
@@ -396,9 +431,9 @@ evaluate_stale(const std::vector<Vertex_index>& alive, Progress& progress,
 }
 
 // One block if there are few vertices; blocks of equal numbers of living vertices otherwise.
-template <class Cost, class Filter>
-std::vector<typename Flat_collapse_engine<Cost, Filter>::Block>
-Flat_collapse_engine<Cost, Filter>::
+template <class Cost, class Filter, class Texture>
+std::vector<typename Flat_collapse_engine<Cost, Filter, Texture>::Block>
+Flat_collapse_engine<Cost, Filter, Texture>::
 cut_into_blocks(const std::vector<Vertex_index>& alive, std::size_t wanted, bool is_shifted) const
 {
   const Vertex_index end = Vertex_index(m_mesh.points.size());
@@ -420,8 +455,8 @@ cut_into_blocks(const std::vector<Vertex_index>& alive, std::size_t wanted, bool
 // Vertices whose cost was not above the threshold when the pass began are removed if the same
 // collapse still costs no more. The others wait for the next pass, where all their targets are
 // compared again.
-template <class Cost, class Filter>
-void Flat_collapse_engine<Cost, Filter>::run_block(const std::vector<Vertex_index>& alive,
+template <class Cost, class Filter, class Texture>
+void Flat_collapse_engine<Cost, Filter, Texture>::run_block(const std::vector<Vertex_index>& alive,
                                                    float threshold, Block& block)
 {
   Worker worker(surface());
@@ -439,8 +474,8 @@ void Flat_collapse_engine<Cost, Filter>::run_block(const std::vector<Vertex_inde
   m_evaluations += worker.evaluations;
 }
 
-template <class Cost, class Filter>
-void Flat_collapse_engine<Cost, Filter>::
+template <class Cost, class Filter, class Texture>
+void Flat_collapse_engine<Cost, Filter, Texture>::
 run_pass(const std::vector<Vertex_index>& alive, float threshold, std::size_t wanted,
          Progress& progress, Progressive_mesh& pm)
 {
@@ -460,8 +495,8 @@ run_pass(const std::vector<Vertex_index>& alive, float threshold, std::size_t wa
     pm.batch_ends.push_back(pm.collapses.size());
 }
 
-template <class Cost, class Filter>
-void Flat_collapse_engine<Cost, Filter>::
+template <class Cost, class Filter, class Texture>
+void Flat_collapse_engine<Cost, Filter, Texture>::
 run_batched(const Flat_collapse_options& options, Progressive_mesh& pm)
 {
   const std::size_t n = m_mesh.points.size();
@@ -487,8 +522,8 @@ run_batched(const Flat_collapse_options& options, Progressive_mesh& pm)
   }
 }
 
-template <class Cost, class Filter>
-void Flat_collapse_engine<Cost, Filter>::
+template <class Cost, class Filter, class Texture>
+void Flat_collapse_engine<Cost, Filter, Texture>::
 run_strict(const Flat_collapse_options& options, Progressive_mesh& pm)
 {
   typedef std::pair<float, Vertex_index> Entry; // smallest cost first, then smallest index
@@ -524,8 +559,8 @@ run_strict(const Flat_collapse_options& options, Progressive_mesh& pm)
   m_evaluations += worker.evaluations;
 }
 
-template <class Cost, class Filter>
-Progressive_mesh Flat_collapse_engine<Cost, Filter>::run(const Flat_collapse_options& options)
+template <class Cost, class Filter, class Texture>
+Progressive_mesh Flat_collapse_engine<Cost, Filter, Texture>::run(const Flat_collapse_options& options)
 {
   Progressive_mesh pm;
   pm.number_of_vertices = m_mesh.points.size();

@@ -58,6 +58,17 @@ public:
                    m_corners.data() + m_begin[i] + m_number_of_dying[i]);
   }
 
+  /// A triangle that a split needs though it does not change it.
+  struct Guard
+  {
+    std::uint32_t collapse; ///< that the split undoes
+    std::uint32_t triangle; ///< the other triangle at the edge
+  };
+
+  /// Returns, in the order of the collapses, the triangles beyond the edge where a split puts an ear,
+  /// that is a triangle whose new vertex gets no other.
+  const std::vector<Guard>& guards() const { return m_guards; }
+
   /// Returns the collapse that triangle `t` dies of, or `never`.
   std::uint32_t death(std::uint32_t t) const { return m_death[t]; }
 
@@ -68,11 +79,14 @@ public:
 private:
   class Descent;
 
+  void add_guard(const Descent& descent, const Progressive_mesh& pm, std::size_t i);
+
   std::vector<std::uint32_t> m_begin; // of the corners of each collapse, those of the dying first
   std::vector<std::uint8_t> m_number_of_dying;
   std::vector<Corner> m_corners;
   std::vector<std::uint32_t> m_death;
   std::vector<Triangle_indices> m_triangles;
+  std::vector<Guard> m_guards;
 };
 
 // The corners at each vertex as a linked list. The list of a removed vertex becomes the tail of the
@@ -99,6 +113,14 @@ public:
         use(corner);
     }
     m_first[v] = m_last[v] = none;
+  }
+
+  // Calls use(corner) for the corners at v, of dead triangles too.
+  template <class Use>
+  void for_each(Vertex_index v, const Use& use) const
+  {
+    for(Corner corner = m_first[v]; corner != none; corner = m_next[corner])
+      use(corner);
   }
 
   void append(Vertex_index v, Corner corner)
@@ -137,6 +159,8 @@ inline Vsplit_table::Vsplit_table(const Progressive_mesh& pm)
     m_number_of_dying.push_back(std::uint8_t(m_corners.size() - m_begin.back()));
     for(std::size_t d = m_begin.back(); d < m_corners.size(); ++d)
       m_death[m_corners[d] / 3] = std::uint32_t(i);
+    if(moved.empty())
+      add_guard(descent, pm, i);
     for(const Corner corner : moved) {
       m_triangles[corner / 3][corner % 3] = kept;
       descent.append(kept, corner);
@@ -144,6 +168,25 @@ inline Vsplit_table::Vsplit_table(const Progressive_mesh& pm)
     m_corners.insert(m_corners.end(), moved.begin(), moved.end());
   }
   m_begin.push_back(std::uint32_t(m_corners.size()));
+}
+
+// The triangle that shares the edge from the kept to the third vertex with the ear that has died.
+inline void Vsplit_table::add_guard(const Descent& descent, const Progressive_mesh& pm,
+                                    std::size_t i)
+{
+  const Vertex_index removed = pm.collapses[i].removed, kept = pm.collapses[i].kept;
+  for(std::size_t d = m_begin[i]; d < m_corners.size(); ++d) {
+    const Corner ear = m_corners[d];
+    Vertex_index third = no_vertex;
+    for(const Vertex_index v : m_triangles[ear / 3])
+      if(v != removed && v != kept)
+        third = v;
+    descent.for_each(kept, [&](Corner corner) {
+      const Triangle_indices& t = m_triangles[corner / 3];
+      if(m_death[corner / 3] == never && (t[0] == third || t[1] == third || t[2] == third))
+        m_guards.push_back({std::uint32_t(i), corner / 3});
+    });
+  }
 }
 
 } // namespace Surface_mesh_multiresolution

@@ -1,0 +1,153 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_LEVEL_EXTRACTOR_H
+#define CGAL_SURFACE_MESH_MULTIRESOLUTION_LEVEL_EXTRACTOR_H
+
+#include <CGAL/Surface_mesh_multiresolution/Textured_progressive_mesh.h>
+
+#include <CGAL/assertions.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_multiresolution {
+
+/*!
+\ingroup PkgHLSCMLevelsOfDetail
+
+The class `Level_extractor` returns the triangles of any level of a `Textured_progressive_mesh` in time
+proportional to their number.
+
+A level after \f$ k \f$ collapses has the first wedges, vertices and triangles of the fine mesh; a
+corner that is not among these wedges has collapsed into one of them. Corners are stored at every
+other halving of the mesh, so that few steps lead there.
+
+Memory: up to 24 bytes a triangle and 8 a wedge. Construction in linear time.
+*/
+class Level_extractor
+{
+public:
+  /// Prepares the extraction from `mesh`, which must live as long.
+  explicit Level_extractor(const Textured_progressive_mesh& mesh);
+
+  /// Returns the number of triangles after `k` collapses.
+  std::size_t number_of_triangles(std::size_t k) const
+  {
+    return m_triangles_before[m_mesh.number_of_wedges_after(k)];
+  }
+
+  /// Returns the number of triangles of the coarsest level.
+  std::size_t smallest_number_of_triangles() const
+  {
+    return number_of_triangles(m_mesh.number_of_collapses());
+  }
+
+  /// Returns the smallest number of collapses after which there are at most `n` triangles and the
+  /// level is whole; all collapses if no level has so few. Logarithmic time.
+  std::size_t position_of_triangles(std::size_t n) const
+  {
+    const auto base = m_triangles_before.begin() + m_mesh.number_of_wedges_after(
+                                                     m_mesh.number_of_collapses());
+    const auto beyond = std::upper_bound(base, m_triangles_before.end(), n);
+    if(beyond == base)
+      return m_mesh.number_of_collapses();
+    const std::size_t wedges = std::size_t(beyond - m_triangles_before.begin()) - 1;
+    return m_mesh.whole_position(m_mesh.number_of_wedges() - wedges);
+  }
+
+  /// Returns the triangles after `k` collapses, as indices of wedges.
+  std::vector<Triangle_indices> triangles(std::size_t k) const
+  {
+    std::vector<Triangle_indices> result;
+    extract(k, result);
+    return result;
+  }
+
+  /// Sets `result` to the triangles after `k` collapses, as indices of wedges.
+  void extract(std::size_t k, std::vector<Triangle_indices>& result) const;
+
+  /// Returns for each wedge of the level after `fine` collapses the one into which it has collapsed
+  /// after `coarse` collapses: a geomorph (Hoppe 1996) between the two levels draws the triangles of
+  /// the fine one with wedge \f$ w \f$ at \f$ (1 - \alpha) x_w + \alpha x_{a(w)} \f$, its texture
+  /// coordinate likewise. Precondition: `fine <= coarse`.
+  std::vector<Vertex_index> ancestors(std::size_t fine, std::size_t coarse) const;
+
+private:
+  Vertex_index ancestor(Vertex_index w, Vertex_index end) const
+  {
+    while(w >= end)
+      w = m_parent[w];
+    return w;
+  }
+
+  struct Halving
+  {
+    std::size_t wedges;
+    std::vector<Triangle_indices> triangles;
+  };
+
+  const Textured_progressive_mesh& m_mesh;
+  std::vector<Vertex_index> m_parent;
+  std::vector<std::uint32_t> m_triangles_before; // triangles of the mesh of the first w wedges
+  std::vector<Halving> m_halvings;               // from fine to coarse, without the fine mesh
+};
+
+inline Level_extractor::Level_extractor(const Textured_progressive_mesh& mesh)
+  : m_mesh(mesh), m_parent(mesh.number_of_wedges(), no_vertex)
+  , m_triangles_before(mesh.number_of_wedges() + 1, 0)
+{
+  const std::size_t n = mesh.number_of_wedges();
+  const std::size_t base = mesh.number_of_wedges_after(mesh.number_of_collapses());
+  const std::vector<Triangle_indices>& triangles = mesh.progressive_mesh.triangles;
+  // Round a wedge inside a chart the edges opposite to it close, and their differences add up to zero
+  std::vector<Vertex_index> gap(n, 0);
+  for(const Triangle_indices& t : triangles)
+    for(int c = 0; c < 3; ++c)
+      gap[t[c]] += t[(c + 2) % 3] - t[(c + 1) % 3];
+  std::size_t number = triangles.size();
+  for(Vertex_index w = Vertex_index(n); w-- > base;) {
+    m_triangles_before[w + 1] = std::uint32_t(number);
+    number -= gap[w] == 0 ? 2 : 1;
+    m_parent[w] = mesh.parent(w);
+  }
+  for(std::size_t w = 0; w <= base; ++w)
+    m_triangles_before[w] = std::uint32_t(number);
+  for(std::size_t wedges = n / 2; wedges > (std::max)(base, std::size_t(64)); wedges /= 2) {
+    Halving halving = {wedges, {}};
+    extract(n - wedges, halving.triangles);
+    m_halvings.push_back(std::move(halving));
+  }
+}
+
+inline void Level_extractor::extract(std::size_t k, std::vector<Triangle_indices>& result) const
+{
+  CGAL_precondition(k <= m_mesh.number_of_collapses());
+  const Vertex_index end = Vertex_index(m_mesh.number_of_wedges_after(k));
+  const std::vector<Triangle_indices>* source = &m_mesh.progressive_mesh.triangles;
+  for(const Halving& halving : m_halvings)
+    if(halving.wedges >= end)
+      source = &halving.triangles;
+  const std::size_t number = number_of_triangles(k);
+  result.resize(number);
+  for(std::size_t t = 0; t < number; ++t)
+    for(int c = 0; c < 3; ++c)
+      result[t][c] = ancestor((*source)[t][c], end);
+}
+
+inline std::vector<Vertex_index> Level_extractor::ancestors(std::size_t fine,
+                                                            std::size_t coarse) const
+{
+  CGAL_precondition(fine <= coarse);
+  const Vertex_index end = Vertex_index(m_mesh.number_of_wedges_after(coarse));
+  std::vector<Vertex_index> result(m_mesh.number_of_wedges_after(fine));
+  for(Vertex_index w = 0; w < result.size(); ++w)
+    result[w] = w < end ? w : result[m_parent[w]];
+  return result;
+}
+
+} // namespace Surface_mesh_multiresolution
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_MULTIRESOLUTION_LEVEL_EXTRACTOR_H

@@ -1,0 +1,155 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_TEXTURED_TRIANGLE_MESH_H
+#define CGAL_SURFACE_MESH_MULTIRESOLUTION_TEXTURED_TRIANGLE_MESH_H
+
+#include <CGAL/Surface_mesh_multiresolution/Indexed_triangle_mesh.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/Triangles_at_vertices.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_multiresolution {
+
+/*!
+\ingroup PkgHLSCMLevelsOfDetail
+
+The struct `Textured_triangle_mesh` is a triangle mesh with a texture coordinate at each corner. Where
+corners of the same vertex have different ones, there is a seam.
+
+Invariant: `wedges` is as long as `triangles`; the entries of `triangles` are smaller than
+`points.size()`, those of `wedges` smaller than `uv.size()`.
+*/
+struct Textured_triangle_mesh
+{
+  typedef Simple_cartesian<double>::Point_2 Point_2; ///< a texture coordinate
+  typedef Simple_cartesian<double>::Point_3 Point_3; ///< a point of the surface
+
+  std::vector<Point_3> points;             ///< of each vertex
+  std::vector<Triangle_indices> triangles; ///< the vertices of each triangle
+  std::vector<Point_2> uv;                 ///< texture coordinates, in any number and order
+  std::vector<Triangle_indices> wedges;    ///< for each corner of a triangle where in `uv` its own is
+};
+
+namespace internal {
+
+// Twice the signed area of a triangle in the texture.
+inline double double_area(const Textured_triangle_mesh::Point_2& p,
+                          const Textured_triangle_mesh::Point_2& q,
+                          const Textured_triangle_mesh::Point_2& r)
+{
+  return (q.x() - p.x()) * (r.y() - p.y()) - (q.y() - p.y()) * (r.x() - p.x());
+}
+
+// Whether a triangle with these areas before and after a change has turned over; one that had no
+// area may become anything.
+inline bool has_turned_over(double before, double after)
+{
+  return before != 0. && !(before > 0. ? after > 0. : after < 0.);
+}
+
+// The corners of one vertex, joined to wedges. A corner (v, a, b) has the edge to a before it and
+// the edge to b behind it.
+class Wedges_at_vertex
+{
+public:
+  explicit Wedges_at_vertex(const Textured_triangle_mesh& mesh)
+    : m_mesh(mesh), m_triangles(mesh.triangles, mesh.points.size())
+  {}
+
+  // Sets `wedges[t][c]` for the corners of v, counting on from `number`. Quadratic in the degree.
+  void join(Vertex_index v, std::vector<Triangle_indices>& wedges, Vertex_index& number)
+  {
+    m_corners.clear();
+    for(const std::uint32_t* c = m_triangles.begin(v); c != m_triangles.end(v); ++c)
+      m_corners.push_back(corner(*c / 3, int(*c % 3)));
+    for(Corner& c : m_corners)
+      for(const Corner& d : m_corners)
+        if(d.ahead == c.behind && is_smooth(c, d))
+          join(c.group, d.group);
+    for(const Corner& c : m_corners) {
+      Vertex_index& wedge = wedges[c.triangle][c.place];
+      for(const Corner& d : m_corners) {
+        if(&d == &c)
+          break;
+        if(d.group == c.group)
+          wedge = wedges[d.triangle][d.place];
+      }
+      if(wedge == no_vertex)
+        wedge = number++;
+    }
+  }
+
+private:
+  struct Corner
+  {
+    std::uint32_t triangle;
+    int place;
+    Vertex_index ahead, behind; // the vertices of the two edges
+    std::size_t group;
+  };
+
+  Corner corner(std::uint32_t t, int c) const
+  {
+    const Triangle_indices& vs = m_mesh.triangles[t];
+    return {t, c, vs[(c + 1) % 3], vs[(c + 2) % 3], m_corners.size()};
+  }
+
+  // Whether the texture goes on across the edge behind c, which is the edge ahead of d.
+  bool is_smooth(const Corner& c, const Corner& d) const
+  {
+    return uv(c.triangle, c.place) == uv(d.triangle, d.place)
+        && uv(c.triangle, c.place + 2) == uv(d.triangle, d.place + 1);
+  }
+
+  const Textured_triangle_mesh::Point_2& uv(std::uint32_t t, int place) const
+  {
+    return m_mesh.uv[m_mesh.wedges[t][place % 3]];
+  }
+
+  void join(std::size_t from, std::size_t to)
+  {
+    for(Corner& c : m_corners)
+      if(c.group == from)
+        c.group = to;
+  }
+
+  const Textured_triangle_mesh& m_mesh;
+  Triangles_at_vertices m_triangles;
+  std::vector<Corner> m_corners;
+};
+
+} // namespace internal
+
+/*!
+\ingroup PkgHLSCMLevelsOfDetail
+
+Returns `mesh` with one texture coordinate for each wedge, that is for the corners of a vertex between
+one seam and the next, in the order of the vertices. An edge is no seam if the texture coordinates
+of its ends are equal on both sides, whatever their indices. Linear time for bounded degrees.
+*/
+inline Textured_triangle_mesh with_wedges(const Textured_triangle_mesh& mesh)
+{
+  Textured_triangle_mesh result;
+  result.points = mesh.points;
+  result.triangles = mesh.triangles;
+  result.wedges.assign(mesh.triangles.size(), {no_vertex, no_vertex, no_vertex});
+  internal::Wedges_at_vertex at_vertex(mesh);
+  Vertex_index number = 0;
+  for(Vertex_index v = 0; v < mesh.points.size(); ++v)
+    at_vertex.join(v, result.wedges, number);
+  result.uv.resize(number);
+  for(std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for(int c = 0; c < 3; ++c)
+      result.uv[result.wedges[t][c]] = mesh.uv[mesh.wedges[t][c]];
+  return result;
+}
+
+} // namespace Surface_mesh_multiresolution
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_MULTIRESOLUTION_TEXTURED_TRIANGLE_MESH_H

@@ -1,0 +1,230 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_BUILD_TEXTURED_PROGRESSIVE_MESH_H
+#define CGAL_SURFACE_MESH_MULTIRESOLUTION_BUILD_TEXTURED_PROGRESSIVE_MESH_H
+
+#include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
+#include <CGAL/Surface_mesh_multiresolution/Textured_progressive_mesh.h>
+#include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
+#include <CGAL/Surface_mesh_multiresolution/build_progressive_mesh.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/Texture_layer.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/replay_collapses.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_multiresolution {
+
+/// \ingroup PkgHLSCMLevelsOfDetail
+/// The options of `build_textured_progressive_mesh()`.
+struct Textured_progressive_mesh_options
+{
+  /// Vertices of the coarsest level; 0: as few as topology, shape and texture allow.
+  std::size_t target_vertices = 0;
+  Collapse_order order = Collapse_order::BATCHED; ///< which collapse comes next
+  double angular_defect_bound = 70.; ///< a vertex of no smaller defect stays; degrees
+  /// How much the texture deviation at the removed vertex (Cohen, Olano, Manocha 1998) counts beside
+  /// volume, border and shape, as a length beside lengths; 0 leaves it out.
+  double texture_deviation_weight = 0.;
+  /// For each vertex whether it must stay; empty for none.
+  std::vector<bool> is_locked;
+  /// Told the part done in [0, 1] from time to time; returning false stops early.
+  std::function<bool(double)> progress;
+};
+
+/// \ingroup PkgHLSCMLevelsOfDetail
+/// What `build_textured_progressive_mesh()` returns.
+struct Textured_progressive_mesh_result
+{
+  Textured_progressive_mesh mesh; ///< empty if there is an error
+  std::string error;              ///< why there is no mesh, as a sentence; empty if all is well
+};
+
+namespace internal {
+
+inline std::string texture_error(const Textured_triangle_mesh& mesh)
+{
+  if(mesh.wedges.size() != mesh.triangles.size())
+    return "there are not as many triangles in the texture as on the surface";
+  for(std::size_t t = 0; t < mesh.wedges.size(); ++t)
+    for(const Vertex_index w : mesh.wedges[t]) {
+      if(w >= mesh.uv.size())
+        return "triangle " + std::to_string(t) + " has a corner without texture coordinate";
+      if(!std::isfinite(mesh.uv[w].x()) || !std::isfinite(mesh.uv[w].y()))
+        return "triangle " + std::to_string(t)
+             + " has a texture coordinate that is not a finite number";
+    }
+  return point_error(mesh.points);
+}
+
+// Collapses of wedges, with the ends of the passes.
+struct Wedge_collapses
+{
+  std::vector<Halfedge_collapse> collapses;
+  std::vector<std::size_t> batch_ends;
+  std::string error;
+};
+
+// Decimates a mesh that has its wedges from `with_wedges()`.
+inline Wedge_collapses decimate_textured(const Textured_triangle_mesh& mesh,
+                                         const Textured_progressive_mesh_options& options)
+{
+  Wedge_collapses result;
+  Indexed_triangle_mesh sorted = {mesh.points, mesh.triangles};
+  if(!(normalize(sorted) > 0.)) {
+    result.error = "all edges are without length";
+    return result;
+  }
+  const std::vector<Vertex_index> source = sort_spatially(sorted);
+  Vertex_rings rings(sorted);
+  result.error = ring_error(rings, source);
+  if(!result.error.empty())
+    return result;
+  std::vector<bool> is_locked(options.is_locked.size());
+  for(std::size_t v = 0; v < is_locked.size(); ++v)
+    is_locked[v] = options.is_locked[source[v]];
+  const Texture_layer texture(mesh, sorted, source, rings, options.texture_deviation_weight);
+  Flat_collapse_engine<Hierarchy_collapse_cost<>, Hierarchy_collapse_filter, Texture_layer> engine(
+    sorted, std::move(rings), is_locked, hierarchy_collapse_cost(),
+    hierarchy_collapse_filter(options.angular_defect_bound), texture);
+  Flat_collapse_options flat;
+  flat.target_vertices = options.target_vertices;
+  flat.order = options.order;
+  flat.progress = options.progress;
+  const Progressive_mesh pm = engine.run(flat);
+  auto batch_end = pm.batch_ends.begin();
+  for(std::size_t i = 0; i < pm.collapses.size(); ++i) {
+    engine.texture().for_each_collapse(
+      pm.collapses[i].removed, [&result](Vertex_index removed, Vertex_index kept) {
+        result.collapses.push_back({removed, kept});
+      });
+    if(batch_end != pm.batch_ends.end() && *batch_end == i + 1) {
+      result.batch_ends.push_back(result.collapses.size());
+      ++batch_end;
+    }
+  }
+  return result;
+}
+
+} // namespace internal
+
+/*!
+\ingroup PkgHLSCMLevelsOfDetail
+
+Returns a progressive mesh of `mesh` all levels of which share its texture coordinates.
+
+Vertices on seams and borders leave only along them, on both sides of a seam at once, and those where
+seams meet or end stay: every level has the topology of the input, and each chart stays what it is,
+a disk if it was one. No triangle turns over in the texture. What the collapses cost is the default
+of `build_progressive_mesh()`, at seams together with the square root of the area that the texture of
+a chart loses or gains.
+
+`mesh` may have any size and place, several components and borders. Bad data (vertices without a
+face or with several fans of faces, coordinates that are not finite) give a result with `error` set.
+
+Expected linear time; see `Flat_collapse_engine`.
+*/
+inline Textured_progressive_mesh_result
+build_textured_progressive_mesh(const Textured_triangle_mesh& mesh,
+                                const Textured_progressive_mesh_options& options
+                                = Textured_progressive_mesh_options())
+{
+  CGAL_precondition(options.is_locked.empty() || options.is_locked.size() == mesh.points.size());
+  Textured_progressive_mesh_result result;
+  result.error = internal::texture_error(mesh);
+  if(!result.error.empty())
+    return result;
+  const Textured_triangle_mesh wedged = with_wedges(mesh);
+  internal::Wedge_collapses wedges = internal::decimate_textured(wedged, options);
+  result.error = std::move(wedges.error);
+  if(!result.error.empty())
+    return result;
+  Textured_progressive_mesh fine;
+  fine.progressive_mesh.number_of_vertices = wedged.uv.size();
+  fine.progressive_mesh.triangles = wedged.wedges;
+  fine.progressive_mesh.collapses = std::move(wedges.collapses);
+  fine.progressive_mesh.batch_ends = std::move(wedges.batch_ends);
+  fine.points = wedged.points;
+  fine.uv = wedged.uv;
+  fine.vertex.resize(wedged.uv.size());
+  for(std::size_t t = 0; t < wedged.triangles.size(); ++t)
+    for(int c = 0; c < 3; ++c)
+      fine.vertex[wedged.wedges[t][c]] = wedged.triangles[t][c];
+  result.mesh = coarse_first(fine);
+  return result;
+}
+
+/*!
+\ingroup PkgHLSCMLevelsOfDetail
+
+Returns the progressive mesh of one chart from the collapses with which it was parameterized, which
+spares the decimation: `pm` is what `HLSCM_parameterizer_3::progressive_mesh()` returns, `points` and
+`uv` belong to its vertices.
+
+Collapses that turn triangles over in the texture are left out, and those that are no longer possible
+without them. Then decimation goes on to the coarsest level that `options` ask for, of which
+`order` and `angular_defect_bound` count for this part only.
+
+Bad data: as above. Linear time.
+*/
+inline Textured_progressive_mesh_result
+build_textured_progressive_mesh(const Progressive_mesh& pm,
+                                const std::vector<Textured_triangle_mesh::Point_3>& points,
+                                const std::vector<Textured_triangle_mesh::Point_2>& uv,
+                                const Textured_progressive_mesh_options& options
+                                = Textured_progressive_mesh_options())
+{
+  CGAL_precondition(points.size() == pm.number_of_vertices && uv.size() == pm.number_of_vertices);
+  Textured_progressive_mesh_result result;
+  Textured_progressive_mesh fine;
+  fine.progressive_mesh.number_of_vertices = pm.number_of_vertices;
+  fine.progressive_mesh.triangles = pm.triangles;
+  fine.points = points;
+  fine.uv = uv;
+  fine.vertex.resize(points.size());
+  std::iota(fine.vertex.begin(), fine.vertex.end(), Vertex_index(0));
+  result.error = internal::texture_error({points, pm.triangles, uv, pm.triangles});
+  internal::Replay replay;
+  if(result.error.empty())
+    result.error = replay.run(pm, points, uv, options.target_vertices, options.is_locked);
+  if(!result.error.empty())
+    return result;
+  fine.progressive_mesh.collapses = replay.collapses;
+  fine.progressive_mesh.batch_ends = replay.batch_ends;
+
+  // Go on from the coarsest mesh, which is small
+  const std::size_t left = points.size() - replay.collapses.size();
+  if(left > options.target_vertices) {
+    Textured_progressive_mesh_options rest = options;
+    Textured_triangle_mesh coarse;
+    for(const Vertex_index v : replay.vertices) {
+      coarse.points.push_back(points[v]);
+      coarse.uv.push_back(uv[v]);
+      if(!options.is_locked.empty())
+        rest.is_locked[coarse.points.size() - 1] = options.is_locked[v];
+    }
+    rest.is_locked.resize(options.is_locked.empty() ? 0 : coarse.points.size());
+    coarse.triangles = coarse.wedges = replay.triangles;
+    const internal::Wedge_collapses more = internal::decimate_textured(coarse, rest);
+    const std::size_t first = fine.progressive_mesh.collapses.size();
+    for(const Halfedge_collapse& c : more.collapses)
+      fine.progressive_mesh.collapses.push_back(
+        {replay.vertices[c.removed], replay.vertices[c.kept]});
+    for(const std::size_t end : more.batch_ends)
+      fine.progressive_mesh.batch_ends.push_back(first + end);
+  }
+  result.mesh = coarse_first(fine);
+  return result;
+}
+
+} // namespace Surface_mesh_multiresolution
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_MULTIRESOLUTION_BUILD_TEXTURED_PROGRESSIVE_MESH_H
