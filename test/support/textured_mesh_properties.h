@@ -58,7 +58,7 @@ inline std::string error_in_numbering(const Textured_progressive_mesh& mesh)
     for(std::uint32_t t = 0; t < pm.triangles.size(); ++t)
       if(cursor.is_alive(t) != (t < cursor.number_of_triangles()))
         return "triangles are not in the order of their birth";
-    if(pm.triangles.size() > 3000) // quadratic
+    if(pm.triangles.size() > 1000) // quadratic
       break;
   }
   const auto& table = cursor.table();

@@ -116,6 +116,9 @@ struct HLSCM_options
   /// Seconds after which the map becomes the result as it is; 0 for no limit. Nothing is cut off
   /// before the map of the coarsest level, which comes after about two thirds of the whole time.
   double time_limit = 0.;
+  /// Whether the collapses that lead to the levels are kept, for levels of detail that share the
+  /// map as their texture coordinates: see `HLSCM_parameterizer_3::progressive_mesh()`.
+  bool keep_progressive_mesh = false;
   /// Told the part done in [0, 1] from time to time; returning `false` cancels.
   std::function<bool(double)> progress;
   /// Told the map on each level as soon as it is known; returning `false` makes it the result as it

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_HLSCM_PARAMETERIZER_3_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_HLSCM_PARAMETERIZER_3_H
 
+#include <CGAL/Surface_mesh_parameterization/Chart_progressive_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
 #include <CGAL/Surface_mesh_parameterization/Solver_traits_cholesky.h>
@@ -106,6 +107,7 @@ public:
     const Border_parameterizer& border_parameterizer = Border_parameterizer())
     : m_options(options), m_border_parameterizer(border_parameterizer)
     , m_report(std::make_shared<HLSCM_report>())
+    , m_progressive_mesh(std::make_shared<Chart_progressive_mesh>())
   {}
 
   /// Gives access to the options.
@@ -122,6 +124,10 @@ public:
 
   /// Returns the report of the last run of this parameterizer or of a copy of it.
   const HLSCM_report& report() const { return *m_report; }
+
+  /// Returns the collapses of the last run of this parameterizer or of a copy of it, if
+  /// `HLSCM_options::keep_progressive_mesh` was set and the method has a hierarchy.
+  const Chart_progressive_mesh& progressive_mesh() const { return *m_progressive_mesh; }
 
   /// Returns whether the map is one-to-one for certain.
   template <class VertexUVMap>
@@ -171,7 +177,9 @@ private:
   HLSCM_options m_options;
   Border_parameterizer m_border_parameterizer;
   std::vector<std::pair<vertex_descriptor, Point_2>> m_pins;
-  std::shared_ptr<HLSCM_report> m_report; // shared: SMP::parameterize() copies the parameterizer
+  // Shared: SMP::parameterize() copies the parameterizer
+  std::shared_ptr<HLSCM_report> m_report;
+  std::shared_ptr<Chart_progressive_mesh> m_progressive_mesh;
 };
 
 template <class TM, class BP, class ST, class CT>
@@ -253,6 +261,7 @@ parameterize(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvma
              VertexIndexMap vimap, VertexParameterizedMap vpmap)
 {
   *m_report = HLSCM_report();
+  *m_progressive_mesh = Chart_progressive_mesh();
   m_report->method = internal::name_of(m_options.method);
   const Blocked_execution::Thread_scope threads(is_parallel ? m_options.threads : 1);
   internal::Stopwatch watch;
@@ -283,6 +292,8 @@ parameterize(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvma
   auto z = solver.run();
   if(chart.error != OK || m_report->cancelled)
     return finish(chart);
+  if(m_options.keep_progressive_mesh)
+    *m_progressive_mesh = {solver.take_progressive_mesh(), chart.source};
   watch.lap();
   const auto rank = chart.rank(num_vertices(mesh));
   std::vector<bool> is_pinned(z.size(), false);

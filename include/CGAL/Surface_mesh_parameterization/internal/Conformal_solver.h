@@ -75,6 +75,12 @@ public:
   // became of it. The mesh of the chart is used up.
   Vector run();
 
+  // Returns the collapses that led to the levels, if the options keep them.
+  Surface_mesh_multiresolution::Progressive_mesh take_progressive_mesh()
+  {
+    return std::move(m_progressive_mesh);
+  }
+
 protected:
   typedef Surface_mesh_multiresolution::Mesh_level Level;
 
@@ -131,14 +137,18 @@ protected:
   Conformal_hierarchy<CoarsestSolver> m_hierarchy;
   std::vector<Multigrid::Diagonal_mass> m_masses;        // of the levels, if there are no pins
   double m_surface_area = 0.;                            // the same
+  Surface_mesh_multiresolution::Progressive_mesh m_progressive_mesh; // if it is kept
 };
 
 template <class CoarsestSolver>
 void Conformal_solver<CoarsestSolver>::build_hierarchy()
 {
-  m_hierarchy.set_levels(build_levels(m_chart, m_pins, m_options, [this](double part) {
+  Built_levels built = build_levels(m_chart, m_pins, m_options, [this](double part) {
     return m_progress(0.05, 0.6, part);
-  }));
+  });
+  m_hierarchy.set_levels(std::move(built.levels));
+  if(m_options.keep_progressive_mesh)
+    m_progressive_mesh = std::move(built.progressive_mesh);
   for(const Level& level : m_hierarchy.levels())
     m_report.levels.push_back({level.vertices.size(), level.mesh.triangles.size(), 0, 0.});
 }

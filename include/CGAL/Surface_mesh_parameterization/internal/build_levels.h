@@ -53,9 +53,16 @@ decimate(Chart& chart, const std::vector<Pin>& pins, const HLSCM_options& option
   return engine.run(decimation);
 }
 
-// The levels for the method of the options, the coarsest first, from the mesh of the chart, which is
-// moved into the finest; none if `progress`, which is told how far the decimation is, returns false.
-inline std::vector<Surface_mesh_multiresolution::Mesh_level>
+// Levels, the coarsest first, and the collapses that led to them.
+struct Built_levels
+{
+  std::vector<Surface_mesh_multiresolution::Mesh_level> levels;
+  Surface_mesh_multiresolution::Progressive_mesh progressive_mesh;
+};
+
+// The levels for the method of the options from the mesh of the chart, which is moved into the
+// finest; none if `progress`, which is told how far the decimation is, returns false.
+inline Built_levels
 build_levels(Chart& chart, const std::vector<Pin>& pins, const HLSCM_options& options,
              const std::function<bool(double)>& progress)
 {
@@ -69,13 +76,15 @@ build_levels(Chart& chart, const std::vector<Pin>& pins, const HLSCM_options& op
   hierarchy.rule = options.prolongation;
   bool goes_on = true;
   const auto observe = [&](double part) { return goes_on = progress(part); };
-  const SMM::Progressive_mesh pm
+  Built_levels result;
+  result.progressive_mesh
     = is_hierarchical(options.method) ? decimate(chart, pins, options, observe)
                                       : SMM::trivial_progressive_mesh(chart.source.size());
   chart.rings = SMM::internal::Vertex_rings();
-  if(!goes_on)
-    return {};
-  return SMM::build_hierarchy(std::move(chart.mesh), pm, hierarchy);
+  if(goes_on)
+    result.levels
+      = SMM::build_hierarchy(std::move(chart.mesh), result.progressive_mesh, hierarchy);
+  return result;
 }
 
 } // namespace internal
