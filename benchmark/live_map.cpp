@@ -7,12 +7,11 @@
 
 #include "charts/chart_io.h"
 #include "machine.h"
+#include "timing.h"
 
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Surface_mesh_parameterization/Hierarchical_conformal_map.h>
 
-#include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -27,19 +26,8 @@ typedef charts::Surface_mesh Mesh;
 typedef SMP::Hierarchical_conformal_map<Mesh> Conformal_map;
 typedef Conformal_map::Point_2 Point_2;
 
-template <class Work>
-double seconds_of(const Work& work)
-{
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-double median(std::vector<double> values)
-{
-  std::nth_element(values.begin(), values.begin() + long(values.size() / 2), values.end());
-  return values[values.size() / 2];
-}
+using timing::median;
+using timing::seconds_of;
 
 class Table
 {
