@@ -18,13 +18,25 @@ namespace {
 
 constexpr double gamma = 2.2; // samples are averaged as light, not as screen values
 
-void put_bytes(void* file, void* bytes, int size)
+void append_bytes(void* text, void* bytes, int size)
 {
-  static_cast<Output_file*>(file)->put(
-      std::string_view(static_cast<const char*>(bytes), std::size_t(size)));
+  static_cast<std::string*>(text)->append(static_cast<const char*>(bytes), std::size_t(size));
 }
 
 } // namespace
+
+std::string encode_png(const std::vector<std::uint8_t>& rgb, std::size_t width)
+{
+  std::string text;
+  const int height = int(rgb.size() / (3 * width));
+  stbi_write_png_to_func(append_bytes, &text, int(width), height, 3, rgb.data(), int(3 * width));
+  return text;
+}
+
+void write_png(const std::vector<std::uint8_t>& rgb, std::size_t width, Output_file& file)
+{
+  file.put(encode_png(rgb, width));
+}
 
 Canvas::Canvas(std::size_t width, std::size_t height)
   : m_width(samples * width), m_height(samples * height),
@@ -91,9 +103,7 @@ std::vector<std::uint8_t> Canvas::pixels() const
 
 void Canvas::write_png(Output_file& file) const
 {
-  const std::vector<std::uint8_t> rgb = pixels();
-  const int width = int(m_width / samples), height = int(m_height / samples);
-  stbi_write_png_to_func(put_bytes, &file, width, height, 3, rgb.data(), 3 * width);
+  hlscm::write_png(pixels(), m_width / samples, file);
 }
 
 } // namespace hlscm

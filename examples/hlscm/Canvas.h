@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace hlscm {
@@ -21,6 +22,12 @@ inline Colour mix(const Colour& a, const Colour& b, double t)
 {
   return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
 }
+
+/// Writes the red, green and blue of pixels, row by row, as a PNG file.
+void write_png(const std::vector<std::uint8_t>& rgb, std::size_t width, Output_file& file);
+
+/// The same as a string.
+std::string encode_png(const std::vector<std::uint8_t>& rgb, std::size_t width);
 
 /// A picture with a depth buffer and several samples a pixel, white at first.
 class Canvas
@@ -44,6 +51,9 @@ public:
 
   void write_png(Output_file& file) const;
 
+  /// Red, green and blue of the pixels, row by row.
+  std::vector<std::uint8_t> pixels() const;
+
 private:
   static constexpr std::size_t samples = 3; // in each direction
   class Barycentric;
@@ -53,8 +63,6 @@ private:
                   const Barycentric& barycentric, Shade& shade);
   template <typename Shade>
   static std::array<std::uint8_t, 3> shade_inside(std::array<double, 3> b, Shade& shade);
-
-  std::vector<std::uint8_t> pixels() const;
 
   std::size_t m_width, m_height; // in samples
   std::vector<std::array<std::uint8_t, 3>> m_colours;

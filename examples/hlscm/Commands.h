@@ -11,6 +11,7 @@ namespace hlscm {
 /// Each returns the exit code, or throws `Program_error` or `Cancelled`.
 int run_info(const Program_options& options);
 int run_parameterize(const Program_options& options);
+int run_levels(const Program_options& options);
 
 } // namespace hlscm
 

@@ -65,7 +65,10 @@ struct Obstacle
   std::string remedy;
 };
 
-/// All obstacles, the one to remove first at the front; empty for a chart.
+/// What keeps a mesh from being a surface, the obstacle to remove first at the front.
+std::vector<Obstacle> surface_obstacles(const Diagnosis& diagnosis);
+
+/// All obstacles; empty for a chart.
 std::vector<Obstacle> obstacles(const Diagnosis& diagnosis);
 
 } // namespace hlscm

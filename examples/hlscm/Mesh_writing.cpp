@@ -3,23 +3,14 @@
 
 #include "Mesh_writing.h"
 
+#include "Mesh_items.h"
+
 #include <cctype>
-#include <cstring>
 #include <filesystem>
 
 namespace hlscm {
 
 namespace {
-
-void put_numbers(Output_file& file, std::string_view keyword, std::initializer_list<double> numbers)
-{
-  file.put(keyword);
-  for(double x : numbers) {
-    file.put(" ");
-    file.put(x);
-  }
-  file.put("\n");
-}
 
 // The elements pass the bar from one fraction of the file to another.
 template <typename Elements, typename Write>
@@ -56,59 +47,14 @@ void write_obj(const Mesh& mesh, const Uv_map& uv, Output_file& file, Progress_b
   });
 }
 
-/// The bytes of one item of a binary file.
-template <std::size_t Size>
-class Record
-{
-public:
-  template <typename T>
-  void add(T value)
-  {
-    std::memcpy(m_bytes + m_size, &value, sizeof value); // on little-endian machines
-    m_size += sizeof value;
-  }
-
-  void put_to(Output_file& file)
-  {
-    file.put(std::string_view(m_bytes, m_size));
-    m_size = 0;
-  }
-
-private:
-  char m_bytes[Size];
-  std::size_t m_size = 0;
-};
-
 void write_ply(const Mesh& mesh, const Uv_map& uv, Output_file& file, Progress_bar& progress)
 {
-  file.put("ply\nformat binary_little_endian 1.0\n"
-           "comment texture_u, texture_v are the texture coordinates; s, t are the same, rounded\n"
-           "element vertex ");
-  file.put(std::size_t(mesh.number_of_vertices()));
-  file.put(
-      "\nproperty double x\nproperty double y\nproperty double z\n"
-      "property double texture_u\nproperty double texture_v\nproperty float s\nproperty float t\n"
-      "element face ");
-  file.put(std::size_t(mesh.number_of_faces()));
-  file.put("\nproperty list uchar int vertex_indices\nend_header\n");
-  Record<48> vertex;
+  put_ply_header(file, mesh.number_of_vertices(), mesh.number_of_faces());
   write_all(mesh.vertices(), 0, 0.6, progress, [&](Mesh::Vertex_index v) {
-    const auto& p = mesh.point(v);
-    for(double x : {p.x(), p.y(), p.z(), uv[v].x(), uv[v].y()}) {
-      vertex.add(x);
-    }
-    vertex.add(float(uv[v].x()));
-    vertex.add(float(uv[v].y()));
-    vertex.put_to(file);
+    put_ply_vertex(file, mesh.point(v), uv[v]);
   });
-  Record<13> face;
-  write_all(mesh.faces(), 0.6, 1, progress, [&](Mesh::Face_index f) {
-    face.add(std::uint8_t(3));
-    for(std::uint32_t v : corners(mesh, f)) {
-      face.add(v);
-    }
-    face.put_to(file);
-  });
+  write_all(mesh.faces(), 0.6, 1, progress,
+            [&](Mesh::Face_index f) { put_ply_face(file, corners(mesh, f)); });
 }
 
 } // namespace

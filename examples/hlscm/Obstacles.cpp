@@ -45,7 +45,7 @@ Obstacle component_obstacle(const Diagnosis& d)
 
 } // namespace
 
-std::vector<Obstacle> obstacles(const Diagnosis& d)
+std::vector<Obstacle> surface_obstacles(const Diagnosis& d)
 {
   std::vector<Obstacle> all;
   const auto add_if = [&all](bool is_met, const Obstacle& obstacle) {
@@ -78,6 +78,17 @@ std::vector<Obstacle> obstacles(const Diagnosis& d)
          {named("vertex", d.non_manifold_vertices) + " joins "
               + text(d.non_manifold_vertices.first[1]) + " separate fans of faces",
           "give each fan a vertex of its own"});
+  return all;
+}
+
+std::vector<Obstacle> obstacles(const Diagnosis& d)
+{
+  std::vector<Obstacle> all = surface_obstacles(d);
+  const auto add_if = [&all](bool is_met, const Obstacle& obstacle) {
+    if(is_met) {
+      all.push_back(obstacle);
+    }
+  };
   add_if(d.components > 1, component_obstacle(d));
   add_if(d.borders == 0, {"the surface is closed", "cut it open along a path of edges first"});
   add_if(d.has_genus() && d.genus > 0,

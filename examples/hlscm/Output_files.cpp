@@ -81,6 +81,7 @@ Output_file::~Output_file()
 
 void Output_file::put(std::string_view bytes)
 {
+  m_size += bytes.size();
   if(std::fwrite(bytes.data(), 1, bytes.size(), m_stream) != bytes.size()) {
     fail();
   }

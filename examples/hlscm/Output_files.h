@@ -28,6 +28,7 @@ public:
   void put(double number); ///< the shortest text that reads back as the same number
   void put(std::size_t number);
   void close();
+  std::size_t size() const { return m_size; } ///< bytes put so far
 
 private:
   friend class Output_files;
@@ -37,6 +38,7 @@ private:
   std::filesystem::path m_target; // with symbolic links resolved
   std::filesystem::path m_temporary;
   std::FILE* m_stream = nullptr;
+  std::size_t m_size = 0;
 };
 
 /// All files that a run leaves behind: they appear under their names together, by `commit()`, or

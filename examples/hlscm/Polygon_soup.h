@@ -30,6 +30,8 @@ struct Polygon_soup
   std::vector<std::array<double, 3>> points;
   std::vector<std::uint32_t> corners;
   std::vector<std::uint32_t> first_corner{0};
+  std::vector<std::array<double, 2>> uv;  ///< texture coordinates; empty if a corner has none
+  std::vector<std::uint32_t> uv_corners;  ///< for each of `corners` where in `uv` its own is
 
   std::size_t number_of_vertices() const { return points.size(); }
   std::size_t number_of_faces() const { return first_corner.size() - 1; }
@@ -38,6 +40,8 @@ struct Polygon_soup
   {
     return {corners.data() + first_corner[f], corners.data() + first_corner[f + 1]};
   }
+
+  bool has_uv() const { return !corners.empty() && uv_corners.size() == corners.size(); }
 
   /// Ends the face whose corners were appended to `corners` since the last call.
   void close_face() { first_corner.push_back(std::uint32_t(corners.size())); }

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -204,6 +205,86 @@ void add_parameterize(CLI::App& app, Program_options& o)
   run->callback([&o] { o.command = Command::PARAMETERIZE; });
 }
 
+std::vector<std::size_t> to_faces(const std::string& text)
+{
+  std::vector<std::size_t> faces;
+  for(const double number : numbers(text)) {
+    if(!is_count(number) || number < 1) {
+      faces.clear();
+      break;
+    }
+    faces.push_back(std::size_t(number));
+  }
+  if(faces.empty()) {
+    throw CLI::ValidationError("--faces", "\"" + text + "\" is not N,N,...");
+  }
+  return faces;
+}
+
+void set_error(const std::string& text, Program_options& o)
+{
+  o.is_error_relative = !text.empty() && text.back() == '%';
+  const auto number = numbers(text.substr(0, text.size() - (o.is_error_relative ? 1 : 0)));
+  if(number.size() != 1 || !(number[0] >= 0)) {
+    throw CLI::ValidationError("--error", "\"" + text + "\" is neither a length nor a number of %");
+  }
+  o.error = o.is_error_relative ? number[0] / 100 : number[0];
+}
+
+std::vector<Level_format> to_formats(const std::string& text)
+{
+  static const Names<Level_format> names = {{"obj", Level_format::OBJ},
+                                            {"ply", Level_format::PLY},
+                                            {"glb", Level_format::GLB},
+                                            {"pm", Level_format::PM}};
+  std::vector<Level_format> formats;
+  for(const std::string& word : CLI::detail::split(text, ',')) {
+    const auto found = std::find_if(names.begin(), names.end(),
+                                    [&](const auto& name) { return name.first == word; });
+    if(found == names.end()) {
+      throw CLI::ValidationError("--format", "\"" + word + "\" is none of obj, ply, glb, pm");
+    }
+    if(std::find(formats.begin(), formats.end(), found->second) == formats.end()) {
+      formats.push_back(found->second);
+    }
+  }
+  return formats;
+}
+
+void add_levels(CLI::App& app, Program_options& o)
+{
+  CLI::App* run = app.add_subcommand(
+      "levels", "Make lighter models that share one texture: levels of detail of a textured mesh, "
+                "or of a chart, which is parameterized first");
+  run->add_option("IN", o.input,
+                  "a triangle mesh: .off, .obj, .ply or .stl; or a progressive mesh: .pm")
+      ->required();
+  run->add_option("-o,--output", o.output, "a folder for the files")->required()->type_name("DIR");
+  run->add_option_function<std::string>(
+         "--faces", [&o](const std::string& text) { o.faces = to_faces(text); },
+         "faces of the levels (default 50, 25, 10, 4 and 1 % of all)")
+      ->type_name("N,N,...");
+  run->add_option_function<std::string>(
+         "--error", [&o](const std::string& text) { set_error(text, o); },
+         "one level more: the lightest on which no point of the texture is farther from its place, "
+         "as a length or in % of the diagonal of the bounding box")
+      ->type_name("E|E%");
+  run->add_option_function<std::string>(
+         "--format", [&o](const std::string& text) { o.formats = to_formats(text); },
+         "what to write, with commas between (default obj,glb,pm): obj, ply: a file for each level; "
+         "glb: levels.glb with all levels; pm: mesh.pm, the progressive mesh")
+      ->type_name("obj|ply|glb|pm");
+  run->add_flag("--lossless", o.is_lossless,
+                "write mesh.pm with all bits instead of 16 for each coordinate");
+  add_solver_options(*run, o.library);
+  run->add_option("--report", o.report, "what was done and measured, as JSON")
+      ->type_name("FILE.json");
+  run->add_option("--pictures", o.pictures, "a folder for levels.png and swimming.png")
+      ->type_name("DIR");
+  run->add_flag("--quiet", o.is_quiet, "print errors only");
+  run->callback([&o] { o.command = Command::LEVELS; });
+}
+
 std::string extension_of(const std::string& file)
 {
   return CLI::detail::to_lower(std::filesystem::path(file).extension().string());
@@ -211,7 +292,7 @@ std::string extension_of(const std::string& file)
 
 void check(const Program_options& o)
 {
-  if(o.command == Command::INFO) {
+  if(o.command != Command::PARAMETERIZE) {
     return;
   }
   if(extension_of(o.output) != ".obj" && extension_of(o.output) != ".ply") {
@@ -237,6 +318,7 @@ Parsed_command_line parse_command_line(int argc, char** argv)
   app.require_subcommand(1);
   add_info(app, options);
   add_parameterize(app, options);
+  add_levels(app, options);
   try {
     app.parse(argc, argv);
     check(options);

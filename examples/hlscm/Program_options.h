@@ -6,13 +6,17 @@
 
 #include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace hlscm {
 
-enum class Command { INFO, PARAMETERIZE };
+enum class Command { INFO, PARAMETERIZE, LEVELS };
+
+/// What `levels` writes: a file for each level, one with all levels, or the progressive mesh.
+enum class Level_format { OBJ, PLY, GLB, PM };
 
 /// A vertex of the input, counted from 0, and where it goes.
 struct Pin
@@ -28,11 +32,17 @@ struct Program_options
   bool is_quiet = false;
   bool prints_json = false; ///< of `info`
 
-  std::string output;    ///< .obj or .ply
+  std::string output;    ///< .obj or .ply; of `levels` a folder
   std::string report;    ///< empty: none
   std::string pictures;  ///< a folder; empty: none
   std::vector<Pin> pins; ///< none, or two and more
   CGAL::Surface_mesh_parameterization::HLSCM_options library;
+
+  std::vector<std::size_t> faces;          ///< of the levels; empty: parts of all
+  std::optional<double> error;             ///< of the one level, or its part of the diagonal
+  bool is_error_relative = false;          ///< of the bounding box
+  std::vector<Level_format> formats;       ///< of the levels
+  bool is_lossless = false;                ///< the progressive mesh
 };
 
 /// The options, or the exit code if there is nothing (more) to do: help was printed, or the usage

@@ -26,6 +26,25 @@ void read_vertex(const Mesh_source& source, Text_scanner& scanner, Polygon_soup&
   soup.points.push_back({*x, *y, *z});
 }
 
+void read_uv(const Mesh_source& source, Text_scanner& scanner, Polygon_soup& soup)
+{
+  const auto u = scanner.number();
+  const auto v = scanner.is_line_done() ? std::optional<double>(0.) : scanner.number();
+  if(!u || !v) {
+    source.fail("line " + std::to_string(scanner.line_number())
+                + " should hold texture coordinate " + std::to_string(soup.uv.size())
+                + ", the file is cut short or damaged: export it again");
+  }
+  soup.uv.push_back({*u, *v});
+}
+
+// An index of the file, from 1, or from -1 for the last so far, as one from 0.
+std::uint32_t absolute(long long index, std::size_t so_far)
+{
+  const long long result = index > 0 ? index - 1 : index + (long long)(so_far);
+  return index != 0 && 0 <= result && result < no_vertex ? std::uint32_t(result) : no_vertex;
+}
+
 // "7", "7/1", "7//3" and "7/1/3": vertex 7 from 1; "-1" is the last vertex so far.
 void read_face(const Mesh_source& source, Text_scanner& scanner, Polygon_soup& soup)
 {
@@ -37,9 +56,15 @@ void read_face(const Mesh_source& source, Text_scanner& scanner, Polygon_soup& s
                   + " should hold the corners of face " + std::to_string(soup.number_of_faces())
                   + ", the file is cut short or damaged: export it again");
     }
-    const long long vertex =
-        *index > 0 ? *index - 1 : *index + (long long)(soup.number_of_vertices());
-    soup.corners.push_back(0 <= vertex && vertex < no_vertex ? std::uint32_t(vertex) : no_vertex);
+    soup.corners.push_back(absolute(*index, soup.number_of_vertices()));
+    const std::size_t slash = corner.find('/');
+    if(slash == std::string_view::npos) {
+      continue;
+    }
+    const std::string_view rest = corner.substr(slash + 1);
+    if(const auto uv = Text_scanner::to_integer(rest.substr(0, rest.find('/')))) {
+      soup.uv_corners.push_back(absolute(*uv, soup.uv.size()));
+    }
   }
   soup.close_face();
 }
@@ -59,6 +84,25 @@ void check_corners(const Mesh_source& source, const Polygon_soup& soup)
   }
 }
 
+// Texture coordinates are of use only if all corners have them.
+void check_uv(Read_mesh& mesh)
+{
+  Polygon_soup& soup = mesh.soup;
+  const auto bad = std::find_if(soup.uv_corners.begin(), soup.uv_corners.end(),
+                                [&](std::uint32_t i) { return i >= soup.uv.size(); });
+  if(soup.has_uv() && bad == soup.uv_corners.end()) {
+    return;
+  }
+  if(bad != soup.uv_corners.end()) {
+    mesh.warnings.push_back("a face names a texture coordinate that is not among the "
+                            + std::to_string(soup.uv.size()) + "; all are left out");
+  } else if(!soup.uv_corners.empty()) {
+    mesh.warnings.push_back("not all corners have texture coordinates; all are left out");
+  }
+  soup.uv.clear();
+  soup.uv_corners.clear();
+}
+
 } // namespace
 
 Read_mesh read_obj(const Mesh_source& source)
@@ -74,11 +118,14 @@ Read_mesh read_obj(const Mesh_source& source)
     const std::string_view keyword = scanner.word();
     if(keyword == "v") {
       read_vertex(source, scanner, mesh.soup);
+    } else if(keyword == "vt") {
+      read_uv(source, scanner, mesh.soup);
     } else if(keyword == "f") {
       read_face(source, scanner, mesh.soup);
     }
   }
   check_corners(source, mesh.soup);
+  check_uv(mesh);
   source.warn_of_open_end(mesh);
   return mesh;
 }

@@ -7,6 +7,9 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 namespace hlscm {
 
@@ -123,8 +126,12 @@ void read_vertices(const Mesh_source& source, const Element& element, Value_read
   if(*std::max_element(xyz, xyz + 3) == element.properties.size()) {
     source.fail("the vertices have no properties x, y and z, export the mesh again");
   }
+  const std::size_t uv[] = {element.index_of({"texture_u", "s", "u"}),
+                            element.index_of({"texture_v", "t", "v"})};
+  const bool has_uv = *std::max_element(uv, uv + 2) < element.properties.size();
   soup.points.reserve(element.count);
   std::array<double, 3> point{};
+  std::array<double, 2> texture{};
   read_items(
       source, element, reader,
       [&](std::size_t property, double value) {
@@ -133,8 +140,18 @@ void read_vertices(const Mesh_source& source, const Element& element, Value_read
             point[i] = value;
           }
         }
+        for(std::size_t i = 0; i < 2; ++i) {
+          if(property == uv[i]) {
+            texture[i] = value;
+          }
+        }
       },
-      [&] { soup.points.push_back(point); });
+      [&] {
+        soup.points.push_back(point);
+        if(has_uv) {
+          soup.uv.push_back(texture);
+        }
+      });
 }
 
 void read_faces(const Mesh_source& source, const Element& element, Value_reader& reader,
@@ -144,6 +161,10 @@ void read_faces(const Mesh_source& source, const Element& element, Value_reader&
   if(corners == element.properties.size() || !element.properties[corners].list_size) {
     source.fail("the faces have no list of vertex_indices, export the mesh again");
   }
+  const std::size_t texcoord = element.index_of({"texcoord"});
+  std::vector<double> texture; // of one face: u and v of each corner
+  std::vector<std::array<double, 2>> uv;
+  bool has_uv = texcoord < element.properties.size();
   soup.first_corner.reserve(element.count + 1);
   soup.corners.reserve(3 * element.count);
   read_items(
@@ -151,9 +172,25 @@ void read_faces(const Mesh_source& source, const Element& element, Value_reader&
       [&](std::size_t property, double value) {
         if(property == corners) {
           source.add_corner(soup, value >= 0 && value < 4294967296. ? (long long)(value) : -1);
+        } else if(property == texcoord) {
+          texture.push_back(value);
         }
       },
-      [&] { soup.close_face(); });
+      [&] {
+        has_uv = has_uv && texture.size() == 2 * (soup.corners.size() - soup.first_corner.back());
+        for(std::size_t i = 0; has_uv && i < texture.size(); i += 2) {
+          uv.push_back({texture[i], texture[i + 1]});
+        }
+        texture.clear();
+        soup.close_face();
+      });
+  if(has_uv) { // of corners, rather than of vertices
+    soup.uv = std::move(uv);
+    soup.uv_corners.resize(soup.uv.size());
+    std::iota(soup.uv_corners.begin(), soup.uv_corners.end(), 0u);
+  } else if(!soup.uv.empty()) {
+    soup.uv_corners = soup.corners;
+  }
 }
 
 } // namespace

@@ -86,39 +86,16 @@ double square_wave(double x, double slope)
   return (integral(x + width / 2) - integral(x - width / 2)) / width;
 }
 
-/// Side in parameter space of squares that are `square_side` large where most of the surface is.
-double square_size(const Drawn_surface& surface)
-{
-  std::vector<std::pair<double, double>> scales_and_areas;
-  double total = 0;
-  for(const auto& t : surface.triangles) {
-    const double weight = area(surface, t);
-    if(weight > 0) {
-      scales_and_areas.emplace_back(uv_area(surface, t) / weight, weight);
-      total += weight;
-    }
-  }
-  std::sort(scales_and_areas.begin(), scales_and_areas.end());
-  double sum = 0;
-  for(const auto& [scale, weight] : scales_and_areas) {
-    sum += weight;
-    if(2 * sum >= total) {
-      return std::max(square_side * std::sqrt(scale), 1e-100);
-    }
-  }
-  return 1;
-}
-
 class Surface_drawing
 {
 public:
-  Surface_drawing(Canvas& canvas, const View& view, const Drawn_surface& surface, Pattern pattern)
+  /// `square` is the side of the squares in parameter space, if there are any.
+  Surface_drawing(Canvas& canvas, const View& view, const Drawn_surface& surface, Pattern pattern,
+                  double square)
     : m_canvas(canvas), m_view(view), m_surface(surface), m_normals(vertex_normals(surface)),
-      m_pattern(pattern)
+      m_pattern(pattern), m_square(square)
   {
-    if(pattern == Pattern::CHECKERBOARD) {
-      m_square = square_size(surface);
-    } else {
+    if(pattern == Pattern::ISOLINES) {
       m_levels = vertex_area_scales(surface);
       for(double& scale : m_levels) {
         scale =
@@ -220,15 +197,45 @@ private:
   std::vector<Vector_3> m_normals;
   Pattern m_pattern;
   std::vector<double> m_levels; // at each vertex, of isolines
-  double m_square = 1;          // side of a checkerboard's square, in parameter space
+  double m_square;              // side of a checkerboard's square, in parameter space
 };
 
 } // namespace
 
+// So large that squares are `square_side` large where most of the surface is.
+double checkerboard_square(const Drawn_surface& surface)
+{
+  std::vector<std::pair<double, double>> scales_and_areas;
+  double total = 0;
+  for(const auto& t : surface.triangles) {
+    const double weight = area(surface, t);
+    if(weight > 0) {
+      scales_and_areas.emplace_back(uv_area(surface, t) / weight, weight);
+      total += weight;
+    }
+  }
+  std::sort(scales_and_areas.begin(), scales_and_areas.end());
+  double sum = 0;
+  for(const auto& [scale, weight] : scales_and_areas) {
+    sum += weight;
+    if(2 * sum >= total) {
+      return std::max(square_side * std::sqrt(scale), 1e-100);
+    }
+  }
+  return 1;
+}
+
+void draw_checkerboard(Canvas& canvas, const View& view, const Drawn_surface& surface, double square,
+                       Progress_bar& progress)
+{
+  Surface_drawing(canvas, view, surface, Pattern::CHECKERBOARD, square).run(progress);
+}
+
 void draw_surface(Canvas& canvas, const View& view, const Drawn_surface& surface, Pattern pattern,
                   Progress_bar& progress)
 {
-  Surface_drawing(canvas, view, surface, pattern).run(progress);
+  const double square = pattern == Pattern::CHECKERBOARD ? checkerboard_square(surface) : 1;
+  Surface_drawing(canvas, view, surface, pattern, square).run(progress);
 }
 
 } // namespace hlscm

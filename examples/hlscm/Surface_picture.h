@@ -21,6 +21,13 @@ enum class Pattern { ISOLINES, CHECKERBOARD };
 void draw_surface(Canvas& canvas, const View& view, const Drawn_surface& surface, Pattern pattern,
                   Progress_bar& progress);
 
+/// The side of the squares of such a checkerboard, in parameter space.
+double checkerboard_square(const Drawn_surface& surface);
+
+/// The same with squares of a given size, for surfaces that are to be compared.
+void draw_checkerboard(Canvas& canvas, const View& view, const Drawn_surface& surface, double square,
+                       Progress_bar& progress);
+
 } // namespace hlscm
 
 #endif // HLSCM_PROGRAM_SURFACE_PICTURE_H

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // The command-line program: `hlscm info IN` says what a mesh is, `hlscm parameterize IN -o OUT`
-// maps it to the plane.
+// maps it to the plane, `hlscm levels IN -o DIR` makes lighter models of it under one texture.
 
 #include "Commands.h"
 #include "Interruption.h"
@@ -15,8 +15,15 @@ namespace {
 
 int run(const hlscm::Program_options& options)
 {
-  return options.command == hlscm::Command::INFO ? hlscm::run_info(options)
-                                                 : hlscm::run_parameterize(options);
+  switch(options.command) {
+  case hlscm::Command::INFO:
+    return hlscm::run_info(options);
+  case hlscm::Command::LEVELS:
+    return hlscm::run_levels(options);
+  case hlscm::Command::PARAMETERIZE:
+    break;
+  }
+  return hlscm::run_parameterize(options);
 }
 
 } // namespace

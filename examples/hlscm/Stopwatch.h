@@ -1,0 +1,26 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef HLSCM_PROGRAM_STOPWATCH_H
+#define HLSCM_PROGRAM_STOPWATCH_H
+
+#include <chrono>
+
+namespace hlscm {
+
+/// The seconds since it was made.
+class Stopwatch
+{
+public:
+  double seconds() const
+  {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - m_start).count();
+  }
+
+private:
+  std::chrono::steady_clock::time_point m_start = std::chrono::steady_clock::now();
+};
+
+} // namespace hlscm
+
+#endif // HLSCM_PROGRAM_STOPWATCH_H
