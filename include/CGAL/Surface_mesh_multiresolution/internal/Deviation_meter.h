@@ -1,0 +1,239 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_DEVIATION_METER_H
+#define CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_DEVIATION_METER_H
+
+#include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/Fine_surface.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/Uv_walk.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_multiresolution {
+namespace internal {
+
+// An error over a part of the fine surface: its maximum and its integral, and the area that lies
+// outside of the coarse chart or where its triangles could not be followed.
+struct Error_sum
+{
+  double maximum = 0., integral = 0., outside = 0., unresolved = 0.;
+
+  Error_sum& operator+=(const Error_sum& other)
+  {
+    maximum = (std::max)(maximum, other.maximum);
+    integral += other.integral;
+    outside += other.outside;
+    unresolved += other.unresolved;
+    return *this;
+  }
+
+  friend Error_sum operator+(Error_sum a, const Error_sum& b) { return a += b; }
+};
+
+// Change of uv and distance of wedges.
+struct Nearest_sums
+{
+  Error_sum uv_change, distance;
+
+  Nearest_sums& operator+=(const Nearest_sums& other)
+  {
+    uv_change += other.uv_change;
+    distance += other.distance;
+    return *this;
+  }
+
+  friend Nearest_sums operator+(Nearest_sums a, const Nearest_sums& b) { return a += b; }
+};
+
+constexpr double unbounded = (std::numeric_limits<double>::infinity)();
+
+// The errors of a coarse surface, over a fine one.
+//
+// Start tells where to look for what belongs to a wedge w of the fine surface:
+//   is_kept(w)             whether w is a wedge of the coarse surface too, of the same number
+//   is_common_edge(v, w)   whether both are kept, with an edge between them
+//   start(w)               a point of the coarse surface that is not far, and its squared distance
+//   squared_distance(w, nearest)   from the whole coarse surface, given the nearest point of a chart
+//
+// Each measurement takes a bound and stops early, with any result above it, once it is exceeded.
+template <class Start>
+class Deviation_meter
+{
+public:
+  Deviation_meter(const Fine_surface& fine, const Textured_view& coarse, const Start& start)
+    : m_fine(fine), m_view(fine.view()), m_coarse(coarse), m_walk(coarse), m_start(start)
+    , m_outside(outside_tolerance * diagonal_in_texture(coarse))
+    , m_image(fine.view().number_of_wedges())
+  {}
+
+  // Finds the points of equal uv of all wedges; the maximum is that of the distances from those that
+  // are not outside.
+  Error_sum locate_wedges(double bound = unbounded)
+  {
+    return sum_over_wedges<Error_sum>(bound, [this](Vertex_index w) {
+      m_image[w] = locate(w);
+      return Error_sum{m_image[w].is_outside ? 0. : norm(m_image[w].difference), 0., 0., 0.};
+    });
+  }
+
+  // The texture deviation along the edges; locate_wedges() has come first.
+  Error_sum deviation(double bound = unbounded) const
+  {
+    return sum_over_wedges<Error_sum>(bound, [this](Vertex_index w) {
+      static thread_local std::vector<std::pair<Vertex_index, double>> edges;
+      Error_sum sum;
+      m_fine.for_each_edge(w, edges, [&](Vertex_index v, double share) {
+        Error_sum along = deviation_along(w, v);
+        along.integral *= share;
+        along.outside *= share;
+        along.unresolved *= share;
+        sum += along;
+      });
+      return sum;
+    });
+  }
+
+  // The change of uv and the distance at the wedges; locate_wedges() has come first.
+  Nearest_sums nearest() const
+  {
+    return sum_over_wedges<Nearest_sums>(unbounded, [this](Vertex_index w) {
+      return nearest(w, m_image[w]);
+    });
+  }
+
+  // The distance alone, without locate_wedges().
+  Error_sum distance(double bound) const
+  {
+    return sum_over_wedges<Error_sum>(bound, [this](Vertex_index w) {
+      return nearest(w, locate(w)).distance;
+    });
+  }
+
+private:
+  // Of the diagonal of the map: beyond, a point is outside, not just next to the border by rounding.
+  static constexpr double outside_tolerance = 1e-9;
+
+  // What belongs to a wedge of the fine surface.
+  struct Image
+  {
+    Real_vector<3> difference = {0., 0., 0.}; // from the point of equal uv
+    Triangle_number triangle = 0;             // that has this point
+    bool is_outside = false;                  // it is only the nearest one
+  };
+
+  template <class Sum, class Body>
+  Sum sum_over_wedges(double bound, const Body& body) const
+  {
+    std::atomic<bool> is_exceeded(false);
+    return Blocked_execution::blocked_sum<Sum>(
+      m_view.number_of_wedges(), deviation_block, [&](std::size_t begin, std::size_t end) {
+        Sum sum;
+        for(std::size_t w = begin; w < end && !is_exceeded.load(std::memory_order_relaxed); ++w) {
+          const Sum here = body(Vertex_index(w));
+          sum += here;
+          if(exceeds(here, bound))
+            is_exceeded.store(true, std::memory_order_relaxed);
+        }
+        return sum;
+      });
+  }
+
+  static bool exceeds(const Error_sum& sum, double bound) { return sum.maximum > bound; }
+  static bool exceeds(const Nearest_sums&, double) { return false; }
+
+  Image locate(Vertex_index w) const
+  {
+    Image image;
+    if(m_start.is_kept(w)) {
+      image.triangle = m_coarse.triangle_at(w);
+      return image;
+    }
+    const Surface_point found = m_walk.locate(m_view.uv(w), m_start.start(w).triangle);
+    image.triangle = found.triangle;
+    image.difference = minus(m_view.point(w), m_coarse.point(found.triangle, found.weight));
+    image.is_outside = std::sqrt(found.squared_distance) > m_outside;
+    return image;
+  }
+
+  // From the nearer of the point of equal uv and the start. So it is no farther than the former.
+  Nearest_sums nearest(Vertex_index w, const Image& image) const
+  {
+    if(m_start.is_kept(w))
+      return Nearest_sums();
+    const Surface_point start = m_start.start(w);
+    const bool is_nearer = start.squared_distance < product(image.difference, image.difference);
+    const Surface_point found = descend_to_nearest(
+      m_coarse, is_nearer ? start.triangle : image.triangle, m_view.point(w));
+    const double change = norm(minus(m_coarse.uv(found.triangle, found.weight), m_view.uv(w)));
+    const double distance = std::sqrt(m_start.squared_distance(w, found)), share = m_fine.share(w);
+    return {{change, share * change, 0., 0.}, {distance, share * distance, 0., 0.}};
+  }
+
+  // The difference on the part [s, t] of an edge, where it is linear; its norm by Simpson's rule.
+  static void add_piece(double length, const Real_vector<3>& from, const Real_vector<3>& to,
+                        Error_sum& sum)
+  {
+    const double a = norm(from), b = norm(to), middle = norm(between(from, to, 0.5));
+    sum.maximum = (std::max)({sum.maximum, a, b});
+    sum.integral += length * (a + 4. * middle + b) / 6.;
+  }
+
+  // If a function on a triangle is quadratic, its mean is 3/2 of that over the edges less 1/2 of that
+  // at the corners; this is what an edge, with its two corners, adds to it.
+  static double corrected(double mean, double begin, double end)
+  {
+    return (std::max)(0., 1.5 * mean - 0.25 * (begin + end));
+  }
+
+  // The means over an edge.
+  Error_sum deviation_along(Vertex_index v, Vertex_index w) const
+  {
+    Error_sum sum;
+    if(m_start.is_common_edge(v, w))
+      return sum;
+    const bool v_is_outside = m_image[v].is_outside, w_is_outside = m_image[w].is_outside;
+    // From inside; away from a corner of the coarse surface if there is a choice
+    if(v_is_outside || (!w_is_outside && m_start.is_kept(v)))
+      std::swap(v, w);
+    const Image &begin = m_image[v], &end = m_image[w];
+    Real_vector<3> before = begin.difference;
+    double s = 0.;
+    if(!begin.is_outside) {
+      const Real_vector<3> p = m_view.point(v), q = m_view.point(w);
+      const Way way = m_walk.follow(
+        m_view.uv(v), m_view.uv(w), begin.triangle, end.is_outside ? no_triangle : end.triangle,
+        [&](Triangle_number t, const Weights& weight, double at) {
+          const Real_vector<3> here = minus(between(p, q, at), m_coarse.point(t, weight));
+          add_piece(at - s, before, here, sum);
+          before = here;
+          s = at;
+        });
+      (way == Way::LEFT ? sum.outside : sum.unresolved) += way == Way::ARRIVED ? 0. : 1. - s;
+    } else {
+      sum.outside = 1.;
+    }
+    add_piece(1. - s, before, end.difference, sum);
+    sum.integral = corrected(sum.integral, norm(begin.difference), norm(end.difference));
+    return sum;
+  }
+
+  const Fine_surface& m_fine;
+  const Textured_view &m_view, &m_coarse;
+  Uv_walk m_walk;
+  const Start& m_start;
+  double m_outside;
+  std::vector<Image> m_image; // of each wedge
+};
+
+} // namespace internal
+} // namespace Surface_mesh_multiresolution
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_DEVIATION_METER_H

@@ -1,0 +1,101 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_NEAREST_START_H
+#define CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_NEAREST_START_H
+
+#include <CGAL/Surface_mesh_multiresolution/internal/nearest_on_surface.h>
+
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_multiresolution {
+namespace internal {
+
+// Where the points of wedges are on a surface that is known as triangles alone: nearby in space.
+class Nearest_start
+{
+  typedef Simple_cartesian<double> Kernel;
+  typedef std::vector<Kernel::Triangle_3> Triangles;
+  typedef AABB_triangle_primitive<Kernel, Triangles::const_iterator> Primitive;
+  typedef AABB_tree<AABB_traits<Kernel, Primitive>> Tree;
+
+public:
+  // `from` has the wedges, `to` is the surface, with at least one triangle that has an area.
+  Nearest_start(const Textured_view& from, const Textured_view& to) : m_from(from), m_to(to)
+  {
+    for(Triangle_number t = 0; t < to.triangles().size(); ++t) {
+      const Triangle_indices& abc = to.triangles()[t];
+      const Kernel::Triangle_3 triangle(point(to.point(abc[0])), point(to.point(abc[1])),
+                                        point(to.point(abc[2])));
+      if(triangle.is_degenerate())
+        continue;
+      m_triangles.push_back(triangle);
+      m_number.push_back(t);
+    }
+    m_tree.insert(m_triangles.cbegin(), m_triangles.cend());
+    m_tree.build();
+    m_tree.accelerate_distance_queries();
+  }
+
+  Nearest_start(const Nearest_start&) = delete;
+  Nearest_start& operator=(const Nearest_start&) = delete;
+
+  bool is_kept(Vertex_index) const { return false; }
+  bool is_common_edge(Vertex_index, Vertex_index) const { return false; }
+
+  // Nearest to a place within the triangles of w, lest the walk start beyond a seam.
+  Surface_point start(Vertex_index w) const
+  {
+    constexpr double inwards = 0.1;
+    const Triangle_number t
+      = nearest_triangle(between(m_from.point(w), middle_of_star(w), inwards));
+    return nearest_in(m_to, t, m_from.point(w));
+  }
+
+  double squared_distance(Vertex_index w, const Surface_point& nearest) const
+  {
+    const Triangle_number t = nearest_triangle(m_from.point(w));
+    return (std::min)(nearest_in(m_to, t, m_from.point(w)).squared_distance,
+                      nearest.squared_distance);
+  }
+
+private:
+  static Kernel::Point_3 point(const Real_vector<3>& p)
+  {
+    return Kernel::Point_3(p[0], p[1], p[2]);
+  }
+
+  Triangle_number nearest_triangle(const Real_vector<3>& p) const
+  {
+    const auto found = m_tree.closest_point_and_primitive(point(p)).second;
+    return m_number[std::size_t(found - m_triangles.cbegin())];
+  }
+
+  Real_vector<3> middle_of_star(Vertex_index w) const
+  {
+    Real_vector<3> sum = {0., 0., 0.};
+    const double number = 3. * m_from.at().number(w);
+    for(const std::uint32_t* at = m_from.at().begin(w); at != m_from.at().end(w); ++at)
+      for(const Vertex_index v : m_from.triangles()[*at / 3])
+        for(std::size_t c = 0; c < 3; ++c)
+          sum[c] += m_from.point(v)[c] / number;
+    return number > 0. ? sum : m_from.point(w);
+  }
+
+  const Textured_view &m_from, &m_to;
+  Triangles m_triangles;
+  std::vector<Triangle_number> m_number; // of each of them
+  Tree m_tree;
+};
+
+} // namespace internal
+} // namespace Surface_mesh_multiresolution
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_NEAREST_START_H

@@ -1,0 +1,196 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_TEXTURE_DEVIATION_H
+#define CGAL_SURFACE_MESH_MULTIRESOLUTION_TEXTURE_DEVIATION_H
+
+#include <CGAL/Surface_mesh_multiresolution/Wedge_mesh.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/Deviation_meter.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/Level_start.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/Nearest_start.h>
+
+#include <CGAL/assertions.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace CGAL {
+namespace Surface_mesh_multiresolution {
+
+/// \ingroup PkgHLSCMLevelsOfDetail
+/// The maximum of an error, and its mean over the area of the fine surface.
+struct Surface_error
+{
+  double maximum = 0.; ///< of all points at which it is measured
+  double mean = 0.;    ///< by area
+};
+
+/*!
+\ingroup PkgHLSCMLevelsOfDetail
+
+The struct `Texture_deviation` tells how far the texture of a coarse surface \f$ C \f$ is from where
+it is on the fine one \f$ F \f$, both being maps of one texture domain into space.
+
+- `deviation` is that of Cohen, Olano and Manocha 1998, \f$ |F(u,v) - C(u,v)| \f$. It is the norm of
+  a difference that is linear on each cell of the overlay of the two triangulations of the texture,
+  and is greatest at a vertex of it. The maximum is over all of these: the vertices of either surface
+  and the crossings of their edges. The mean is that over the area, by a rule that is exact for
+  functions that are quadratic on each fine triangle: from the values at the corners and the means
+  over the edges, those by Simpson's rule between the crossings.
+- `uv_change` is how far the texture swims: the difference between the texture coordinates of a
+  vertex of the fine surface and those of the nearest point of the coarse one, in uv units.
+- `distance` is that of the vertices of the fine surface from the coarse one.
+
+Where the fine chart reaches over the border of the coarse one, `deviation` is measured from that
+point of the border that is nearest in the texture, and only at the vertices of the fine chart and
+where its edges cross the border; an edge that comes back over a notch is not followed beyond the
+first crossing. Where triangles of the coarse chart are folded over each other or have no area in the
+texture, edges are not followed across: there the maximum is that at the vertices. `outside` and
+`unresolved` are the parts of the area concerned.
+*/
+struct Texture_deviation
+{
+  Surface_error deviation;       ///< between points of equal uv; a length in space
+  Surface_error uv_change;       ///< between nearest points; a length in the texture
+  Surface_error distance;        ///< of the surfaces; a length in space
+  double outside = 0.;           ///< the part of the fine area that the coarse chart does not have
+  double unresolved = 0.;        ///< the part of the fine area where edges could not be followed
+  double diagonal = 0.;          ///< of the bounding box of the fine surface
+  std::size_t triangles = 0;     ///< of the coarse surface
+
+  /// Returns a length in space in parts of the diagonal of the fine surface.
+  double relative(double length) const { return diagonal > 0. ? length / diagonal : 0.; }
+
+  /// Returns a length in the texture in texels of a picture that covers the unit square with
+  /// `resolution` texels each way.
+  static double texels(double uv_length, double resolution) { return uv_length * resolution; }
+};
+
+/// \ingroup PkgHLSCMLevelsOfDetail
+/// The errors that `coarsest_level_within()` bounds; each is a maximum of `Texture_deviation`.
+enum class Level_error
+{
+  TEXTURE_DEVIATION, ///< `deviation`, a length in space
+  DISTANCE           ///< `distance`, a length in space
+};
+
+namespace internal {
+
+inline Surface_error surface_error(const Error_sum& sum, double area)
+{
+  return {sum.maximum, area > 0. ? sum.integral / area : 0.};
+}
+
+template <class Start>
+Texture_deviation measure_deviation(const Fine_surface& fine, const Textured_view& coarse,
+                                    const Start& start)
+{
+  Deviation_meter<Start> meter(fine, coarse, start);
+  meter.locate_wedges();
+  const Error_sum deviation = meter.deviation();
+  const Nearest_sums nearest = meter.nearest();
+  const double area = fine.total_area();
+  Texture_deviation result;
+  result.deviation = surface_error(deviation, area);
+  result.uv_change = surface_error(nearest.uv_change, area);
+  result.distance = surface_error(nearest.distance, area);
+  result.outside = area > 0. ? deviation.outside / area : 0.;
+  result.unresolved = area > 0. ? deviation.unresolved / area : 0.;
+  result.diagonal = fine.diagonal();
+  result.triangles = coarse.triangles().size();
+  return result;
+}
+
+inline Textured_view fine_view(const Textured_progressive_mesh& mesh)
+{
+  return Textured_view(mesh.points, mesh.vertex, mesh.uv, mesh.progressive_mesh.triangles,
+                       mesh.number_of_wedges());
+}
+
+inline bool is_within(const Fine_surface& fine, const Textured_progressive_mesh& mesh,
+                      std::size_t k, Level_error kind, double bound)
+{
+  const Level_start level(mesh, k);
+  Deviation_meter<Level_start> meter(fine, level.view(), level);
+  if(kind == Level_error::DISTANCE)
+    return meter.distance(bound).maximum <= bound;
+  return meter.locate_wedges(bound).maximum <= bound && meter.deviation(bound).maximum <= bound;
+}
+
+} // namespace internal
+
+/*!
+\ingroup PkgHLSCMLevelsOfDetail
+
+Returns the errors of the level of `mesh` after `k` collapses.
+
+The points of equal uv are found by walks in the texture, the nearest points by descents on the
+surface; both start at the ancestor of a wedge, or at what the walk has found. So nothing is asked of
+the map: where it covers the texture twice, the walk is on the right sheet. A descent ends in a local
+minimum, no farther than the ancestor and the point of equal uv.
+
+Expected linear time; loops use the threads of a `Blocked_execution::Thread_scope`, with the same
+result to the bit.
+
+\pre `mesh.is_whole(k)`, and every wedge of the level has a triangle.
+*/
+inline Texture_deviation measure_texture_deviation(const Textured_progressive_mesh& mesh,
+                                                   std::size_t k)
+{
+  CGAL_precondition(k <= mesh.number_of_collapses() && mesh.is_whole(k));
+  const internal::Textured_view view = internal::fine_view(mesh);
+  const internal::Fine_surface fine(view);
+  const internal::Level_start level(mesh, k);
+  return internal::measure_deviation(fine, level.view(), level);
+}
+
+/*!
+\ingroup PkgHLSCMLevelsOfDetail
+
+Returns the errors of any textured mesh `coarse` for another one, `fine`, in the same texture.
+
+Walks start at the triangle of `coarse` that is nearest in space, found in an `AABB_tree`; so does
+that for `uv_change`, and `distance` is that from the nearest point of all. The vertices of `coarse`
+count in the maximum of `deviation` as far as they lie in the charts of `fine`.
+
+Time \f$ O(n \log n) \f$ as a rule.
+
+\pre both have triangles with an area.
+*/
+inline Texture_deviation measure_texture_deviation(const Wedge_mesh& fine,
+                                                   const Wedge_mesh& coarse)
+{
+  const internal::Textured_view fine_view(fine), coarse_view(coarse);
+  const internal::Fine_surface fine_surface(fine_view), coarse_surface(coarse_view);
+  const internal::Nearest_start to_coarse(fine_view, coarse_view), to_fine(coarse_view, fine_view);
+  Texture_deviation result = internal::measure_deviation(fine_surface, coarse_view, to_coarse);
+  internal::Deviation_meter<internal::Nearest_start> back(coarse_surface, fine_view, to_fine);
+  result.deviation.maximum
+    = (std::max)(result.deviation.maximum, back.locate_wedges().maximum);
+  return result;
+}
+
+/// \ingroup PkgHLSCMLevelsOfDetail
+/// Returns whether `measure_texture_deviation(mesh, k).deviation.maximum <= bound`; faster, above
+/// all if it is not. Precondition: as there.
+inline bool is_within_texture_deviation(const Textured_progressive_mesh& mesh, std::size_t k,
+                                        double bound)
+{
+  const internal::Textured_view view = internal::fine_view(mesh);
+  return internal::is_within(internal::Fine_surface(view), mesh, k,
+                             Level_error::TEXTURE_DEVIATION, bound);
+}
+
+/// \ingroup PkgHLSCMLevelsOfDetail
+/// Returns whether `measure_texture_deviation(mesh, k).distance.maximum <= bound`; faster, above
+/// all if it is not. Precondition: as there.
+inline bool is_within_distance(const Textured_progressive_mesh& mesh, std::size_t k, double bound)
+{
+  const internal::Textured_view view = internal::fine_view(mesh);
+  return internal::is_within(internal::Fine_surface(view), mesh, k, Level_error::DISTANCE, bound);
+}
+
+} // namespace Surface_mesh_multiresolution
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_MULTIRESOLUTION_TEXTURE_DEVIATION_H
