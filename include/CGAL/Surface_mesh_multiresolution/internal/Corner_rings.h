@@ -70,12 +70,23 @@ public:
   std::vector<Triangle_indices> take_triangles() { return std::move(m_triangles); }
   bool is_border(Vertex_index v) const { return (m_first[v] & border_flag) != 0; }
 
-  // Asks for the memory that a split of v needs first, and later for what it needs then.
+  // Ask for the memory that a split of v will need: first that of v, then, when that is there, along
+  // the ring, a corner a call.
   void prefetch(Vertex_index v) const { internal::prefetch(&m_first[v]); }
-  void prefetch_ring(Vertex_index v) const
+  Corner prefetch_first(Vertex_index v) const
   {
-    internal::prefetch(&m_next[first(v)]);
-    internal::prefetch(&m_triangles[first(v) / 3]);
+    prefetch_corner(first(v));
+    return first(v);
+  }
+  template <class Prefetch_vertex>
+  Corner prefetch_next(Corner corner, const Prefetch_vertex& prefetch_vertex) const
+  {
+    prefetch_vertex(at(previous(corner)));
+    const Corner after = m_next[corner];
+    if(after == no_corner)
+      return corner;
+    prefetch_corner(after);
+    return after;
   }
 
   // Makes the next vertex and calls use(w) for the neighbours beside the parent that tell where it
@@ -109,6 +120,12 @@ private:
 
   Vertex_index at(Corner corner) const { return m_triangles[corner / 3][corner % 3]; }
   Corner first(Vertex_index v) const { return m_first[v] & ~border_flag; }
+
+  void prefetch_corner(Corner corner) const
+  {
+    internal::prefetch(&m_next[corner]);
+    internal::prefetch(&m_triangles[corner / 3]);
+  }
 
   // From here on `corner` begins the ring of v, which stays open if it was.
   void set_first(Vertex_index v, Corner corner) { m_first[v] = corner | (m_first[v] & border_flag); }

@@ -46,6 +46,9 @@ public:
 private:
   typedef std::array<Column_reader, 5> Value_columns;
 
+  // The corners of a ring that are asked for one after the other: more than most splits pass.
+  static constexpr std::size_t corners_ahead = 8;
+
   bool open(Value_columns& high, Value_columns& low, const char*& from, const char* end,
             std::size_t vertices, std::size_t wedges) const;
   bool read_batch_ends(const char*& from, const char* end);
@@ -53,6 +56,7 @@ private:
   bool read_pairs(const char*& from, const char* end, std::size_t count);
   bool read_values(const char*& from, const char* end);
   bool read_connectivity(std::uint32_t splits, const char*& from, const char* end);
+  void prefetch(std::size_t i);
   bool split_all(Column_reader& kinds);
   bool append_points(std::size_t from);
   bool has_sound_counts() const;
@@ -71,6 +75,7 @@ private:
   std::vector<std::uint8_t> m_is_second;    // of two wedges of a vertex
   std::vector<Ring_split> m_splits;
   std::vector<Wedge_values> m_residuals;
+  std::array<Corner_rings::Corner, 16> m_cursors = {}; // of the splits to come, see prefetch()
   std::vector<std::array<std::uint32_t, 5>> m_low; // if there are
 };
 
@@ -232,19 +237,33 @@ inline bool Section_decoder::read_connectivity(std::uint32_t splits, const char*
       && moved.is_sound();
 }
 
+// Asks for what the splits after split i will need. Rings are lists, whose next corner is known only
+// when the one before is there: so each of the splits to come goes one corner on.
+inline void Section_decoder::prefetch(std::size_t i)
+{
+  const auto prefetch_values = [this](Vertex_index w) { internal::prefetch(&m_values[w]); };
+  const auto is_known = [this](std::size_t j) { // a parent may be a wedge that is not there yet
+    return j < m_splits.size() && m_splits[j].parent < m_values.size();
+  };
+  const std::size_t farthest = i + corners_ahead + 4, far = i + corners_ahead + 1;
+  if(is_known(farthest)) {
+    m_rings.prefetch(m_splits[farthest].parent);
+    prefetch_values(m_splits[farthest].parent);
+  }
+  m_cursors[far % m_cursors.size()]
+    = is_known(far) ? m_rings.prefetch_first(m_splits[far].parent) : 0;
+  for(std::size_t j = i + 1; j < far; ++j) {
+    Corner_rings::Corner& cursor = m_cursors[j % m_cursors.size()];
+    cursor = m_rings.prefetch_next(cursor, prefetch_values);
+  }
+}
+
 // The wedges with their values and vertices.
 inline bool Section_decoder::split_all(Column_reader& kinds)
 {
-  constexpr std::size_t ahead = 8; // splits: about the latency of the memory
   const std::size_t n = m_splits.size();
   for(std::size_t i = 0; i < n; ++i) {
-    // A parent may be a wedge of this section, which has no ring yet
-    if(i + 2 * ahead < n && m_splits[i + 2 * ahead].parent < m_values.size()) {
-      m_rings.prefetch(m_splits[i + 2 * ahead].parent);
-      internal::prefetch(&m_values[m_splits[i + 2 * ahead].parent]);
-    }
-    if(i + ahead < n && m_splits[i + ahead].parent < m_values.size())
-      m_rings.prefetch_ring(m_splits[i + ahead].parent);
+    prefetch(i);
     Ring_split& split = m_splits[i];
     if(m_rings.is_border(split.parent) && !kinds.is_empty()) {
       const std::uint32_t kind = kinds.next<Column_code::RICE>();
