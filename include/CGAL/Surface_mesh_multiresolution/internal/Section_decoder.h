@@ -1,0 +1,384 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_SECTION_DECODER_H
+#define CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_SECTION_DECODER_H
+
+#include <CGAL/Surface_mesh_multiresolution/Textured_progressive_mesh.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/Corner_rings.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/Value_codec.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/split_prediction.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_multiresolution {
+namespace internal {
+
+// A mesh that grows section by section. It takes nothing in the bytes on trust: a section that does
+// not describe splits of this mesh is refused.
+//
+// A section is read in three sweeps: the numbers of all splits, in loops that a processor can run
+// ahead in; the splits, for which the memory can then be asked for in time; the coordinates.
+class Section_decoder
+{
+public:
+  Section_decoder() {}
+  explicit Section_decoder(const File_header& header) : m_header(header), m_codec(header) {}
+
+  // Makes room for the mesh, or for what `bytes` of splits can make of it.
+  void reserve(std::size_t bytes);
+
+  // Read the bytes of a section, behind which eight more can be read. If they return false the
+  // bytes are not those of a section, the mesh is as it was, and no more can be read.
+  bool read_base(const char* bytes, std::size_t size);
+  bool read_splits(std::uint32_t splits, const char* bytes, std::size_t size);
+
+  std::size_t number_of_wedges() const { return m_values.size(); }
+  std::size_t number_of_splits() const { return m_parents.size(); }
+
+  // The mesh so far, as a copy or for good.
+  Textured_progressive_mesh mesh() const;
+  Textured_progressive_mesh take_mesh();
+
+private:
+  typedef std::array<Column_reader, 5> Value_columns;
+
+  // The corners of a ring that are asked for one after the other: more than most splits pass.
+  static constexpr std::size_t corners_ahead = 8;
+
+  bool open(Value_columns& high, Value_columns& low, const char*& from, const char* end,
+            std::size_t vertices, std::size_t wedges) const;
+  bool read_batch_ends(const char*& from, const char* end);
+  bool read_triangles(const char*& from, const char* end);
+  bool read_pairs(const char*& from, const char* end, std::size_t count);
+  bool read_values(const char*& from, const char* end);
+  bool read_connectivity(std::uint32_t splits, const char*& from, const char* end);
+  void prefetch(std::size_t i);
+  bool split_all(Column_reader& kinds);
+  bool append_points(std::size_t from);
+  bool has_sound_counts() const;
+  void go_back(std::size_t wedges, std::size_t triangles);
+  void set_collapses(Progressive_mesh& pm) const;
+
+  File_header m_header;
+  Value_codec m_codec;
+  Corner_rings m_rings;
+  Parent_prediction m_prediction;
+  std::vector<Wedge_values> m_values;  // of each wedge
+  std::vector<Vertex_index> m_parents; // of each wedge that a split made
+  Textured_progressive_mesh m_mesh;    // its points, uv, vertices and ends of batches
+
+  // Of the section that is being read
+  std::vector<std::uint8_t> m_is_second;    // of two wedges of a vertex
+  std::vector<Ring_split> m_splits;
+  std::vector<Wedge_values> m_residuals;
+  std::array<Corner_rings::Corner, 16> m_cursors = {}; // of the splits to come, see prefetch()
+  std::vector<std::array<std::uint32_t, 5>> m_low; // if there are
+};
+
+inline void Section_decoder::reserve(std::size_t bytes)
+{
+  // A split takes six bits at least, in ranges, deltas, skipped, moved, u and v.
+  const std::size_t wedges = (std::min)(std::size_t(m_header.fine.wedges),
+                                        m_header.base.wedges + bytes * 4 / 3);
+  const std::size_t triangles = (std::min)(std::size_t(m_header.fine.triangles),
+                                           m_header.base.triangles + bytes * 8 / 3);
+  m_rings.reserve(wedges, triangles);
+  m_values.reserve(wedges);
+  m_parents.reserve(wedges);
+  m_mesh.vertex.reserve(wedges);
+  m_mesh.uv.reserve(wedges);
+  m_mesh.points.reserve((std::min)(wedges, std::size_t(m_header.fine.vertices)));
+}
+
+inline bool Section_decoder::open(Value_columns& high, Value_columns& low, const char*& from,
+                                  const char* end, std::size_t vertices, std::size_t wedges) const
+{
+  bool is_sound = true;
+  const auto open_all = [&](Value_columns& columns) {
+    for(int c = 0; c < 5; ++c) {
+      columns[c] = Column_reader(from, end, c < 3 ? vertices : wedges);
+      is_sound = is_sound && columns[c].is_sound();
+    }
+  };
+  open_all(high);
+  if(m_codec.has_low())
+    open_all(low);
+  return is_sound;
+}
+
+inline bool Section_decoder::read_batch_ends(const char*& from, const char* end)
+{
+  if(end - from < 4)
+    return false;
+  const std::size_t count = std::size_t(load_little_endian(from, 4));
+  from += 4;
+  Column_reader ends(from, end, count);
+  if(!ends.is_sound())
+    return false;
+  std::size_t last = 0;
+  for(std::size_t i = 0; i < count; ++i) {
+    last += ends.next<Column_code::EXP_GOLOMB>();
+    if(last > m_header.number_of_splits())
+      return false;
+    m_mesh.progressive_mesh.batch_ends.push_back(last);
+  }
+  return ends.is_sound() && (count == 0 || last == m_header.number_of_splits());
+}
+
+inline bool Section_decoder::read_triangles(const char*& from, const char* end)
+{
+  Column_reader corners(from, end, 3 * std::size_t(m_header.base.triangles));
+  if(!corners.is_sound())
+    return false;
+  std::vector<Triangle_indices> triangles(m_header.base.triangles);
+  Triangle_indices last = {0, 0, 0};
+  for(Triangle_indices& t : triangles) {
+    for(int c = 0; c < 3; ++c) {
+      t[c] = last[c] + unzigzag(corners.next<Column_code::EXP_GOLOMB>());
+      if(t[c] >= m_header.base.wedges)
+        return false;
+    }
+    last = t;
+  }
+  // Each wedge has a triangle: no memory for more than there can be
+  return corners.is_sound() && m_header.base.wedges <= 3 * std::size_t(m_header.base.triangles)
+      && m_rings.build(std::move(triangles), m_header.base.wedges) == Ring_defect::NONE;
+}
+
+inline bool Section_decoder::read_pairs(const char*& from, const char* end, std::size_t count)
+{
+  Column_reader pairs(from, end, 0);
+  if(!pairs.is_sound())
+    return false;
+  m_is_second.assign(count, 0);
+  std::uint32_t all = 0;
+  if(!pairs.is_empty())
+    for(std::uint8_t& is_second : m_is_second) {
+      const std::uint32_t flag = pairs.next<Column_code::RICE>();
+      is_second = std::uint8_t(flag);
+      all |= flag;
+    }
+  return pairs.is_sound() && all <= 1 && m_is_second[0] == 0;
+}
+
+// The residuals of the wedges in `m_is_second`.
+inline bool Section_decoder::read_values(const char*& from, const char* end)
+{
+  const std::size_t wedges = m_is_second.size();
+  const std::size_t seconds = std::size_t(std::count(m_is_second.begin(), m_is_second.end(), 1));
+  Value_columns high, low;
+  if(!open(high, low, from, end, wedges - seconds, wedges))
+    return false;
+  m_residuals.resize(wedges);
+  for(std::size_t i = 0; i < wedges; ++i) {
+    Wedge_values& row = m_residuals[i];
+    if(m_is_second[i] == 0)
+      for(int c = 0; c < 3; ++c)
+        row[c] = unzigzag(high[c].next<Column_code::RICE>());
+    for(int c = 3; c < 5; ++c)
+      row[c] = unzigzag(high[c].next<Column_code::RICE>());
+  }
+  if(m_codec.has_low()) {
+    m_low.resize(wedges);
+    for(std::size_t i = 0; i < wedges; ++i)
+      for(int c = m_is_second[i] == 0 ? 0 : 3; c < 5; ++c)
+        m_low[i][c] = low[c].next<Column_code::RICE>();
+  }
+  return std::all_of(high.begin(), high.end(), [](const Column_reader& c) { return c.is_sound(); })
+      && (!m_codec.has_low() || std::all_of(low.begin(), low.end(), [](const Column_reader& c) {
+            return c.is_sound();
+          }));
+}
+
+inline bool Section_decoder::read_base(const char* bytes, std::size_t size)
+{
+  const char *from = bytes, *end = bytes + size;
+  if(!read_batch_ends(from, end) || !read_triangles(from, end)
+     || !read_pairs(from, end, m_header.base.wedges) || !read_values(from, end))
+    return false;
+  Wedge_values last = {};
+  for(std::size_t w = 0; w < m_is_second.size(); ++w) {
+    for(int c = m_is_second[w] == 0 ? 0 : 3; c < 5; ++c)
+      last[c] = (last[c] + m_residuals[w][c]) & m_codec.mask(c);
+    m_values.push_back(last);
+    m_mesh.vertex.push_back(w == 0 ? 0 : m_mesh.vertex.back() + 1 - m_is_second[w]);
+  }
+  m_prediction = Parent_prediction(m_mesh.progressive_mesh.batch_ends, m_header.base.wedges,
+                                   m_header.fine.wedges);
+  return append_points(0) && from == end && m_mesh.points.size() == m_header.base.vertices
+      && has_sound_counts();
+}
+
+inline bool Section_decoder::read_connectivity(std::uint32_t splits, const char*& from,
+                                               const char* end)
+{
+  Column_reader ranges(from, end, splits), deltas(from, end, splits);
+  Column_reader skipped(from, end, splits), moved(from, end, splits);
+  if(!ranges.is_sound() || !deltas.is_sound() || !skipped.is_sound() || !moved.is_sound())
+    return false;
+  Vertex_index wedge = Vertex_index(number_of_wedges());
+  m_splits.resize(splits);
+  bool has_parents = true;
+  for(Ring_split& split : m_splits) {
+    m_prediction.advance_to(wedge);
+    const Parent_prediction::Code code = {ranges.next<Column_code::RICE>(),
+                                          deltas.next<Column_code::EXP_GOLOMB>()};
+    split.parent = m_prediction.parent_of(code);
+    split.kind = Split_kind::INSIDE;
+    split.skipped = skipped.next<Column_code::RICE>();
+    split.moved = unzigzag(moved.next<Column_code::RICE>()) + expected_moved;
+    has_parents = has_parents && split.parent < wedge++;
+  }
+  return has_parents && ranges.is_sound() && deltas.is_sound() && skipped.is_sound()
+      && moved.is_sound();
+}
+
+// Asks for what the splits after split i will need. Rings are lists, whose next corner is known only
+// when the one before is there: so each of the splits to come goes one corner on.
+inline void Section_decoder::prefetch(std::size_t i)
+{
+  const auto prefetch_values = [this](Vertex_index w) { internal::prefetch(&m_values[w]); };
+  const auto is_known = [this](std::size_t j) { // a parent may be a wedge that is not there yet
+    return j < m_splits.size() && m_splits[j].parent < m_values.size();
+  };
+  const std::size_t farthest = i + corners_ahead + 4, far = i + corners_ahead + 1;
+  if(is_known(farthest)) {
+    m_rings.prefetch(m_splits[farthest].parent);
+    prefetch_values(m_splits[farthest].parent);
+  }
+  m_cursors[far % m_cursors.size()]
+    = is_known(far) ? m_rings.prefetch_first(m_splits[far].parent) : 0;
+  for(std::size_t j = i + 1; j < far; ++j) {
+    Corner_rings::Corner& cursor = m_cursors[j % m_cursors.size()];
+    cursor = m_rings.prefetch_next(cursor, prefetch_values);
+  }
+}
+
+// The wedges with their values and vertices.
+inline bool Section_decoder::split_all(Column_reader& kinds)
+{
+  const std::size_t n = m_splits.size();
+  for(std::size_t i = 0; i < n; ++i) {
+    prefetch(i);
+    Ring_split& split = m_splits[i];
+    if(m_rings.is_border(split.parent) && !kinds.is_empty()) {
+      const std::uint32_t kind = kinds.next<Column_code::RICE>();
+      if(kind > 2)
+        return false;
+      split.kind = Split_kind(kind);
+    }
+    m_parents.push_back(split.parent);
+    Value_prediction prediction(m_values[split.parent]);
+    if(!m_rings.split(split, [&](Vertex_index w) { prediction.add(m_values[w]); }))
+      return false;
+    Wedge_values values = prediction.mean();
+    for(int c = 0; c < 5; ++c)
+      values[c] = (values[c] + m_residuals[i][c]) & m_codec.mask(c);
+    if(m_is_second[i] != 0) {
+      const Vertex_index first = m_parents[m_parents.size() - 2];
+      if(m_mesh.vertex[first] != m_mesh.vertex[split.parent])
+        return false;
+      std::copy_n(m_values.back().begin(), 3, values.begin());
+    }
+    m_values.push_back(values);
+    m_mesh.vertex.push_back(m_mesh.vertex.back() + 1 - m_is_second[i]);
+  }
+  return kinds.is_sound();
+}
+
+// The coordinates of the wedges from `from` on, which are those in `m_residuals`.
+inline bool Section_decoder::append_points(std::size_t from)
+{
+  bool is_finite = true;
+  for(std::size_t w = from; w < m_values.size(); ++w) {
+    std::array<double, 5> x;
+    for(int c = 0; c < 5; ++c) {
+      x[c] = m_codec.value_of({m_values[w][c], m_codec.has_low() ? m_low[w - from][c] : 0}, c);
+      is_finite = is_finite && std::isfinite(x[c]);
+    }
+    m_mesh.uv.emplace_back(x[3], x[4]);
+    if(m_is_second[w - from] == 0)
+      m_mesh.points.emplace_back(x[0], x[1], x[2]);
+  }
+  return is_finite;
+}
+
+inline bool Section_decoder::has_sound_counts() const
+{
+  const File_counts& fine = m_header.fine;
+  const std::size_t triangles = m_rings.triangles().size(), vertices = m_mesh.points.size();
+  return m_values.size() < fine.wedges
+           ? triangles < fine.triangles && vertices <= fine.vertices
+           : triangles == fine.triangles && vertices == fine.vertices;
+}
+
+inline bool Section_decoder::read_splits(std::uint32_t splits, const char* bytes, std::size_t size)
+{
+  const std::size_t wedges = m_values.size(), triangles = m_rings.triangles().size();
+  const char *from = bytes, *end = bytes + size;
+  if(!read_pairs(from, end, splits))
+    return false;
+  Column_reader kinds(from, end, 0);
+  if(!kinds.is_sound() || !read_connectivity(splits, from, end) || !read_values(from, end))
+    return false;
+  if(split_all(kinds) && append_points(wedges) && from == end && has_sound_counts())
+    return true;
+  go_back(wedges, triangles);
+  return false;
+}
+
+// Undoes what was read of a section.
+inline void Section_decoder::go_back(std::size_t wedges, std::size_t triangles)
+{
+  const std::size_t base = m_header.base.wedges;
+  m_rings.truncate(triangles, [&](Vertex_index w) {
+    while(w >= wedges)
+      w = m_parents[w - base];
+    return w;
+  });
+  m_parents.resize(wedges - base);
+  m_values.resize(wedges);
+  m_mesh.vertex.resize(wedges);
+  m_mesh.uv.resize(wedges);
+  m_mesh.points.resize(m_mesh.vertex.back() + 1);
+}
+
+inline void Section_decoder::set_collapses(Progressive_mesh& pm) const
+{
+  const std::size_t missing = m_header.number_of_splits() - number_of_splits();
+  pm.number_of_vertices = m_values.size();
+  pm.collapses.reserve(m_parents.size());
+  for(std::size_t i = m_parents.size(); i-- > 0;)
+    pm.collapses.push_back({Vertex_index(m_header.base.wedges + i), m_parents[i]});
+  pm.batch_ends.clear();
+  for(const std::size_t end : m_mesh.progressive_mesh.batch_ends)
+    if(end > missing || missing == 0)
+      pm.batch_ends.push_back(end - missing);
+}
+
+inline Textured_progressive_mesh Section_decoder::mesh() const
+{
+  Textured_progressive_mesh result = m_mesh;
+  result.progressive_mesh.triangles = m_rings.triangles();
+  set_collapses(result.progressive_mesh);
+  return result;
+}
+
+inline Textured_progressive_mesh Section_decoder::take_mesh()
+{
+  Progressive_mesh pm;
+  set_collapses(pm);
+  pm.triangles = m_rings.take_triangles();
+  m_mesh.progressive_mesh = std::move(pm);
+  return std::move(m_mesh);
+}
+
+} // namespace internal
+} // namespace Surface_mesh_multiresolution
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_SECTION_DECODER_H
