@@ -116,6 +116,14 @@ void Output_file::fail() const
                                            + "), make room or choose another folder");
 }
 
+void refuse_to_overwrite(const fs::path& input, const fs::path& output)
+{
+  std::error_code ignored;
+  if(fs::equivalent(input, output, ignored)) {
+    throw Program_error(output.string(), "the output is the input, choose another name");
+  }
+}
+
 Output_files::Output_files()
 {
   Interruption::set_clean_up([this] {
@@ -135,7 +143,7 @@ void Output_files::create_folder(const fs::path& folder)
   std::lock_guard<std::mutex> lock(m_mutex);
   std::error_code error;
   if(fs::exists(folder, error) && !fs::is_directory(folder, error)) {
-    throw Program_error(folder.string(), "this is a file, name a folder for the pictures");
+    throw Program_error(folder.string(), "this is a file, name a folder");
   }
   fs::path part;
   for(const fs::path& name : folder) {

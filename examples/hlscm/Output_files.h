@@ -41,6 +41,9 @@ private:
   std::size_t m_size = 0;
 };
 
+/// Throws `Program_error` if an output has the name of the input.
+void refuse_to_overwrite(const std::filesystem::path& input, const std::filesystem::path& output);
+
 /// All files that a run leaves behind: they appear under their names together, by `commit()`, or
 /// not at all. What was there before stays untouched until then.
 class Output_files

@@ -231,6 +231,7 @@ public:
       m_pm = &create("mesh.pm");
     }
     if(!options.report.empty()) {
+      refuse_to_overwrite(options.input, options.report);
       m_report = &m_files.create(options.report);
     }
     if(!options.pictures.empty()) {
@@ -285,12 +286,8 @@ public:
 private:
   Output_file& create(const std::string& name)
   {
+    refuse_to_overwrite(m_options.input, m_folder / name);
     Output_file& file = m_files.create(m_folder / name);
-    std::error_code ignored;
-    if(fs::equivalent(m_options.input, m_folder / name, ignored)) {
-      throw Program_error((m_folder / name).string(),
-                          "the output is the input, choose another folder");
-    }
     m_named.emplace_back((m_folder / name).string(), &file);
     return file;
   }

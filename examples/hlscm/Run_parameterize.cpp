@@ -29,10 +29,7 @@ struct Run_files
   explicit Run_files(const Program_options& options)
   {
     for(const std::string& name : {options.output, options.report}) {
-      std::error_code ignored;
-      if(std::filesystem::equivalent(options.input, name, ignored)) {
-        throw Program_error(name, "the output is the input, choose another name");
-      }
+      refuse_to_overwrite(options.input, name);
     }
     if(!options.pictures.empty()) {
       pictures.emplace(all, options.pictures);
