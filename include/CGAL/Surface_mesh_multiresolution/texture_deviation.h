@@ -81,12 +81,11 @@ inline Surface_error surface_error(const Error_sum& sum, double area)
   return {sum.maximum, area > 0. ? sum.integral / area : 0.};
 }
 
+// The errors that a meter whose wedges have been located finds.
 template <class Start>
-Texture_deviation measure_deviation(const Fine_surface& fine, const Textured_view& coarse,
-                                    const Start& start)
+Texture_deviation all_errors(const Deviation_meter<Start>& meter, const Fine_surface& fine,
+                             const Textured_view& coarse)
 {
-  Deviation_meter<Start> meter(fine, coarse, start);
-  meter.locate_wedges();
   const Error_sum deviation = meter.deviation();
   const Nearest_sums nearest = meter.nearest();
   const double area = fine.total_area();
@@ -124,10 +123,10 @@ inline bool is_within(const Fine_surface& fine, const Textured_progressive_mesh&
 
 Returns the errors of the level of `mesh` after `k` collapses.
 
-The points of equal uv are found by walks in the texture, the nearest points by descents on the
-surface; both start at the ancestor of a wedge, or at what the walk has found. So nothing is asked of
-the map: where it covers the texture twice, the walk is on the right sheet. A descent ends in a local
-minimum, no farther than the ancestor and the point of equal uv.
+The points of equal uv are found by walks in the texture that start at the ancestor of a wedge. So
+nothing is asked of the map: where it covers the texture twice, the walk is on the right sheet. The
+nearest points are found by two descents on the surface, from the ancestor and from the point of equal
+uv. They end in local minima; the nearer one is no farther than either start.
 
 Expected linear time; loops use the threads of a `Blocked_execution::Thread_scope`, with the same
 result to the bit.
@@ -141,7 +140,9 @@ inline Texture_deviation measure_texture_deviation(const Textured_progressive_me
   const internal::Textured_view view = internal::fine_view(mesh);
   const internal::Fine_surface fine(view);
   const internal::Level_start level(mesh, k);
-  return internal::measure_deviation(fine, level.view(), level);
+  internal::Deviation_meter<internal::Level_start> meter(fine, level.view(), level);
+  meter.locate_wedges();
+  return internal::all_errors(meter, fine, level.view());
 }
 
 /*!
@@ -149,8 +150,9 @@ inline Texture_deviation measure_texture_deviation(const Textured_progressive_me
 
 Returns the errors of any textured mesh `coarse` for another one, `fine`, in the same texture.
 
-Walks start at the triangle of `coarse` that is nearest in space, found in an `AABB_tree`; so does
-that for `uv_change`, and `distance` is that from the nearest point of all. The vertices of `coarse`
+Walks start at the triangle of `coarse` that is nearest in space, found in an `AABB_tree`, or where the
+neighbours of a vertex are if that leads out of the chart. `uv_change` is measured from the nearest
+point of the chart around, `distance` from the nearest point of all. The vertices of `coarse`
 count in the maximum of `deviation` as far as they lie in the charts of `fine`.
 
 Time \f$ O(n \log n) \f$ as a rule.
@@ -163,8 +165,11 @@ inline Texture_deviation measure_texture_deviation(const Wedge_mesh& fine,
   const internal::Textured_view fine_view(fine), coarse_view(coarse);
   const internal::Fine_surface fine_surface(fine_view), coarse_surface(coarse_view);
   const internal::Nearest_start to_coarse(fine_view, coarse_view), to_fine(coarse_view, fine_view);
-  Texture_deviation result = internal::measure_deviation(fine_surface, coarse_view, to_coarse);
-  internal::Deviation_meter<internal::Nearest_start> back(coarse_surface, fine_view, to_fine);
+  typedef internal::Deviation_meter<internal::Nearest_start> Meter;
+  Meter meter(fine_surface, coarse_view, to_coarse), back(coarse_surface, fine_view, to_fine);
+  meter.locate_wedges();
+  meter.relocate_outside();
+  Texture_deviation result = internal::all_errors(meter, fine_surface, coarse_view);
   result.deviation.maximum
     = (std::max)(result.deviation.maximum, back.locate_wedges().maximum);
   return result;

@@ -59,7 +59,7 @@ constexpr double unbounded = (std::numeric_limits<double>::infinity)();
 // Start tells where to look for what belongs to a wedge w of the fine surface:
 //   is_kept(w)             whether w is a wedge of the coarse surface too, of the same number
 //   is_common_edge(v, w)   whether both are kept, with an edge between them
-//   start(w)               a point of the coarse surface that is not far, and its squared distance
+//   start(w)               a triangle of the coarse surface that is not far
 //   squared_distance(w, nearest)   from the whole coarse surface, given the nearest point of a chart
 //
 // Each measurement takes a bound and stops early, with any result above it, once it is exceeded.
@@ -79,8 +79,27 @@ public:
   {
     return sum_over_wedges<Error_sum>(bound, [this](Vertex_index w) {
       m_image[w] = locate(w);
-      return Error_sum{m_image[w].is_outside ? 0. : norm(m_image[w].difference), 0., 0., 0.};
+      return Error_sum{is_outside(m_image[w]) ? 0. : norm(m_image[w].difference), 0., 0., 0.};
     });
+  }
+
+  // Looks for wedges that seem to be outside once more, from where their neighbours are: the start may
+  // have been beyond a seam. In rounds, as long as some come nearer.
+  void relocate_outside()
+  {
+    constexpr int most_rounds = 100;
+    std::vector<std::pair<Vertex_index, Image>> better;
+    for(int round = 0; round == 0 || (round < most_rounds && !better.empty()); ++round) {
+      better.clear();
+      for(Vertex_index w = 0; w < m_image.size(); ++w)
+        if(is_outside(m_image[w])) {
+          const Image image = locate_beside_neighbors(w);
+          if(image.gap < m_image[w].gap)
+            better.push_back({w, image});
+        }
+      for(const auto& [w, image] : better)
+        m_image[w] = image;
+    }
   }
 
   // The texture deviation along the edges; locate_wedges() has come first.
@@ -124,9 +143,11 @@ private:
   struct Image
   {
     Real_vector<3> difference = {0., 0., 0.}; // from the point of equal uv
-    Triangle_number triangle = 0;             // that has this point
-    bool is_outside = false;                  // it is only the nearest one
+    Triangle_number triangle = 0;             // that has this point, or the nearest one
+    double gap = 0.;                          // from there in the texture
   };
+
+  bool is_outside(const Image& image) const { return image.gap > m_outside; }
 
   template <class Sum, class Body>
   Sum sum_over_wedges(double bound, const Body& body) const
@@ -150,27 +171,49 @@ private:
 
   Image locate(Vertex_index w) const
   {
+    if(!m_start.is_kept(w))
+      return locate(w, m_start.start(w));
     Image image;
-    if(m_start.is_kept(w)) {
-      image.triangle = m_coarse.triangle_at(w);
-      return image;
-    }
-    const Surface_point found = m_walk.locate(m_view.uv(w), m_start.start(w).triangle);
-    image.triangle = found.triangle;
-    image.difference = minus(m_view.point(w), m_coarse.point(found.triangle, found.weight));
-    image.is_outside = std::sqrt(found.squared_distance) > m_outside;
+    image.triangle = m_coarse.triangle_at(w);
     return image;
   }
 
-  // From the nearer of the point of equal uv and the start. So it is no farther than the former.
+  Image locate(Vertex_index w, Triangle_number start) const
+  {
+    const Surface_point found = m_walk.locate(m_view.uv(w), start);
+    return {minus(m_view.point(w), m_coarse.point(found.triangle, found.weight)), found.triangle,
+            std::sqrt(found.squared_distance)};
+  }
+
+  // The image of a wedge that is outside, or a better one found from where its neighbours are.
+  Image locate_beside_neighbors(Vertex_index w) const
+  {
+    Image best = m_image[w];
+    for(const std::uint32_t* at = m_view.at().begin(w); at != m_view.at().end(w); ++at)
+      for(const Vertex_index v : m_view.triangles()[*at / 3]) {
+        if(!(m_image[v].gap < best.gap) || m_image[v].triangle == best.triangle)
+          continue;
+        const Image image = locate(w, m_image[v].triangle);
+        if(image.gap < best.gap)
+          best = image;
+      }
+    return best;
+  }
+
+  // The nearer end of the descents from the start and from the point of equal uv: so it is no farther
+  // than either, and depends on the map only where the first one misses the nearest point.
   Nearest_sums nearest(Vertex_index w, const Image& image) const
   {
     if(m_start.is_kept(w))
       return Nearest_sums();
-    const Surface_point start = m_start.start(w);
-    const bool is_nearer = start.squared_distance < product(image.difference, image.difference);
-    const Surface_point found = descend_to_nearest(
-      m_coarse, is_nearer ? start.triangle : image.triangle, m_view.point(w));
+    const Real_vector<3> p = m_view.point(w);
+    const Triangle_number start = m_start.start(w);
+    Surface_point found = descend_to_nearest(m_coarse, start, p);
+    if(image.triangle != start) {
+      const Surface_point other = descend_to_nearest(m_coarse, image.triangle, p);
+      if(other.squared_distance < found.squared_distance)
+        found = other;
+    }
     const double change = norm(minus(m_coarse.uv(found.triangle, found.weight), m_view.uv(w)));
     const double distance = std::sqrt(m_start.squared_distance(w, found)), share = m_fine.share(w);
     return {{change, share * change, 0., 0.}, {distance, share * distance, 0., 0.}};
@@ -198,17 +241,19 @@ private:
     Error_sum sum;
     if(m_start.is_common_edge(v, w))
       return sum;
-    const bool v_is_outside = m_image[v].is_outside, w_is_outside = m_image[w].is_outside;
+    const bool v_is_outside = is_outside(m_image[v]), w_is_outside = is_outside(m_image[w]);
     // From inside; away from a corner of the coarse surface if there is a choice
     if(v_is_outside || (!w_is_outside && m_start.is_kept(v)))
       std::swap(v, w);
     const Image &begin = m_image[v], &end = m_image[w];
     Real_vector<3> before = begin.difference;
     double s = 0.;
-    if(!begin.is_outside) {
+    if(is_outside(begin)) {
+      sum.outside = 1.;
+    } else if(is_outside(end) || begin.triangle != end.triangle) { // else in one triangle all the way
       const Real_vector<3> p = m_view.point(v), q = m_view.point(w);
       const Way way = m_walk.follow(
-        m_view.uv(v), m_view.uv(w), begin.triangle, end.is_outside ? no_triangle : end.triangle,
+        m_view.uv(v), m_view.uv(w), begin.triangle, is_outside(end) ? no_triangle : end.triangle,
         [&](Triangle_number t, const Weights& weight, double at) {
           const Real_vector<3> here = minus(between(p, q, at), m_coarse.point(t, weight));
           add_piece(at - s, before, here, sum);
@@ -216,8 +261,6 @@ private:
           s = at;
         });
       (way == Way::LEFT ? sum.outside : sum.unresolved) += way == Way::ARRIVED ? 0. : 1. - s;
-    } else {
-      sum.outside = 1.;
     }
     add_piece(1. - s, before, end.difference, sum);
     sum.integral = corrected(sum.integral, norm(begin.difference), norm(end.difference));

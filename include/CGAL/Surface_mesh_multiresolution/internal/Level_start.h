@@ -14,7 +14,7 @@ namespace CGAL {
 namespace Surface_mesh_multiresolution {
 namespace internal {
 
-// A level of a progressive mesh, and where its points of a fine wedge are: at the ancestor.
+// A level of a progressive mesh, where the points that belong to a wedge are at its ancestor.
 class Level_start
 {
 public:
@@ -46,11 +46,7 @@ public:
     return false;
   }
 
-  Surface_point start(Vertex_index w) const
-  {
-    const Real_vector<3> d = minus(m_view.point(w), m_view.point(m_ancestor[w]));
-    return {m_view.triangle_at(m_ancestor[w]), {}, product(d, d)};
-  }
+  Triangle_number start(Vertex_index w) const { return m_view.triangle_at(m_ancestor[w]); }
 
   // Beyond a seam, the descent goes on in other charts.
   double squared_distance(Vertex_index w, const Surface_point& nearest) const

@@ -50,12 +50,10 @@ public:
   bool is_common_edge(Vertex_index, Vertex_index) const { return false; }
 
   // Nearest to a place within the triangles of w, lest the walk start beyond a seam.
-  Surface_point start(Vertex_index w) const
+  Triangle_number start(Vertex_index w) const
   {
     constexpr double inwards = 0.1;
-    const Triangle_number t
-      = nearest_triangle(between(m_from.point(w), middle_of_star(w), inwards));
-    return nearest_in(m_to, t, m_from.point(w));
+    return nearest_triangle(between(m_from.point(w), middle_of_star(w), inwards));
   }
 
   double squared_distance(Vertex_index w, const Surface_point& nearest) const

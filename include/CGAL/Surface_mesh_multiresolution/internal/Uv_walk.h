@@ -153,8 +153,6 @@ Way Uv_walk::follow(const Real_vector<2>& a, const Real_vector<2>& b, Triangle_n
                     Triangle_number end, const Cross& cross) const
 {
   constexpr int longest_way = 100000; // triangles; only rounding could send a way around in circles
-  if(start == end)
-    return Way::ARRIVED; // a triangle is convex
   Triangle_number t = towards(a, b, start), from = no_triangle;
   double s = 0.;
   for(int step = 0; step < longest_way; ++step) {
