@@ -13,13 +13,17 @@
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Surface_mesh_multiresolution/Level_extractor.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh_cursor.h>
+#include <CGAL/Surface_mesh_multiresolution/Progressive_mesh_file.h>
 #include <CGAL/Surface_mesh_multiresolution/Selectively_refined_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/copy_textured_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/build_textured_progressive_mesh.h>
 
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -49,6 +53,12 @@ public:
               << things << ',' << number / seconds << std::endl;
   }
 
+  // A row of the size of a file.
+  void add_size(const std::string& file, double bytes) const
+  {
+    std::cout << m_chart << ',' << m_faces << ',' << file << ",," << bytes << ",bytes," << std::endl;
+  }
+
 private:
   std::string m_chart;
   std::size_t m_faces;
@@ -67,7 +77,7 @@ SMM::Textured_progressive_mesh build(const Mesh& mesh, Uv_map uv, const Table& t
     parameterize(parameterizer);
   }), double(num_faces(mesh)), "faces");
   SMM::Textured_progressive_mesh_result result;
-  table.add("parameterize and build the progressive mesh", median_seconds_of(repetitions, [&] {
+  table.add("parameterize; build the progressive mesh", median_seconds_of(repetitions, [&] {
     SMP::HLSCM_options options;
     options.keep_progressive_mesh = true;
     Parameterizer parameterizer(options);
@@ -80,6 +90,14 @@ SMM::Textured_progressive_mesh build(const Mesh& mesh, Uv_map uv, const Table& t
   table.add("build it without the collapses of the parameterization",
             seconds_of([&] { anew = SMM::build_textured_progressive_mesh(textured); }),
             double(num_faces(mesh)), "faces");
+  table.add("parameterize; build and write the progressive mesh", median_seconds_of(repetitions, [&] {
+    SMP::HLSCM_options options;
+    options.keep_progressive_mesh = true;
+    Parameterizer parameterizer(options);
+    parameterize(parameterizer);
+    result = SMP::build_textured_progressive_mesh(mesh, uv, parameterizer.progressive_mesh());
+    SMM::encode_progressive_mesh(result.mesh);
+  }), double(num_faces(mesh)), "faces");
   for(const std::string& error : {result.error, anew.error})
     if(!error.empty())
       throw std::runtime_error(error);
@@ -105,6 +123,86 @@ void measure_levels(const SMM::Textured_progressive_mesh& pm, const Table& table
     table.add("extract " + std::to_string(percent) + " %", seconds,
               double(triangles.size()) * rounds, "triangles");
   }
+}
+
+// Binary PLY with floats, the vertices doubled at seams, and OBJ as the program writes it.
+std::string as_ply(const SMM::Textured_progressive_mesh& pm)
+{
+  std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex "
+                    + std::to_string(pm.number_of_wedges())
+                    + "\nproperty float x\nproperty float y\nproperty float z\nproperty float s\n"
+                      "property float t\nelement face "
+                    + std::to_string(pm.progressive_mesh.triangles.size())
+                    + "\nproperty list uchar int vertex_indices\nend_header\n";
+  for(std::size_t w = 0; w < pm.number_of_wedges(); ++w) {
+    const auto& p = pm.points[pm.vertex[w]];
+    const float numbers[] = {float(p.x()), float(p.y()), float(p.z()), float(pm.uv[w].x()),
+                             float(pm.uv[w].y())};
+    bytes.append(reinterpret_cast<const char*>(numbers), sizeof numbers);
+  }
+  for(const auto& t : pm.progressive_mesh.triangles) {
+    bytes.push_back(3);
+    bytes.append(reinterpret_cast<const char*>(t.data()), 12);
+  }
+  return bytes;
+}
+
+std::string as_obj(const SMM::Textured_progressive_mesh& pm)
+{
+  std::ostringstream text;
+  text.precision(9);
+  for(const auto& p : pm.points)
+    text << "v " << float(p.x()) << ' ' << float(p.y()) << ' ' << float(p.z()) << '\n';
+  for(const auto& p : pm.uv)
+    text << "vt " << float(p.x()) << ' ' << float(p.y()) << '\n';
+  for(const auto& t : pm.progressive_mesh.triangles) {
+    text << 'f';
+    for(const auto w : t)
+      text << ' ' << pm.vertex[w] + 1 << '/' << w + 1;
+    text << '\n';
+  }
+  return text.str();
+}
+
+// The size of the same mesh in a Draco file of 16 bits, if there is an encoder.
+void measure_draco(const std::string& obj, const Table& table)
+{
+  namespace fs = std::filesystem;
+  const fs::path from = fs::temp_directory_path() / "hlscm_levels.obj",
+                 to = fs::temp_directory_path() / "hlscm_levels.drc";
+  std::ofstream(from, std::ios::binary) << obj;
+  const std::string command = "draco_encoder -qp 16 -qt 16 -cl 7 -i '" + from.string() + "' -o '"
+                            + to.string() + "' > /dev/null 2>&1";
+  if(std::system(command.c_str()) == 0)
+    table.add_size("Draco; 16 bits; one level only", double(fs::file_size(to)));
+  fs::remove(from);
+  fs::remove(to);
+}
+
+void measure_files(const SMM::Textured_progressive_mesh& pm, const Table& table)
+{
+  const double splits = double(pm.number_of_collapses());
+  for(const auto precision : {SMM::Progressive_mesh_precision::QUANTIZED,
+                              SMM::Progressive_mesh_precision::LOSSLESS}) {
+    SMM::Progressive_mesh_write_options options;
+    options.precision = precision;
+    const std::string kind
+      = precision == SMM::Progressive_mesh_precision::LOSSLESS ? "lossless" : "16 bits";
+    SMM::Progressive_mesh_bytes file;
+    table.add("write a progressive mesh; " + kind, median_seconds_of(repetitions, [&] {
+      file = SMM::encode_progressive_mesh(pm, options);
+    }), splits, "splits");
+    table.add("read a progressive mesh; " + kind, median_seconds_of(repetitions, [&] {
+      const auto read = SMM::decode_progressive_mesh(file.bytes.data(), file.bytes.size());
+      if(read.status != SMM::Progressive_mesh_file_status::COMPLETE)
+        throw std::runtime_error(read.message);
+    }), splits, "splits");
+    table.add_size("progressive mesh; " + kind, double(file.bytes.size()));
+  }
+  table.add_size("PLY; binary; floats; one level only", double(as_ply(pm).size()));
+  const std::string obj = as_obj(pm);
+  table.add_size("OBJ; nine digits; one level only", double(obj.size()));
+  measure_draco(obj, table);
 }
 
 void measure_walks(const SMM::Textured_progressive_mesh& pm, const Table& table)
@@ -171,6 +269,7 @@ void print_rows(const std::string& path)
   const Table table(std::filesystem::path(path).stem().string(), num_faces(mesh));
   const SMM::Textured_progressive_mesh pm = build(mesh, uv, table);
   measure_levels(pm, table);
+  measure_files(pm, table);
   measure_walks(pm, table);
   measure_selection(pm, table);
 }

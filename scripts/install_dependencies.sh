@@ -6,7 +6,7 @@
 #
 # Usage: scripts/install_dependencies.sh [--doc] [--bench] [--coverage]
 #   --doc       also what the manual needs
-#   --bench     also what the plots and the memory of the benchmarks need
+#   --bench     also what the benchmarks need: plots, memory, and the libraries of peers
 #   --coverage  also gcovr
 
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -22,7 +22,7 @@ packages=(
 for option in "$@"; do
   case "$option" in
     --doc) packages+=(doxygen) ;;
-    --bench) packages+=(python3-matplotlib valgrind) ;;
+    --bench) packages+=(python3-matplotlib valgrind libopenblas0-pthread draco) ;;
     --coverage) packages+=(gcovr) ;;
     *) fail "unknown option $option; there are --doc, --bench and --coverage" ;;
   esac

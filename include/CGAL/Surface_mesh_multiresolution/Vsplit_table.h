@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_VSPLIT_TABLE_H
 
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/prefetch.h>
 
 #include <CGAL/Iterator_range.h>
 
@@ -115,6 +116,22 @@ public:
     m_first[v] = m_last[v] = none;
   }
 
+  // Asks for what a later call for v will need: `distance` calls ahead, and half as many.
+  void prefetch(const Progressive_mesh& pm, std::size_t i,
+                const std::vector<Triangle_indices>& triangles) const
+  {
+    constexpr std::size_t distance = 16; // about the latency of the memory
+    if(i + distance >= pm.collapses.size())
+      return;
+    internal::prefetch(&m_first[pm.collapses[i + distance].removed]);
+    internal::prefetch(&m_last[pm.collapses[i + distance].kept]);
+    const Corner corner = m_first[pm.collapses[i + distance / 2].removed];
+    if(corner != none) {
+      internal::prefetch(&m_next[corner]);
+      internal::prefetch(&triangles[corner / 3]);
+    }
+  }
+
   // Calls use(corner) for the corners at v, of dead triangles too.
   template <class Use>
   void for_each(Vertex_index v, const Use& use) const
@@ -147,6 +164,7 @@ inline Vsplit_table::Vsplit_table(const Progressive_mesh& pm)
   std::vector<Corner> moved;
   for(std::size_t i = 0; i < n; ++i) {
     const Vertex_index kept = pm.collapses[i].kept;
+    descent.prefetch(pm, i, m_triangles);
     m_begin.push_back(std::uint32_t(m_corners.size()));
     moved.clear();
     descent.take(

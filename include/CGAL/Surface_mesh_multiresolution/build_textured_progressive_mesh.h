@@ -166,7 +166,7 @@ build_textured_progressive_mesh(const Textured_triangle_mesh& mesh,
 
 Returns the progressive mesh of one chart from the collapses with which it was parameterized, which
 spares the decimation: `pm` is what `HLSCM_parameterizer_3::progressive_mesh()` returns, `points` and
-`uv` belong to its vertices.
+`uv` belong to its vertices, of which those that are near in space should be near in memory.
 
 Collapses that turn triangles over in the texture are left out, and those that are no longer possible
 without them. Then decimation goes on to the coarsest level that `options` ask for, of which
@@ -190,7 +190,11 @@ build_textured_progressive_mesh(const Progressive_mesh& pm,
   fine.uv = uv;
   fine.vertex.resize(points.size());
   std::iota(fine.vertex.begin(), fine.vertex.end(), Vertex_index(0));
-  result.error = internal::texture_error({points, pm.triangles, uv, pm.triangles});
+  result.error = internal::point_error(points);
+  for(std::size_t v = 0; v < uv.size() && result.error.empty(); ++v)
+    if(!std::isfinite(uv[v].x()) || !std::isfinite(uv[v].y()))
+      result.error = "vertex " + std::to_string(v)
+                   + " has a texture coordinate that is not a finite number";
   internal::Replay replay;
   if(result.error.empty())
     result.error = replay.run(pm, points, uv, options.target_vertices, options.is_locked);

@@ -6,6 +6,7 @@
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_multiresolution/Indexed_triangle_mesh.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/prefetch.h>
 
 #include <CGAL/assertions.h>
 
@@ -16,18 +17,6 @@
 namespace CGAL {
 namespace Surface_mesh_multiresolution {
 namespace internal {
-
-// Asks for the cache line of an address. The empty statement is for GCC: it takes a function that
-// does nothing but prefetch for one without effects, and leaves out the calls of it.
-inline void prefetch(const void* address)
-{
-#if defined(__GNUC__)
-  __builtin_prefetch(address);
-  __asm__ __volatile__("");
-#else
-  (void)address;
-#endif
-}
 
 // What can be wrong with the connectivity at a vertex.
 enum class Ring_defect : std::uint8_t { NONE, ISOLATED, REPEATED_HALFEDGE, SEVERAL_FANS };

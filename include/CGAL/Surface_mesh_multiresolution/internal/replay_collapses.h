@@ -10,6 +10,7 @@
 #include <CGAL/Surface_mesh_multiresolution/internal/Vertex_rings.h>
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,27 +29,26 @@ public:
   std::vector<Vertex_index> vertices;       // that are left
   std::vector<Triangle_indices> triangles;  // that are left, as indices into `vertices`
 
-  // Returns what is wrong with the mesh, if anything is.
+  // Returns what is wrong with the mesh, if anything is. Vertices that are near in space should be
+  // near in memory.
   std::string run(const Progressive_mesh& pm,
                   const std::vector<Textured_triangle_mesh::Point_3>& points,
                   const std::vector<Textured_triangle_mesh::Point_2>& uv,
                   std::size_t target_vertices, const std::vector<bool>& is_locked)
   {
-    Indexed_triangle_mesh mesh = {points, pm.triangles};
-    const std::vector<Vertex_index> source = sort_spatially(mesh);
-    const std::vector<Vertex_index> rank = ranks(source, source.size());
-    m_rings = Vertex_rings(mesh);
-    const std::string error = ring_error(m_rings, source);
+    m_rings = Vertex_rings({points, pm.triangles});
+    std::vector<Vertex_index> all(points.size());
+    std::iota(all.begin(), all.end(), Vertex_index(0));
+    const std::string error = ring_error(m_rings, all);
     if(!error.empty())
       return error;
-    for(const Vertex_index v : source)
-      m_uv.push_back(uv[v]);
-    std::vector<bool> is_gone(source.size(), false);
+    std::vector<bool> is_gone(points.size(), false);
     auto batch_end = pm.batch_ends.begin();
     for(std::size_t i = 0; i < pm.collapses.size(); ++i) {
       const auto [removed, kept] = pm.collapses[i];
+      prefetch(pm.collapses, i, uv);
       if(points.size() - collapses.size() > target_vertices
-         && (is_locked.empty() || !is_locked[removed]) && try_collapse(rank[removed], rank[kept])) {
+         && (is_locked.empty() || !is_locked[removed]) && try_collapse(removed, kept, uv)) {
         collapses.push_back(pm.collapses[i]);
         is_gone[removed] = true;
       }
@@ -58,22 +58,40 @@ public:
         ++batch_end;
       }
     }
-    collect(source, is_gone);
+    collect(is_gone);
     return {};
   }
 
 private:
-  bool try_collapse(Vertex_index v, Vertex_index t)
+  typedef std::vector<Textured_triangle_mesh::Point_2> Uv;
+
+  // Asks for what the collapses after number i will need.
+  void prefetch(const std::vector<Halfedge_collapse>& all, std::size_t i, const Uv& uv) const
+  {
+    constexpr std::size_t distance = 6; // about the latency of the memory
+    if(i + 2 * distance >= all.size())
+      return;
+    const Vertex_index later = all[i + 2 * distance].removed, next = all[i + distance].removed;
+    m_rings.prefetch(later);
+    internal::prefetch(&uv[later]);
+    const Vertex_index* r = m_rings.ring(next);
+    for(std::uint32_t k = 0; k < (std::min)(m_rings.degree(next), 8u); ++k) {
+      m_rings.prefetch(r[k]);
+      internal::prefetch(&uv[r[k]]);
+    }
+  }
+
+  bool try_collapse(Vertex_index v, Vertex_index t, const Uv& uv)
   {
     const Vertex_index* r = m_rings.ring(v);
     const std::uint32_t k = std::uint32_t(std::find(r, r + m_rings.degree(v), t) - r);
-    if(k == m_rings.degree(v) || !m_rings.is_collapse_valid(v, k) || turns_over(v, t))
+    if(k == m_rings.degree(v) || !m_rings.is_collapse_valid(v, k) || turns_over(v, t, uv))
       return false;
     m_rings.collapse(v, k);
     return true;
   }
 
-  bool turns_over(Vertex_index v, Vertex_index t) const
+  bool turns_over(Vertex_index v, Vertex_index t, const Uv& uv) const
   {
     const Vertex_index* r = m_rings.ring(v);
     const std::uint32_t d = m_rings.degree(v);
@@ -82,24 +100,19 @@ private:
       const Vertex_index a = r[i == 0 ? d - 1 : i - 1], b = r[i];
       if(a == t || b == t)
         continue;
-      result |= has_turned_over(double_area(m_uv[v], m_uv[a], m_uv[b]),
-                                double_area(m_uv[t], m_uv[a], m_uv[b]));
+      result |= has_turned_over(double_area(uv[v], uv[a], uv[b]), double_area(uv[t], uv[a], uv[b]));
     }
     return result;
   }
 
   // The triangles come in the order of their smallest vertex.
-  void collect(const std::vector<Vertex_index>& source, const std::vector<bool>& is_gone)
+  void collect(const std::vector<bool>& is_gone)
   {
-    std::vector<Vertex_index> position(source.size(), no_vertex);
-    for(Vertex_index v = 0; v < source.size(); ++v)
-      if(!is_gone[source[v]]) {
-        position[v] = Vertex_index(vertices.size());
-        vertices.push_back(source[v]);
-      }
-    for(Vertex_index v = 0; v < source.size(); ++v) {
-      if(position[v] == no_vertex)
-        continue;
+    for(Vertex_index v = 0; v < is_gone.size(); ++v)
+      if(!is_gone[v])
+        vertices.push_back(v);
+    const std::vector<Vertex_index> position = ranks(vertices, is_gone.size());
+    for(const Vertex_index v : vertices) {
       const Vertex_index* r = m_rings.ring(v);
       const std::uint32_t d = m_rings.degree(v);
       for(std::uint32_t i = m_rings.is_border(v) ? 1 : 0; i < d; ++i) {
@@ -111,7 +124,6 @@ private:
   }
 
   Vertex_rings m_rings;
-  std::vector<Textured_triangle_mesh::Point_2> m_uv;
 };
 
 } // namespace internal
