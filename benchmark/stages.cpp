@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // What each stage of parameterize() costs, beside what bounds it: a CSV file on stdout. The stages
-// are run one by one, by the functions that the parameterizer calls; the last rows are their sum and
-// parameterize() itself.
+// are run one by one, by the functions that the parameterizer calls; the last rows are their sum
+// and parameterize() itself.
 //
 // Usage: stages MESH...
 
