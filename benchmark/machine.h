@@ -61,8 +61,8 @@ inline std::string commit()
 inline std::string description()
 {
   return internal::cpu_model() + ", " + std::to_string(std::thread::hardware_concurrency())
-         + " processors, one thread used; compiler " + __VERSION__ + ", " + HLSCM_COMPILE_FLAGS
-         + "; CGAL " CGAL_VERSION_STR + "; Eigen " + std::to_string(EIGEN_WORLD_VERSION) + '.'
+         + " processors, one thread used unless a row says otherwise; compiler " + __VERSION__
+         + ", " + HLSCM_COMPILE_FLAGS + "; CGAL " CGAL_VERSION_STR + "; Eigen " + std::to_string(EIGEN_WORLD_VERSION) + '.'
          + std::to_string(EIGEN_MAJOR_VERSION) + '.' + std::to_string(EIGEN_MINOR_VERSION)
          + "; commit " + internal::commit();
 }

@@ -11,7 +11,7 @@
 # Environment:
 #   REPEAT          runs of each method, whose median counts (3)
 #   LIMIT           seconds for a run (600)
-#   MAX_FACES       of the charts (7000000)
+#   MAX_FACES       of the charts (7000000; the largest of all needs 11000000)
 #   HLSCM_DATA_DIR  the meshes of Debian's libcgal-demo (unpacked into CHARTS_DIR/meshes)
 #   HLSCM_BIN       folder of the built programs (what is missing is installed, and they are built)
 
@@ -76,6 +76,21 @@ make_charts() {
   chart bunny00_shuffled_1207k "$data/bunny00.off" --cut --loop 2 --noise 0.1 --shuffle
 }
 
+# Two families of one shape each, from 0.1 to 10 million faces, in a folder of their own.
+make_scaling_charts() {
+  local data="$HLSCM_DATA_DIR"
+  mkdir -p "$charts/scaling"
+  chart scaling/terrain_100k grid:224x224 --noise 0.1
+  chart scaling/terrain_405k grid:450x450 --noise 0.1
+  chart scaling/terrain_1003k grid:708x708 --noise 0.1
+  chart scaling/terrain_5120k grid:1600x1600 --noise 0.1
+  chart scaling/terrain_10035k grid:2240x2240 --noise 0.1
+  chart scaling/bunny00_75k "$data/bunny00.off" --cut --noise 0.1
+  chart scaling/bunny00_302k "$data/bunny00.off" --cut --loop 1 --noise 0.1
+  chart scaling/bunny00_1207k "$data/bunny00.off" --cut --loop 2 --noise 0.1
+  chart scaling/bunny00_4826k "$data/bunny00.off" --cut --loop 3 --noise 0.1
+}
+
 # All charts of the folder but those of the series and of table 1, by size.
 other_charts() {
   local file thousands
@@ -110,21 +125,28 @@ run_kernels() {
 print_machine | tee -a "$out/machine.txt"
 awk '$1 > 0.5 { exit 1 }' /proc/loadavg || say "the machine is busy: times will be too long"
 make_charts
+make_scaling_charts
 run_kernels
 compare side_by_side
 mapfile -t others < <(other_charts)
 compare other_charts "${others[@]}" --methods \
   direct,cgal_lscm_cholmod,cgal_lscm_default,cascadic,hlscm_1e-2,hlscm_1e-4
 compare table_1 --table1
+mapfile -t scaling < <(find "$charts/scaling" -name '*_*k.ply' | sort -V)
+compare scaling "${scaling[@]}" --methods hlscm_1e-2,hlscm_1e-2_2_threads
 max_faces=$((max_faces < 2000000 ? max_faces : 2000000))
 compare decimation --decimation
 "$HLSCM_BIN/flip_repair" "$HLSCM_DATA_DIR"/{lion-head,mannequin-devil}.off > "$out/flip_repair.csv"
 mapfile -t large < <(find "$charts" -maxdepth 1 -name '*_1[0-9][0-9][0-9]k.ply' | sort)
 "$HLSCM_BIN/live_map" "${large[@]}" > "$out/live_map.csv"
+"$HLSCM_BIN/stages" "${large[@]}" > "$out/stages.csv"
+"$HLSCM_BIN/parameters" --repeat "$repeat" "$charts/camel_313k.ply" \
+  "$charts/scaling/bunny00_302k.ply" > "$out/parameters.csv"
 # Debian's python3 has matplotlib; another one that comes first may not.
 python="$(command -v /usr/bin/python3 || command -v python3)"
 for name in side_by_side other_charts; do
   "$python" benchmark/plot.py "$out/$name.csv" -o "$out/$name.png"
 done
+"$python" benchmark/plot_parameters.py "$out/parameters.csv" -o "$out/parameters.png"
 print_machine >> "$out/machine.txt"
 say "done: $out"

@@ -4,10 +4,10 @@
 #ifndef HLSCM_BENCHMARK_KERNELS_COUNTERS_H
 #define HLSCM_BENCHMARK_KERNELS_COUNTERS_H
 
+#include "../traffic.h"
+
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
-#include <chrono>
 #include <cstring>
 #include <vector>
 
@@ -19,24 +19,7 @@ inline void small_and_large(benchmark::internal::Benchmark* benchmark)
   benchmark->Arg(100000)->Arg(1000000)->Unit(benchmark::kMillisecond);
 }
 
-// The bytes a second that a copy of 128 MB reads and writes, the best of five: the bound for
-// kernels whose data do not fit into the caches.
-inline double copy_bandwidth()
-{
-  static const double best = [] {
-    std::vector<char> from(std::size_t(1) << 27, 1), to(from.size(), 2);
-    double result = 0;
-    for(int i = 0; i < 5; ++i) {
-      const auto start = std::chrono::steady_clock::now();
-      std::memcpy(to.data(), from.data(), from.size());
-      benchmark::ClobberMemory();
-      const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-      result = std::max(result, 2. * double(from.size()) / time.count());
-    }
-    return result;
-  }();
-  return best;
-}
+using traffic::bytes_of;
 
 // What is counted in one iteration, as a rate.
 inline void set_rate(benchmark::State& state, const char* name, double count)
@@ -50,13 +33,7 @@ inline void set_rate(benchmark::State& state, const char* name, double count)
 inline void set_bytes(benchmark::State& state, double bytes)
 {
   set_rate(state, "bytes/s", bytes);
-  state.counters["copy_ms"] = 1e3 * bytes / copy_bandwidth();
-}
-
-template <class Vector>
-double bytes_of(const Vector& v)
-{
-  return double(v.size() * sizeof(v[0]));
+  state.counters["copy_ms"] = 1e3 * bytes / traffic::copy_bandwidth();
 }
 
 } // namespace kernels

@@ -9,6 +9,7 @@
 #include <CGAL/Multigrid/Multigrid_levels.h>
 #include <CGAL/Multigrid/Sparse_cholesky.h>
 #include <CGAL/Surface_mesh_parameterization/Conformal_operator.h>
+#include <CGAL/Surface_mesh_parameterization/internal/coarse_cotangents.h>
 
 #include <deque>
 #include <memory>
@@ -16,6 +17,7 @@
 namespace {
 
 using namespace kernels;
+using traffic::matrix_bytes;
 namespace MG = CGAL::Multigrid;
 namespace SMP = CGAL::Surface_mesh_parameterization;
 typedef MG::Multigrid_levels<SMM::Prolongation, MG::Sparse_cholesky<>> Multigrid_levels;
@@ -85,19 +87,6 @@ double number_of_entries(const MG::Hermitian_matrix<Real>& h)
   return count;
 }
 
-// The bytes of a matrix that a product reads.
-template <class Real>
-double matrix_bytes(const MG::Hermitian_matrix<Real>& h)
-{
-  const MG::Sliced_pattern& p = h.pattern();
-  double entries = double(p.column.size());
-  for(std::size_t s = 0; s < p.slices(); ++s)
-    if(p.imaginary[s] != MG::Sliced_pattern::none)
-      entries += double((p.slice_begin[s + 1] - p.slice_begin[s]) * MG::Sliced_pattern::slice_rows);
-  return bytes_of(p.column) + entries * sizeof(Real) + bytes_of(h.diagonal())
-         + bytes_of(p.row_of_slot) + bytes_of(p.slice_begin) + bytes_of(p.imaginary);
-}
-
 template <class Real>
 void assemble(benchmark::State& state)
 {
@@ -109,6 +98,22 @@ void assemble(benchmark::State& state)
 }
 BENCHMARK_TEMPLATE(assemble, double)->Apply(small_and_large);
 BENCHMARK_TEMPLATE(assemble, float)->Apply(small_and_large);
+
+// The cotangents of the second finest level in the metric of the finest.
+void coarse_cotangents(benchmark::State& state)
+{
+  typedef SMM::internal::Triangles_at_vertices Triangles_at_vertices;
+  const std::vector<SMM::Mesh_level>& all = levels(std::size_t(state.range(0)));
+  const SMM::Mesh_level &fine = all.back(), &coarse = all[all.size() - 2];
+  const Triangles_at_vertices fine_at(fine.mesh.triangles, fine.vertices.size());
+  const Triangles_at_vertices coarse_at(coarse.mesh.triangles, coarse.vertices.size());
+  const SMP::internal::Half_cotangents cot(fine.mesh);
+  for(auto _ : state)
+    benchmark::DoNotOptimize(SMP::internal::coarse_cotangents(
+        {{fine.mesh, fine_at}, cot}, {coarse.mesh, coarse_at}, fine.from_coarser));
+  set_rate(state, "faces/s", double(fine.mesh.triangles.size()));
+}
+BENCHMARK(coarse_cotangents)->Apply(small_and_large);
 
 template <class Real>
 void product(benchmark::State& state)

@@ -67,6 +67,7 @@ private:
     static const std::vector<const char*> names = {
         "faces", "vertices",
         "seconds_hierarchy", "seconds_operators", "seconds_solve", "seconds_total",
+        "seconds_system",
         "levels", "iterations", "tolerance", "converged",
         "energy", "energy_per_area", "exact_energy_gap", "energy_cgal", "energy_gap",
         "energy_gap_estimate",

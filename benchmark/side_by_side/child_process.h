@@ -41,6 +41,14 @@ inline double peak_memory_mb()
   return double(usage.ru_maxrss) * 1024e-6;
 }
 
+// The seconds that the system has worked for this process so far, mostly to give it memory.
+inline double system_seconds()
+{
+  rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  return double(usage.ru_stime.tv_sec) + 1e-6 * double(usage.ru_stime.tv_usec);
+}
+
 // The number of threads that this process has.
 inline double number_of_threads()
 {

@@ -120,6 +120,12 @@ inline SMP::HLSCM_options options_of(SMP::Conformal_method method, double tolera
   return options;
 }
 
+inline SMP::HLSCM_options with_threads(SMP::HLSCM_options options, unsigned int threads)
+{
+  options.threads = threads;
+  return options;
+}
+
 inline SMP::HLSCM_options options_of(SMP::Monogrid_preconditioner preconditioner)
 {
   SMP::HLSCM_options options = options_of(SMP::Conformal_method::LSCM, 1e-2);
@@ -151,6 +157,8 @@ inline std::vector<Method> all_methods()
       library_method("cascadic", options_of(Conformal_method::CASCADIC)),
       library_method("hlscm_1e-2", options_of(Conformal_method::HLSCM, 1e-2)),
       library_method("hlscm_1e-4", options_of(Conformal_method::HLSCM, 1e-4)),
+      library_method("hlscm_1e-2_2_threads",
+                     with_threads(options_of(Conformal_method::HLSCM, 1e-2), 2)),
       library_method("spectral_1e-2", options_of(Conformal_method::SPECTRAL, 1e-2)),
       decimation_method("decimate_flat", Decimation_engine::FLAT),
       decimation_method("decimate_flat_strict", Decimation_engine::FLAT_STRICT),
