@@ -1,10 +1,11 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Runs each seed of the fuzzer once; the folder of the seeds is HLSCM_FUZZ_SEEDS. Among them are
-// the inputs on which something failed once.
+// Runs each seed of the fuzzers once; the folders of the seeds are HLSCM_FUZZ_SEEDS, of mesh files,
+// and HLSCM_PROGRESSIVE_MESH_SEEDS. Among them are the inputs on which something failed once.
 
 #include "error_of_mesh_bytes.h"
+#include "error_of_progressive_mesh_bytes.h"
 
 #include <gtest/gtest.h>
 
@@ -42,6 +43,20 @@ TEST(Seeds, do_not_have_to_end)
       EXPECT_EQ(error_of_mesh_bytes(beginning), "") << seed.path() << ", " << size << " bytes";
     }
   }
+}
+
+TEST(Progressive_mesh_seeds, do_not_have_to_end)
+{
+  std::size_t seeds = 0;
+  for(const fs::directory_entry& seed : fs::directory_iterator(HLSCM_PROGRESSIVE_MESH_SEEDS)) {
+    const std::string bytes = bytes_of(seed.path());
+    EXPECT_EQ(test_support::error_of_progressive_mesh_bytes(bytes), "") << seed.path();
+    for(std::size_t size = 0; size < bytes.size(); ++size)
+      EXPECT_EQ(test_support::error_of_progressive_mesh_bytes(bytes.substr(0, size)), "")
+          << seed.path() << ", " << size << " bytes";
+    ++seeds;
+  }
+  EXPECT_GE(seeds, 10u);
 }
 
 } // namespace seeds_test

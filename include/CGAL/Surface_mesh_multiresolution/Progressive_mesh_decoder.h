@@ -37,7 +37,7 @@ The bytes may come from anywhere: what they say is checked, and however they lie
 proportion to their number only, and no more than 16384 steps a split. A section is taken as a whole
 or not at all, so that there is a valid mesh before any damage.
 
-Linear time. Memory: 64 bytes a wedge beside the mesh.
+Linear time. Memory: 72 bytes a wedge beside the mesh.
 */
 class Progressive_mesh_decoder
 {

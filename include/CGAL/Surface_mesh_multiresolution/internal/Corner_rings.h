@@ -32,7 +32,7 @@ struct Ring_split
 };
 
 // The triangles of a mesh that grows by vertex splits, with the ring of each vertex as a list of its
-// corners, counterclockwise. A corner is 3 t + c, place c of triangle t.
+// corners, counterclockwise. A corner is 4 t + c, place c < 3 of triangle t: no divisions by 3.
 //
 //        a                       a              INSIDE: the corners of t in the triangles between
 //      / | \                   / | \            b and a become corners of the new vertex v. New
@@ -61,7 +61,7 @@ public:
   void reserve(std::size_t vertices, std::size_t triangles)
   {
     m_first.reserve(vertices);
-    m_next.reserve(3 * triangles);
+    m_next.reserve(4 * triangles);
     m_triangles.reserve(triangles);
   }
 
@@ -115,16 +115,16 @@ private:
   static constexpr std::uint32_t border_flag = 1u << 31;
   static constexpr Corner no_corner = border_flag - 1;
 
-  static Corner next(Corner corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
-  static Corner previous(Corner corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
+  static Corner next(Corner corner) { return corner % 4 == 2 ? corner - 2 : corner + 1; }
+  static Corner previous(Corner corner) { return corner % 4 == 0 ? corner + 2 : corner - 1; }
 
-  Vertex_index at(Corner corner) const { return m_triangles[corner / 3][corner % 3]; }
+  Vertex_index at(Corner corner) const { return m_triangles[corner / 4][corner % 4]; }
   Corner first(Vertex_index v) const { return m_first[v] & ~border_flag; }
 
   void prefetch_corner(Corner corner) const
   {
     internal::prefetch(&m_next[corner]);
-    internal::prefetch(&m_triangles[corner / 3]);
+    internal::prefetch(&m_triangles[corner / 4]);
   }
 
   // From here on `corner` begins the ring of v, which stays open if it was.
@@ -133,8 +133,8 @@ private:
   Corner add_triangle(Vertex_index v, Vertex_index w, Vertex_index x)
   {
     m_triangles.push_back({v, w, x});
-    m_next.insert(m_next.end(), 3, no_corner);
-    return Corner(m_next.size() - 3);
+    m_next.insert(m_next.end(), 4, no_corner);
+    return Corner(m_next.size() - 4);
   }
 
   void insert_after(Corner corner, Corner inserted)
@@ -167,21 +167,24 @@ inline Ring_defect Corner_rings::build(std::vector<Triangle_indices> triangles,
                                        std::size_t number_of_vertices)
 {
   m_triangles = std::move(triangles);
-  const std::size_t corners = 3 * m_triangles.size();
-  m_next.assign(corners, no_corner);
+  m_next.assign(4 * m_triangles.size(), no_corner);
   m_first.assign(number_of_vertices, no_corner);
+  std::vector<Corner> corners;
+  for(Corner c = 0; c < m_next.size(); ++c)
+    if(c % 4 != 3)
+      corners.push_back(c);
   // The corners that halfedges leave, sorted by halfedge
-  std::vector<std::pair<std::uint64_t, Corner>> halfedges(corners);
+  std::vector<std::pair<std::uint64_t, Corner>> halfedges;
   const auto halfedge = [](Vertex_index v, Vertex_index w) { return std::uint64_t(v) << 32 | w; };
-  for(Corner c = 0; c < corners; ++c)
-    halfedges[c] = {halfedge(at(c), at(next(c))), c};
+  for(const Corner c : corners)
+    halfedges.push_back({halfedge(at(c), at(next(c))), c});
   std::sort(halfedges.begin(), halfedges.end());
-  for(std::size_t i = 1; i < corners; ++i)
+  for(std::size_t i = 1; i < halfedges.size(); ++i)
     if(halfedges[i].first == halfedges[i - 1].first)
       return Ring_defect::REPEATED_HALFEDGE;
-  std::vector<bool> has_predecessor(corners, false);
+  std::vector<bool> has_predecessor(m_next.size(), false);
   std::vector<std::uint32_t> degree(number_of_vertices, 0);
-  for(Corner c = 0; c < corners; ++c) {
+  for(const Corner c : corners) {
     const std::uint64_t wanted = halfedge(at(c), at(previous(c)));
     const auto found = std::lower_bound(halfedges.begin(), halfedges.end(),
                                         std::make_pair(wanted, Corner(0)));
@@ -194,7 +197,7 @@ inline Ring_defect Corner_rings::build(std::vector<Triangle_indices> triangles,
     if(at(c) == at(next(c)))
       return Ring_defect::REPEATED_HALFEDGE;
   }
-  for(Corner c = 0; c < corners; ++c)
+  for(const Corner c : corners)
     if(!has_predecessor[c])
       m_first[at(c)] = c | border_flag;
   for(Vertex_index v = 0; v < number_of_vertices; ++v) {
@@ -244,7 +247,7 @@ bool Corner_rings::split_inside(const Ring_split& split, const Use& use)
   for(std::uint32_t i = 0; i < split.moved; ++i) {
     if(after == no_corner || after == before)
       return false;
-    m_triangles[after / 3][after % 3] = v;
+    m_triangles[after / 4][after % 4] = v;
     use(at(previous(after)));
     last = after;
     after = m_next[after];
@@ -281,7 +284,7 @@ bool Corner_rings::split_begin(const Ring_split& split, const Use& use)
   for(std::uint32_t i = 0; i < split.moved; ++i) {
     if(after == no_corner)
       return false;
-    m_triangles[after / 3][after % 3] = v;
+    m_triangles[after / 4][after % 4] = v;
     last = after;
     after = m_next[after];
   }
@@ -317,7 +320,7 @@ bool Corner_rings::split_end(const Ring_split& split, const Use& use)
   for(Corner corner = from; corner != no_corner; corner = m_next[corner]) {
     if(++moved > max_walk)
       return false;
-    m_triangles[corner / 3][corner % 3] = v;
+    m_triangles[corner / 4][corner % 4] = v;
     last = corner;
   }
   use(at(previous(last)));

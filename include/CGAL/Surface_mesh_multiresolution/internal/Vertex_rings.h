@@ -78,6 +78,11 @@ public:
   // Collapses v into its ring vertex k. Precondition: `is_collapse_valid(v, k)`.
   void collapse(Vertex_index v, std::uint32_t k);
 
+  // Undoes the collapse of v into t that took the triangles (v, t, b) and (v, a, t) away, one of
+  // which there may not have been: b or a is `no_vertex` then. Precondition: t is on the border in
+  // that case, and those given are different and in the ring of t, b before a if that is open.
+  void split(Vertex_index v, Vertex_index t, Vertex_index b, Vertex_index a);
+
 private:
   static constexpr std::uint32_t border_flag = 1u << 31;
   static constexpr std::uint32_t spill_flag = 1u << 30;
@@ -86,7 +91,7 @@ private:
   struct alignas(64) Line
   {
     Vertex_index ring[line_capacity];
-    std::uint32_t degree; // with the two flags
+    std::uint32_t degree = 0; // with the two flags
     std::uint32_t unused;
   };
 
@@ -99,6 +104,7 @@ private:
   Vertex_index* mutable_ring(Vertex_index v) { return const_cast<Vertex_index*>(ring(v)); }
   std::uint32_t position(Vertex_index v, Vertex_index neighbor) const;
   void erase(Vertex_index v, std::uint32_t at);
+  void insert(Vertex_index v, std::uint32_t at, Vertex_index neighbor);
   void replace(Vertex_index v, Vertex_index old_neighbor, Vertex_index new_neighbor);
   void splice(Vertex_index v, std::uint32_t at, const Vertex_index* first, std::uint32_t count);
 
@@ -129,9 +135,13 @@ inline void Vertex_rings::set_ring(Vertex_index v, const std::vector<Vertex_inde
                                    bool is_border)
 {
   Line& line = m_lines[v];
+  const bool had_spill = (line.degree & spill_flag) != 0;
   line.degree = std::uint32_t(ring.size()) | (is_border ? border_flag : 0);
   if(ring.size() <= line_capacity) {
     std::copy(ring.begin(), ring.end(), line.ring);
+  } else if(had_spill) {
+    line.degree |= spill_flag;
+    m_spill[line.ring[0]] = ring;
   } else {
     line.degree |= spill_flag;
     line.ring[0] = std::uint32_t(m_spill.size());
@@ -329,6 +339,14 @@ inline void Vertex_rings::splice(Vertex_index v, std::uint32_t at, const Vertex_
   note_degree(v);
 }
 
+inline void Vertex_rings::insert(Vertex_index v, std::uint32_t at, Vertex_index neighbor)
+{
+  std::vector<Vertex_index> changed(ring(v), ring(v) + degree(v));
+  changed.insert(changed.begin() + at, neighbor);
+  set_ring(v, changed, is_border(v));
+  note_degree(v);
+}
+
 //        a                    a             In the ring of t the vertex v gives way to the ring
 //      / | \                / |             vertices of v strictly between b and a; in the rings
 //     .. v -- t    ->     .. -- t           of a and b it disappears; in all others it becomes t.
@@ -368,6 +386,39 @@ inline void Vertex_rings::collapse(Vertex_index v, std::uint32_t k)
     erase(b, position(b, v));
   }
   splice(t, position(t, v), moved, count);
+}
+
+//        a                a
+//      / |              / | \        The reverse of the drawing above: v gets the ring vertices of t
+//    ..  t -    ->    .. v - t -      from b to a and gives way to them in the ring of t. Without a
+//      \ |              \ | /        they end with the ring of t, without b they begin with it.
+//        b                b
+inline void Vertex_rings::split(Vertex_index v, Vertex_index t, Vertex_index b, Vertex_index a)
+{
+  const bool has_b = b != no_vertex, has_a = a != no_vertex;
+  CGAL_precondition(a != b && ((has_a && has_b) || is_border(t)));
+  const std::uint32_t d = degree(t);
+  const std::uint32_t first = has_b ? position(t, b) : 0, last = has_a ? position(t, a) : d - 1;
+  std::vector<Vertex_index> of_t(ring(t), ring(t) + d), of_v;
+  if(!is_border(t)) // begin with b, so that nothing goes round the end
+    std::rotate(of_t.begin(), of_t.begin() + first, of_t.end());
+  const std::uint32_t begin = is_border(t) ? first : 0;
+  const std::uint32_t end = (is_border(t) ? last : (last + d - first) % d) + 1;
+  of_v.assign(of_t.begin() + begin, of_t.begin() + end);
+  for(std::uint32_t i = has_b ? 1 : 0; i + (has_a ? 1 : 0) < of_v.size(); ++i)
+    replace(of_v[i], t, v);
+  if(has_b) // v lies between t and what was before it
+    insert(b, position(b, t), v);
+  if(has_a)
+    insert(a, position(a, t) + 1, v);
+  of_t.erase(of_t.begin() + begin + (has_b ? 1 : 0), of_t.begin() + end - (has_a ? 1 : 0));
+  of_t.insert(of_t.begin() + begin + (has_b ? 1 : 0), v);
+  const bool is_inside = has_a && has_b;
+  of_v.insert(has_b ? of_v.begin() : of_v.end(), t);
+  set_ring(t, of_t, is_border(t));
+  set_ring(v, of_v, !is_inside);
+  note_degree(t);
+  note_degree(v);
 }
 
 } // namespace internal

@@ -44,7 +44,8 @@ constexpr std::size_t file_header_size = 104;
 constexpr std::size_t section_header_size = 12;
 constexpr std::uint32_t splits_per_section = 4096;
 
-// Sections of splits are not larger: 15 numbers of at most 57 bits a split.
+// Sections of splits are not larger: 16 numbers of at most 52 bits a split, one of them 57, and the
+// heads of the columns.
 constexpr std::uint64_t max_section_bytes(std::uint32_t splits)
 {
   return 108 * std::uint64_t(splits) + 128;
