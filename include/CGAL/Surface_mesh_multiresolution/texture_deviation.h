@@ -34,12 +34,16 @@ it is on the fine one \f$ F \f$, both being maps of one texture domain into spac
 - `deviation` is that of Cohen, Olano and Manocha 1998, \f$ |F(u,v) - C(u,v)| \f$. It is the norm of
   a difference that is linear on each cell of the overlay of the two triangulations of the texture,
   and is greatest at a vertex of it. The maximum is over all of these: the vertices of either surface
-  and the crossings of their edges. The mean is that over the area, by a rule that is exact for functions that are
-  quadratic on each fine triangle: from the values at the corners and the means over the edges, those
-  by Simpson's rule between the crossings.
+  and the crossings of their edges. The mean is that over the area, by a rule that is exact for
+  functions that are quadratic on each fine triangle: from the values at the corners and the means
+  over the edges, those by Simpson's rule between the crossings.
 - `uv_change` is how far the texture swims: the difference between the texture coordinates of a
   vertex of the fine surface and those of the nearest point of the coarse one, in uv units.
 - `distance` is that of the vertices of the fine surface from the coarse one.
+
+The means of the latter two weight each vertex with a third of the area of its triangles. That is more
+than the mean over the surface where every other vertex is at distance 0: the means of different
+errors do not compare to the last percent, those of one error do.
 
 Where the fine chart reaches over the border of the coarse one, `deviation` is measured from that
 point of the border that is nearest in the texture, and only at the vertices of the fine chart and

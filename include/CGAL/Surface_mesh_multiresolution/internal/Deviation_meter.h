@@ -97,8 +97,11 @@ public:
           if(image.gap < m_image[w].gap)
             better.push_back({w, image});
         }
-      for(const auto& [w, image] : better)
+      m_is_relocated.resize(m_image.size(), false);
+      for(const auto& [w, image] : better) {
         m_image[w] = image;
+        m_is_relocated[w] = true;
+      }
     }
   }
 
@@ -144,10 +147,10 @@ private:
   {
     Real_vector<3> difference = {0., 0., 0.}; // from the point of equal uv
     Triangle_number triangle = 0;             // that has this point, or the nearest one
-    double gap = 0.;                          // from there in the texture
+    float gap = 0.f;                          // from there in the texture
   };
 
-  bool is_outside(const Image& image) const { return image.gap > m_outside; }
+  bool is_outside(const Image& image) const { return double(image.gap) > m_outside; }
 
   template <class Sum, class Body>
   Sum sum_over_wedges(double bound, const Body& body) const
@@ -182,7 +185,7 @@ private:
   {
     const Surface_point found = m_walk.locate(m_view.uv(w), start);
     return {minus(m_view.point(w), m_coarse.point(found.triangle, found.weight)), found.triangle,
-            std::sqrt(found.squared_distance)};
+            float(std::sqrt(found.squared_distance))};
   }
 
   // The image of a wedge that is outside, or a better one found from where its neighbours are.
@@ -208,10 +211,10 @@ private:
       return Nearest_sums();
     const Real_vector<3> p = m_view.point(w);
     const Triangle_number start = m_start.start(w);
-    Surface_point found = descend_to_nearest(m_coarse, start, p);
-    if(image.triangle != start) {
-      const Surface_point other = descend_to_nearest(m_coarse, image.triangle, p);
-      if(other.squared_distance < found.squared_distance)
+    Surface_point found = descend_to_nearest(m_coarse, image.triangle, p);
+    if(image.triangle != start && (m_is_relocated.empty() || !m_is_relocated[w])) {
+      const Surface_point other = descend_to_nearest(m_coarse, start, p);
+      if(other.squared_distance <= found.squared_distance)
         found = other;
     }
     const double change = norm(minus(m_coarse.uv(found.triangle, found.weight), m_view.uv(w)));
@@ -272,7 +275,8 @@ private:
   Uv_walk m_walk;
   const Start& m_start;
   double m_outside;
-  std::vector<Image> m_image; // of each wedge
+  std::vector<Image> m_image;        // of each wedge
+  std::vector<bool> m_is_relocated;  // whether its start was elsewhere; empty if none was
 };
 
 } // namespace internal
