@@ -17,8 +17,8 @@ namespace Surface_mesh_multiresolution {
 /*!
 \ingroup PkgHLSCMLevelsOfDetail
 
-The struct `Textured_triangle_mesh` is a triangle mesh with texture coordinates as four arrays. Where
-the texture has a seam, a vertex has several wedges, as in `Textured_progressive_mesh`.
+The struct `Textured_triangle_mesh` is a triangle mesh with texture coordinates as four arrays.
+Where the texture has a seam, a vertex has several wedges, as in `Textured_progressive_mesh`.
 
 Invariant: `vertex` and `uv` have the same size; the entries of `vertex` are smaller than
 `points.size()`, those of `triangles` smaller than `uv.size()`.

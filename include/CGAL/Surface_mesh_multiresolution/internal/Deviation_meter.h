@@ -60,7 +60,7 @@ constexpr double unbounded = (std::numeric_limits<double>::infinity)();
 //   is_kept(w)             whether w is a wedge of the coarse surface too, of the same number
 //   is_common_edge(v, w)   whether both are kept, with an edge between them
 //   start(w)               a triangle of the coarse surface that is not far
-//   squared_distance(w, nearest)   from the whole coarse surface, given the nearest point of a chart
+//   squared_distance(w, nearest)   from the whole surface, given the nearest point of a chart
 //
 // Each measurement takes a bound and stops early, with any result above it, once it is exceeded.
 template <class Start>
@@ -73,8 +73,8 @@ public:
     , m_image(fine.view().number_of_wedges())
   {}
 
-  // Finds the points of equal uv of all wedges; the maximum is that of the distances from those that
-  // are not outside.
+  // Finds the points of equal uv of all wedges; the maximum is that of the distances from those
+  // that are not outside.
   Error_sum locate_wedges(double bound = unbounded)
   {
     return sum_over_wedges<Error_sum>(bound, [this](Vertex_index w) {
@@ -83,8 +83,8 @@ public:
     });
   }
 
-  // Looks for wedges that seem to be outside once more, from where their neighbours are: the start may
-  // have been beyond a seam. In rounds, as long as some come nearer.
+  // Looks for wedges that seem to be outside once more, from where their neighbours are: the start
+  // may have been beyond a seam. In rounds, as long as some come nearer.
   void relocate_outside()
   {
     constexpr int most_rounds = 100;
@@ -139,7 +139,8 @@ public:
   }
 
 private:
-  // Of the diagonal of the map: beyond, a point is outside, not just next to the border by rounding.
+  // Of the diagonal of the map: beyond, a point is outside, not just next to the border by
+  // rounding.
   static constexpr double outside_tolerance = 1e-9;
 
   // What belongs to a wedge of the fine surface.
@@ -203,8 +204,8 @@ private:
     return best;
   }
 
-  // The nearer end of the descents from the start and from the point of equal uv: so it is no farther
-  // than either, and depends on the map only where the first one misses the nearest point.
+  // The nearer end of the descents from the start and from the point of equal uv: so it is no
+  // farther than either, and depends on the map only where the first one misses the nearest point.
   Nearest_sums nearest(Vertex_index w, const Image& image) const
   {
     if(m_start.is_kept(w))
@@ -231,8 +232,8 @@ private:
     sum.integral += length * (a + 4. * middle + b) / 6.;
   }
 
-  // If a function on a triangle is quadratic, its mean is 3/2 of that over the edges less 1/2 of that
-  // at the corners; this is what an edge, with its two corners, adds to it.
+  // If a function on a triangle is quadratic, its mean is 3/2 of that over the edges less 1/2 of
+  // that at the corners; this is what an edge, with its two corners, adds to it.
   static double corrected(double mean, double begin, double end)
   {
     return (std::max)(0., 1.5 * mean - 0.25 * (begin + end));
@@ -253,7 +254,7 @@ private:
     double s = 0.;
     if(is_outside(begin)) {
       sum.outside = 1.;
-    } else if(is_outside(end) || begin.triangle != end.triangle) { // else in one triangle all the way
+    } else if(is_outside(end) || begin.triangle != end.triangle) { // else in one triangle
       const Real_vector<3> p = m_view.point(v), q = m_view.point(w);
       const Way way = m_walk.follow(
         m_view.uv(v), m_view.uv(w), begin.triangle, is_outside(end) ? no_triangle : end.triangle,

@@ -91,12 +91,14 @@ public:
 
   Real_vector<3> point(Triangle_number t, const Weights& w) const
   {
-    return combined(point(m_triangles[t][0]), point(m_triangles[t][1]), point(m_triangles[t][2]), w);
+    const Triangle_indices& abc = m_triangles[t];
+    return combined(point(abc[0]), point(abc[1]), point(abc[2]), w);
   }
 
   Real_vector<2> uv(Triangle_number t, const Weights& w) const
   {
-    return combined(uv(m_triangles[t][0]), uv(m_triangles[t][1]), uv(m_triangles[t][2]), w);
+    const Triangle_indices& abc = m_triangles[t];
+    return combined(uv(abc[0]), uv(abc[1]), uv(abc[2]), w);
   }
 
   // Some triangle at a wedge; 0 if the wedge has none.
