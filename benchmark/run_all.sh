@@ -121,8 +121,10 @@ compare decimation --decimation
 "$HLSCM_BIN/flip_repair" "$HLSCM_DATA_DIR"/{lion-head,mannequin-devil}.off > "$out/flip_repair.csv"
 mapfile -t large < <(find "$charts" -maxdepth 1 -name '*_1[0-9][0-9][0-9]k.ply' | sort)
 "$HLSCM_BIN/live_map" "${large[@]}" > "$out/live_map.csv"
-"$HLSCM_BIN/swimming" "$HLSCM_DATA_DIR"/{lion-head,mannequin-devil}.off \
-  "$charts"/{armadillo_52k,lion_head_1067k}.ply > "$out/swimming.csv"
+mapfile -t disks < <(find "$charts" -maxdepth 1 \
+  \( -name armadillo_52k.ply -o -name lion_head_1067k.ply \) | sort)
+"$HLSCM_BIN/swimming" "$HLSCM_DATA_DIR"/{lion-head,mannequin-devil}.off "${disks[@]}" \
+  > "$out/swimming.csv"
 # Debian's python3 has matplotlib; another one that comes first may not.
 python="$(command -v /usr/bin/python3 || command -v python3)"
 for name in side_by_side other_charts; do
