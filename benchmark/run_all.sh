@@ -142,6 +142,10 @@ mapfile -t large < <(find "$charts" -maxdepth 1 -name '*_1[0-9][0-9][0-9]k.ply' 
 "$HLSCM_BIN/stages" "${large[@]}" > "$out/stages.csv"
 "$HLSCM_BIN/parameters" --repeat "$repeat" "$charts/camel_313k.ply" \
   "$charts/scaling/bunny00_302k.ply" > "$out/parameters.csv"
+mapfile -t disks < <(find "$charts" -maxdepth 1 \
+  \( -name armadillo_52k.ply -o -name lion_head_1067k.ply \) | sort)
+"$HLSCM_BIN/swimming" "$HLSCM_DATA_DIR"/{lion-head,mannequin-devil}.off "${disks[@]}" \
+  > "$out/swimming.csv"
 # Debian's python3 has matplotlib; another one that comes first may not.
 python="$(command -v /usr/bin/python3 || command -v python3)"
 for name in side_by_side other_charts; do

@@ -6,8 +6,8 @@
 // Usage: swimming MESH...
 //
 // Each mesh, a disk, is mapped by several methods and decimated once by build_progressive_mesh();
-// the levels of all maps have the same triangles. Beside them stand meshes that CGAL's quadrics make,
-// whose vertices get the texture coordinates of the nearest point of the fine surface.
+// the levels of all maps have the same triangles. Beside them stand meshes that CGAL's quadrics
+// make, whose vertices get the texture coordinates of the nearest point of the fine surface.
 
 #include "charts/chart_io.h"
 #include "machine.h"

@@ -18,6 +18,7 @@
 #include <cstring>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace texture_deviation_test {
@@ -43,7 +44,8 @@ Progressive_mesh decimate(Indexed_triangle_mesh mesh, const std::vector<bool>& i
   SMM::normalize(mesh);
   SMM::Flat_collapse_options options;
   options.target_vertices = 0; // as far as it goes
-  return SMM::Flat_collapse_engine<>(mesh, SMM::internal::Vertex_rings(mesh), is_locked).run(options);
+  SMM::internal::Vertex_rings rings(mesh);
+  return SMM::Flat_collapse_engine<>(mesh, std::move(rings), is_locked).run(options);
 }
 
 // Random halfedge collapses as long as topology allows any; geometry is ignored.
@@ -102,7 +104,8 @@ Uvs transformed(Uvs uv, const Map& map)
 Uvs bent(const Uvs& uv, double amplitude)
 {
   return transformed(uv, [amplitude](const Point_2& p) {
-    return Point_2(p.x() + amplitude * std::sin(0.5 * p.y()), p.y() + amplitude * std::sin(0.4 * p.x()));
+    return Point_2(p.x() + amplitude * std::sin(0.5 * p.y()),
+                   p.y() + amplitude * std::sin(0.4 * p.x()));
   });
 }
 
@@ -132,7 +135,8 @@ Case hills_over_rectangle(Vertex_index columns, Vertex_index rows, std::uint64_t
 
 std::vector<Case> cases()
 {
-  std::vector<Case> result = {hills_over_rectangle(24, 17, seed), hills_over_rectangle(9, 30, seed + 9)};
+  std::vector<Case> result = {hills_over_rectangle(24, 17, seed),
+                              hills_over_rectangle(9, 30, seed + 9)};
   const Indexed_triangle_mesh plane = irregular_grid(22, 22, seed + 2);
   const Indexed_triangle_mesh noisy = with_noise(with_hills(plane, 2., seed + 3), 0.2, seed + 4);
   result.push_back({"noisy hills, other map" + seed_text,
@@ -210,7 +214,8 @@ double deviation_at(const Wedge_mesh& fine, const Wedge_mesh& coarse,
   return a && b ? std::sqrt(CGAL::squared_distance(*a, *b)) : 0.;
 }
 
-// The maximum over the vertices of the overlay, by all pairs of edges. For maps that are one-to-one.
+// The maximum over the vertices of the overlay, by all pairs of edges. For maps that are
+// one-to-one.
 double overlay_maximum(const Wedge_mesh& fine, const Wedge_mesh& coarse)
 {
   double result = 0.;
@@ -321,12 +326,13 @@ TEST(Texture_deviation, of_a_plane_with_affine_coordinates_is_zero)
 
 TEST(Texture_deviation, outside_of_the_border_it_is_the_way_back)
 {
-  // Of a square whose corner (4, 4) has been cut off; in the plane the way in the texture is that in
-  // space.
+  // Of a square whose corner (4, 4) has been cut off; in the plane the way in the texture is that
+  // in space.
   const Indexed_triangle_mesh square = grid(4, 4);
   Progressive_mesh pm = SMM::trivial_progressive_mesh(square.points.size());
   pm.collapses = {{24, 23}};
-  const Texture_deviation d = measure_texture_deviation(textured(square, projection(square), pm), 1);
+  const Texture_deviation d
+    = measure_texture_deviation(textured(square, projection(square), pm), 1);
   EXPECT_NEAR(d.deviation.maximum, std::sqrt(0.5), 1e-12); // to the line from (3, 4) to (4, 3)
   EXPECT_NEAR(d.distance.maximum, std::sqrt(0.5), 1e-12);
   EXPECT_NEAR(d.uv_change.maximum, std::sqrt(0.5), 1e-12);
@@ -561,7 +567,8 @@ TEST(Coarsest_level, predicates_are_the_bounds_of_the_measures)
       SCOPED_TRACE(c.name + ", position " + std::to_string(k));
       const Texture_deviation d = measure_texture_deviation(c.mesh, k);
       for(const double factor : {0.5, 1. - 1e-9, 1., 2.}) {
-        const double deviation = factor * d.deviation.maximum, distance = factor * d.distance.maximum;
+        const double deviation = factor * d.deviation.maximum;
+        const double distance = factor * d.distance.maximum;
         EXPECT_EQ(SMM::is_within_texture_deviation(c.mesh, k, deviation),
                   d.deviation.maximum <= deviation);
         EXPECT_EQ(SMM::is_within_distance(c.mesh, k, distance), d.distance.maximum <= distance);

@@ -47,8 +47,8 @@ Returns a position \f$ k \f$, whole, at which the maximum of an error is within 
 as few triangles as possible.
 
 It is found by bisection on the logarithm of the number of triangles, down to 1 %, and what is
-returned was measured. The errors grow with \f$ k \f$ on the whole but not from collapse to collapse,
-so that a coarser level may be within the bound too. The finest level, 0, always is.
+returned was measured. The errors grow with \f$ k \f$ on the whole but not from collapse to
+collapse, so that a coarser level may be within the bound too. The finest level, 0, always is.
 
 \param mesh a mesh all of whose whole levels satisfy the precondition of
        `measure_texture_deviation()`
@@ -82,7 +82,8 @@ inline std::size_t coarsest_level_within(const Textured_progressive_mesh& mesh, 
 }
 
 /// \ingroup PkgHLSCMLevelsOfDetail
-/// Returns how many pixels a length in space spans in a picture, seen at a right angle in the middle.
+/// Returns how many pixels a length in space spans in a picture, seen at a right angle in the
+/// middle.
 ///
 /// \param length a length in space
 /// \param distance from the eye, in the same unit, positive

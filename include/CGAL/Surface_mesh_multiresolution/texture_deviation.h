@@ -33,19 +33,23 @@ it is on the fine one \f$ F \f$, both being maps of one texture domain into spac
 
 - `deviation` is that of Cohen, Olano and Manocha 1998, \f$ |F(u,v) - C(u,v)| \f$. It is the norm of
   a difference that is linear on each cell of the overlay of the two triangulations of the texture,
-  and is greatest at a vertex of it. The maximum is over all of these: the vertices of either surface
-  and the crossings of their edges. The mean is that over the area, by a rule that is exact for
-  functions that are quadratic on each fine triangle: from the values at the corners and the means
-  over the edges, those by Simpson's rule between the crossings.
+  and is greatest at a vertex of it. The maximum is over all of these: the vertices of either
+  surface and the crossings of their edges. The mean is that over the area, by a rule that is exact
+  for functions that are quadratic on each fine triangle: from the values at the corners and the
+  means over the edges, those by Simpson's rule between the crossings.
 - `uv_change` is how far the texture swims: the difference between the texture coordinates of a
   vertex of the fine surface and those of the nearest point of the coarse one, in uv units.
 - `distance` is that of the vertices of the fine surface from the coarse one.
 
+The means of the latter two weight each vertex with a third of the area of its triangles. That is
+more than the mean over the surface where every other vertex is at distance 0: the means of
+different errors do not compare to the last percent, those of one error do.
+
 Where the fine chart reaches over the border of the coarse one, `deviation` is measured from that
 point of the border that is nearest in the texture, and only at the vertices of the fine chart and
 where its edges cross the border; an edge that comes back over a notch is not followed beyond the
-first crossing. Where triangles of the coarse chart are folded over each other or have no area in the
-texture, edges are not followed across: there the maximum is that at the vertices. `outside` and
+first crossing. Where triangles of the coarse chart are folded over each other or have no area in
+the texture, edges are not followed across: there the maximum is that at the vertices. `outside` and
 `unresolved` are the parts of the area concerned.
 */
 struct Texture_deviation
@@ -125,8 +129,8 @@ Returns the errors of the level of `mesh` after `k` collapses.
 
 The points of equal uv are found by walks in the texture that start at the ancestor of a wedge. So
 nothing is asked of the map: where it covers the texture twice, the walk is on the right sheet. The
-nearest points are found by two descents on the surface, from the ancestor and from the point of equal
-uv. They end in local minima; the nearer one is no farther than either start.
+nearest points are found by two descents on the surface, from the ancestor and from the point of
+equal uv. They end in local minima; the nearer one is no farther than either start.
 
 Expected linear time; loops use the threads of a `Blocked_execution::Thread_scope`, with the same
 result to the bit.
@@ -150,10 +154,10 @@ inline Texture_deviation measure_texture_deviation(const Textured_progressive_me
 
 Returns the errors of any textured mesh `coarse` for another one, `fine`, in the same texture.
 
-Walks start at the triangle of `coarse` that is nearest in space, found in an `AABB_tree`, or where the
-neighbours of a vertex are if that leads out of the chart. `uv_change` is measured from the nearest
-point of the chart around, `distance` from the nearest point of all. The vertices of `coarse`
-count in the maximum of `deviation` as far as they lie in the charts of `fine`.
+Walks start at the triangle of `coarse` that is nearest in space, found in an `AABB_tree`, or where
+the neighbours of a vertex are if that leads out of the chart. `uv_change` is measured from the
+nearest point of the chart around, `distance` from the nearest point of all. The vertices of
+`coarse` count in the maximum of `deviation` as far as they lie in the charts of `fine`.
 
 Time \f$ O(n \log n) \f$ as a rule.
 

@@ -60,7 +60,7 @@ constexpr double unbounded = (std::numeric_limits<double>::infinity)();
 //   is_kept(w)             whether w is a wedge of the coarse surface too, of the same number
 //   is_common_edge(v, w)   whether both are kept, with an edge between them
 //   start(w)               a triangle of the coarse surface that is not far
-//   squared_distance(w, nearest)   from the whole coarse surface, given the nearest point of a chart
+//   squared_distance(w, nearest)   from the whole surface, given the nearest point of a chart
 //
 // Each measurement takes a bound and stops early, with any result above it, once it is exceeded.
 template <class Start>
@@ -73,8 +73,8 @@ public:
     , m_image(fine.view().number_of_wedges())
   {}
 
-  // Finds the points of equal uv of all wedges; the maximum is that of the distances from those that
-  // are not outside.
+  // Finds the points of equal uv of all wedges; the maximum is that of the distances from those
+  // that are not outside.
   Error_sum locate_wedges(double bound = unbounded)
   {
     return sum_over_wedges<Error_sum>(bound, [this](Vertex_index w) {
@@ -83,8 +83,8 @@ public:
     });
   }
 
-  // Looks for wedges that seem to be outside once more, from where their neighbours are: the start may
-  // have been beyond a seam. In rounds, as long as some come nearer.
+  // Looks for wedges that seem to be outside once more, from where their neighbours are: the start
+  // may have been beyond a seam. In rounds, as long as some come nearer.
   void relocate_outside()
   {
     constexpr int most_rounds = 100;
@@ -97,8 +97,11 @@ public:
           if(image.gap < m_image[w].gap)
             better.push_back({w, image});
         }
-      for(const auto& [w, image] : better)
+      m_is_relocated.resize(m_image.size(), false);
+      for(const auto& [w, image] : better) {
         m_image[w] = image;
+        m_is_relocated[w] = true;
+      }
     }
   }
 
@@ -136,7 +139,8 @@ public:
   }
 
 private:
-  // Of the diagonal of the map: beyond, a point is outside, not just next to the border by rounding.
+  // Of the diagonal of the map: beyond, a point is outside, not just next to the border by
+  // rounding.
   static constexpr double outside_tolerance = 1e-9;
 
   // What belongs to a wedge of the fine surface.
@@ -144,10 +148,10 @@ private:
   {
     Real_vector<3> difference = {0., 0., 0.}; // from the point of equal uv
     Triangle_number triangle = 0;             // that has this point, or the nearest one
-    double gap = 0.;                          // from there in the texture
+    float gap = 0.f;                          // from there in the texture
   };
 
-  bool is_outside(const Image& image) const { return image.gap > m_outside; }
+  bool is_outside(const Image& image) const { return double(image.gap) > m_outside; }
 
   template <class Sum, class Body>
   Sum sum_over_wedges(double bound, const Body& body) const
@@ -182,7 +186,7 @@ private:
   {
     const Surface_point found = m_walk.locate(m_view.uv(w), start);
     return {minus(m_view.point(w), m_coarse.point(found.triangle, found.weight)), found.triangle,
-            std::sqrt(found.squared_distance)};
+            float(std::sqrt(found.squared_distance))};
   }
 
   // The image of a wedge that is outside, or a better one found from where its neighbours are.
@@ -200,18 +204,18 @@ private:
     return best;
   }
 
-  // The nearer end of the descents from the start and from the point of equal uv: so it is no farther
-  // than either, and depends on the map only where the first one misses the nearest point.
+  // The nearer end of the descents from the start and from the point of equal uv: so it is no
+  // farther than either, and depends on the map only where the first one misses the nearest point.
   Nearest_sums nearest(Vertex_index w, const Image& image) const
   {
     if(m_start.is_kept(w))
       return Nearest_sums();
     const Real_vector<3> p = m_view.point(w);
     const Triangle_number start = m_start.start(w);
-    Surface_point found = descend_to_nearest(m_coarse, start, p);
-    if(image.triangle != start) {
-      const Surface_point other = descend_to_nearest(m_coarse, image.triangle, p);
-      if(other.squared_distance < found.squared_distance)
+    Surface_point found = descend_to_nearest(m_coarse, image.triangle, p);
+    if(image.triangle != start && (m_is_relocated.empty() || !m_is_relocated[w])) {
+      const Surface_point other = descend_to_nearest(m_coarse, start, p);
+      if(other.squared_distance <= found.squared_distance)
         found = other;
     }
     const double change = norm(minus(m_coarse.uv(found.triangle, found.weight), m_view.uv(w)));
@@ -228,8 +232,8 @@ private:
     sum.integral += length * (a + 4. * middle + b) / 6.;
   }
 
-  // If a function on a triangle is quadratic, its mean is 3/2 of that over the edges less 1/2 of that
-  // at the corners; this is what an edge, with its two corners, adds to it.
+  // If a function on a triangle is quadratic, its mean is 3/2 of that over the edges less 1/2 of
+  // that at the corners; this is what an edge, with its two corners, adds to it.
   static double corrected(double mean, double begin, double end)
   {
     return (std::max)(0., 1.5 * mean - 0.25 * (begin + end));
@@ -250,7 +254,7 @@ private:
     double s = 0.;
     if(is_outside(begin)) {
       sum.outside = 1.;
-    } else if(is_outside(end) || begin.triangle != end.triangle) { // else in one triangle all the way
+    } else if(is_outside(end) || begin.triangle != end.triangle) { // else in one triangle
       const Real_vector<3> p = m_view.point(v), q = m_view.point(w);
       const Way way = m_walk.follow(
         m_view.uv(v), m_view.uv(w), begin.triangle, is_outside(end) ? no_triangle : end.triangle,
@@ -272,7 +276,8 @@ private:
   Uv_walk m_walk;
   const Start& m_start;
   double m_outside;
-  std::vector<Image> m_image; // of each wedge
+  std::vector<Image> m_image;        // of each wedge
+  std::vector<bool> m_is_relocated;  // whether its start was elsewhere; empty if none was
 };
 
 } // namespace internal

@@ -80,9 +80,9 @@ public:
     return sum / 3.;
   }
 
-  // Calls use(v, share) for the edges of w whose other end v has a higher number, with a third of the
-  // area of the triangles at the edge: once an edge if that is done for all wedges. `edges` is work
-  // space.
+  // Calls use(v, share) for the edges of w whose other end v has a higher number, with a third of
+  // the area of the triangles at the edge: once an edge if that is done for all wedges. `edges` is
+  // work space.
   template <class Use>
   void for_each_edge(Vertex_index w, std::vector<std::pair<Vertex_index, double>>& edges,
                      const Use& use) const

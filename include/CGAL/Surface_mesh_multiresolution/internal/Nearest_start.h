@@ -52,7 +52,7 @@ public:
   // Nearest to a place within the triangles of w, lest the walk start beyond a seam.
   Triangle_number start(Vertex_index w) const
   {
-    constexpr double inwards = 0.1;
+    constexpr double inwards = 1. / 3.;
     return nearest_triangle(between(m_from.point(w), middle_of_star(w), inwards));
   }
 

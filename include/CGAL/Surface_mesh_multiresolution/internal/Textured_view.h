@@ -69,7 +69,10 @@ public:
                 const std::vector<Triangle_indices>& triangles, std::size_t wedges)
     : m_points(points), m_vertex(vertex), m_uv(uv), m_triangles(triangles)
     , m_at(triangles, wedges)
-  {}
+  {
+    for(Vertex_index w = 0; w < wedges && m_is_identity; ++w)
+      m_is_identity = vertex[w] == w;
+  }
 
   explicit Textured_view(const Wedge_mesh& mesh)
     : Textured_view(mesh.points, mesh.vertex, mesh.uv, mesh.triangles, mesh.uv.size())
@@ -78,11 +81,9 @@ public:
   std::size_t number_of_wedges() const { return m_at.number_of_vertices(); }
   const std::vector<Triangle_indices>& triangles() const { return m_triangles; }
   const Triangles_at_vertices& at() const { return m_at; }
-  Vertex_index vertex(Vertex_index w) const { return m_vertex[w]; }
-
   Real_vector<3> point(Vertex_index w) const
   {
-    const auto& p = m_points[m_vertex[w]];
+    const auto& p = m_points[m_is_identity ? w : m_vertex[w]];
     return {p.x(), p.y(), p.z()};
   }
 
@@ -90,12 +91,14 @@ public:
 
   Real_vector<3> point(Triangle_number t, const Weights& w) const
   {
-    return combined(point(m_triangles[t][0]), point(m_triangles[t][1]), point(m_triangles[t][2]), w);
+    const Triangle_indices& abc = m_triangles[t];
+    return combined(point(abc[0]), point(abc[1]), point(abc[2]), w);
   }
 
   Real_vector<2> uv(Triangle_number t, const Weights& w) const
   {
-    return combined(uv(m_triangles[t][0]), uv(m_triangles[t][1]), uv(m_triangles[t][2]), w);
+    const Triangle_indices& abc = m_triangles[t];
+    return combined(uv(abc[0]), uv(abc[1]), uv(abc[2]), w);
   }
 
   // Some triangle at a wedge; 0 if the wedge has none.
@@ -132,6 +135,7 @@ private:
   const std::vector<Wedge_mesh::Point_2>& m_uv;
   const std::vector<Triangle_indices>& m_triangles;
   Triangles_at_vertices m_at;
+  bool m_is_identity = true; // `vertex`: saves a read from far away
 };
 
 } // namespace internal

@@ -35,10 +35,10 @@ public:
   // walk finds none, the nearest one.
   Surface_point locate(const Real_vector<2>& p, Triangle_number start) const;
 
-  // Calls cross(t, w, s) where the segment (a, b) leaves a triangle t: there its point a + s (b - a)
-  // has the weights w. Starts at `start`, which has a, or in its star if a is a corner of it, and
-  // stops in `end`, or in another triangle that has b; `end` is no triangle if none has b. A way that
-  // leaves the chart although `end` is one may come back, which is not followed.
+  // Calls cross(t, w, s) where the segment (a, b) leaves a triangle t: there its point a + s (b -
+  // a) has the weights w. Starts at `start`, which has a, or in its star if a is a corner of it,
+  // and stops in `end`, or in another triangle that has b; `end` is no triangle if none has b. A
+  // way that leaves the chart although `end` is one may come back, which is not followed.
   template <class Cross>
   Way follow(const Real_vector<2>& a, const Real_vector<2>& b, Triangle_number start,
              Triangle_number end, const Cross& cross) const;
