@@ -255,17 +255,21 @@ TEST_F(Levels, of_a_file_that_was_cut_short_are_coarser)
 TEST_F(Levels, keep_within_an_error)
 {
   const std::string in = write("in.off", off(grid(80, hilly)));
-  std::size_t faces = 0;
-  for(const std::string bound : {"0.5%", "0.002"}) {
-    const Json json = levels_report(in, "out", {"--error", bound, "--format", "glb"});
-    ASSERT_EQ(json["levels"].size(), 1u);
-    const Json& level = json["levels"][0];
-    const double length
-        = bound.back() == '%' ? 0.005 * json["diagonal"].get<double>() : 0.002;
-    EXPECT_LE(level["texture_deviation"]["max"].get<double>(), length);
-    EXPECT_LT(level["faces"], json["faces"]);
-    EXPECT_GT(level["faces"], faces);
-    faces = level["faces"];
+  for(const std::string kind : {"", "texture-"}) {
+    const std::string what = kind.empty() ? "distance" : "texture_deviation";
+    std::size_t faces = 0;
+    for(const std::string bound : {"0.5%", "0.002"}) {
+      const Json json
+          = levels_report(in, "out", {"--" + kind + "error", bound, "--format", "glb"});
+      ASSERT_EQ(json["levels"].size(), 1u);
+      const Json& level = json["levels"][0];
+      const double length
+          = bound.back() == '%' ? 0.005 * json["diagonal"].get<double>() : 0.002;
+      EXPECT_LE(level[what]["max"].get<double>(), length);
+      EXPECT_LT(level["faces"], json["faces"]);
+      EXPECT_GT(level["faces"], faces);
+      faces = level["faces"];
+    }
   }
 }
 
@@ -342,6 +346,7 @@ TEST_F(Levels, refuse_what_they_cannot_do)
   const std::string good = write("in.off", off(grid(8, hilly)));
   for(const Texts& wrong : std::vector<Texts>{{"--faces", "10,x"}, {"--faces", "0"},
                                               {"--error", "-1"}, {"--error", "5%%"},
+                                              {"--texture-error", "x"},
                                               {"--format", "stl"}, {"--format", ""}}) {
     EXPECT_EQ(levels(good, "out", wrong).exit_code, 2) << wrong[0] << " " << wrong[1];
   }

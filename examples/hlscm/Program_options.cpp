@@ -221,14 +221,14 @@ std::vector<std::size_t> to_faces(const std::string& text)
   return faces;
 }
 
-void set_error(const std::string& text, Program_options& o)
+Length to_length(const std::string& text)
 {
-  o.is_error_relative = !text.empty() && text.back() == '%';
-  const auto number = numbers(text.substr(0, text.size() - (o.is_error_relative ? 1 : 0)));
+  const bool is_relative = !text.empty() && text.back() == '%';
+  const auto number = numbers(text.substr(0, text.size() - (is_relative ? 1 : 0)));
   if(number.size() != 1 || !(number[0] >= 0)) {
-    throw CLI::ValidationError("--error", "\"" + text + "\" is neither a length nor a number of %");
+    throw CLI::ValidationError("\"" + text + "\" is neither a length nor a number of %");
   }
-  o.error = o.is_error_relative ? number[0] / 100 : number[0];
+  return {is_relative ? number[0] / 100 : number[0], is_relative};
 }
 
 std::vector<Level_format> to_formats(const std::string& text)
@@ -265,9 +265,13 @@ void add_levels(CLI::App& app, Program_options& o)
          "faces of the levels (default 50, 25, 10, 4 and 1 % of all)")
       ->type_name("N,N,...");
   run->add_option_function<std::string>(
-         "--error", [&o](const std::string& text) { set_error(text, o); },
-         "one level more: the lightest on which no point of the texture is farther from its place, "
-         "as a length or in % of the diagonal of the bounding box")
+         "--error", [&o](const std::string& text) { o.error = to_length(text); },
+         "one level more: the lightest from which no vertex of IN is farther, as a length or in % of "
+         "the diagonal of the bounding box")
+      ->type_name("E|E%");
+  run->add_option_function<std::string>(
+         "--texture-error", [&o](const std::string& text) { o.texture_error = to_length(text); },
+         "the same for the distance in space of points of equal texture coordinates")
       ->type_name("E|E%");
   run->add_option_function<std::string>(
          "--format", [&o](const std::string& text) { o.formats = to_formats(text); },

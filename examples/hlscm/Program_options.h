@@ -25,6 +25,13 @@ struct Pin
   double u, v;
 };
 
+/// A length, or its part of the diagonal of the bounding box.
+struct Length
+{
+  double value;
+  bool is_relative;
+};
+
 struct Program_options
 {
   Command command = Command::PARAMETERIZE;
@@ -39,8 +46,8 @@ struct Program_options
   CGAL::Surface_mesh_parameterization::HLSCM_options library;
 
   std::vector<std::size_t> faces;          ///< of the levels; empty: parts of all
-  std::optional<double> error;             ///< of the one level, or its part of the diagonal
-  bool is_error_relative = false;          ///< of the bounding box
+  std::optional<Length> error;             ///< of the surface of one level more
+  std::optional<Length> texture_error;     ///< of the texture of one level more
   std::vector<Level_format> formats;       ///< of the levels
   bool is_lossless = false;                ///< the progressive mesh
 };

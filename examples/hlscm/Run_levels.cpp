@@ -21,6 +21,7 @@
 #include <CGAL/Surface_mesh_parameterization/build_textured_progressive_mesh.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -166,7 +167,7 @@ std::vector<std::size_t> positions(const Progressive_model& model,
 {
   std::vector<std::size_t> faces = options.faces, result;
   const std::size_t all = model.progressive_mesh.triangles.size();
-  if(faces.empty() && !options.error) {
+  if(faces.empty() && !options.error && !options.texture_error) {
     for(const double part : default_parts) {
       faces.push_back(std::max<std::size_t>(1, std::size_t(part * double(all))));
     }
@@ -174,18 +175,21 @@ std::vector<std::size_t> positions(const Progressive_model& model,
   for(const std::size_t n : faces) {
     result.push_back(levels.position_of_triangles(n));
   }
-  if(options.error) {
-    double bound = *options.error;
-    if(options.is_error_relative) {
-      CGAL::Bbox_3 box;
-      for(const auto& p : model.points) {
-        box += p.bbox();
-      }
-      bound *= std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
+  const auto add_within = [&](const std::optional<Length>& length, SMM::Level_error kind) {
+    if(!length) {
+      return;
     }
-    result.push_back(
-        SMM::coarsest_level_within(model, SMM::Level_error::TEXTURE_DEVIATION, bound));
-  }
+    CGAL::Bbox_3 box;
+    for(const auto& p : model.points) {
+      box += p.bbox();
+    }
+    const double diagonal
+        = std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
+    const double bound = length->value * (length->is_relative ? diagonal : 1);
+    result.push_back(SMM::coarsest_level_within(model, kind, bound));
+  };
+  add_within(options.error, SMM::Level_error::DISTANCE);
+  add_within(options.texture_error, SMM::Level_error::TEXTURE_DEVIATION);
   std::sort(result.begin(), result.end());
   result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
