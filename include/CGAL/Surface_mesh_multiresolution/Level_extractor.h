@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_LEVEL_EXTRACTOR_H
 
 #include <CGAL/Surface_mesh_multiresolution/Textured_progressive_mesh.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/triangle_numbers.h>
 
 #include <CGAL/assertions.h>
 
@@ -96,24 +97,12 @@ private:
 
 inline Level_extractor::Level_extractor(const Textured_progressive_mesh& mesh)
   : m_mesh(mesh), m_parent(mesh.number_of_wedges(), no_vertex)
-  , m_triangles_before(mesh.number_of_wedges() + 1, 0)
+  , m_triangles_before(internal::triangle_numbers(mesh))
 {
   const std::size_t n = mesh.number_of_wedges();
   const std::size_t base = mesh.number_of_wedges_after(mesh.number_of_collapses());
-  const std::vector<Triangle_indices>& triangles = mesh.progressive_mesh.triangles;
-  // Round a wedge inside a chart the edges opposite to it close, and their differences add up to zero
-  std::vector<Vertex_index> gap(n, 0);
-  for(const Triangle_indices& t : triangles)
-    for(int c = 0; c < 3; ++c)
-      gap[t[c]] += t[(c + 2) % 3] - t[(c + 1) % 3];
-  std::size_t number = triangles.size();
-  for(Vertex_index w = Vertex_index(n); w-- > base;) {
-    m_triangles_before[w + 1] = std::uint32_t(number);
-    number -= gap[w] == 0 ? 2 : 1;
+  for(Vertex_index w = Vertex_index(base); w < n; ++w)
     m_parent[w] = mesh.parent(w);
-  }
-  for(std::size_t w = 0; w <= base; ++w)
-    m_triangles_before[w] = std::uint32_t(number);
   for(std::size_t wedges = n / 2; wedges > (std::max)(base, std::size_t(64)); wedges /= 2) {
     Halving halving = {wedges, {}};
     extract(n - wedges, halving.triangles);

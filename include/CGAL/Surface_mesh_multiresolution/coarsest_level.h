@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_COARSEST_LEVEL_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_COARSEST_LEVEL_H
 
+#include <CGAL/Surface_mesh_multiresolution/internal/triangle_numbers.h>
 #include <CGAL/Surface_mesh_multiresolution/texture_deviation.h>
 
 #include <CGAL/assertions.h>
@@ -11,31 +12,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_multiresolution {
 namespace internal {
 
-// The number of triangles after each number of collapses.
-inline std::vector<std::size_t> triangle_numbers(const Textured_progressive_mesh& mesh)
-{
-  const Vsplit_table table(mesh.progressive_mesh);
-  std::vector<std::size_t> result(1, mesh.progressive_mesh.triangles.size());
-  for(std::size_t i = 0; i < mesh.number_of_collapses(); ++i)
-    result.push_back(result.back() - table.dying(i).size());
-  return result;
-}
-
-// The first whole position with at most this many triangles.
+// The first whole position with at most this many triangles; `numbers` are the `triangle_numbers()`.
 inline std::size_t position_with(const Textured_progressive_mesh& mesh,
-                                 const std::vector<std::size_t>& numbers, double triangles)
+                                 const std::vector<std::uint32_t>& numbers, double triangles)
 {
-  const auto found = std::partition_point(numbers.begin(), numbers.end(), [&](std::size_t number) {
-    return double(number) > triangles;
+  const auto beyond = std::partition_point(numbers.begin(), numbers.end(), [&](std::size_t number) {
+    return double(number) <= triangles;
   });
-  return mesh.whole_position(
-    (std::min)(std::size_t(found - numbers.begin()), mesh.number_of_collapses()));
+  const std::size_t collapses = std::size_t(numbers.end() - beyond);
+  return mesh.whole_position((std::min)(collapses, mesh.number_of_collapses()));
 }
 
 } // namespace internal
@@ -62,7 +54,10 @@ inline std::size_t coarsest_level_within(const Textured_progressive_mesh& mesh, 
 {
   CGAL_precondition(bound >= 0.);
   constexpr double precision = 1.01; // of the number of triangles
-  const std::vector<std::size_t> numbers = internal::triangle_numbers(mesh);
+  const std::vector<std::uint32_t> numbers = internal::triangle_numbers(mesh);
+  const auto triangles = [&](std::size_t k) {
+    return double(numbers[mesh.number_of_wedges_after(k)]);
+  };
   const internal::Textured_view view = internal::fine_view(mesh);
   const internal::Fine_surface fine(view);
   const auto is_within = [&](std::size_t k) {
@@ -71,8 +66,8 @@ inline std::size_t coarsest_level_within(const Textured_progressive_mesh& mesh, 
   std::size_t within = 0, beyond = mesh.number_of_collapses();
   if(is_within(beyond))
     return beyond;
-  while(double(numbers[within]) > precision * double(numbers[beyond])) {
-    const double middle = std::sqrt(double(numbers[within]) * double(numbers[beyond]));
+  while(triangles(within) > precision * triangles(beyond)) {
+    const double middle = std::sqrt(triangles(within) * triangles(beyond));
     const std::size_t k = internal::position_with(mesh, numbers, middle);
     if(k <= within || k >= beyond)
       break;

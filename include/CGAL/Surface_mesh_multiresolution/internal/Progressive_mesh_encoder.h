@@ -6,9 +6,12 @@
 
 #include <CGAL/Surface_mesh_multiresolution/Textured_progressive_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/Corner_rings.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/Rings_ahead.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/Value_codec.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/split_prediction.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/triangle_numbers.h>
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -76,10 +79,9 @@ class Progressive_mesh_encoder
 {
 public:
   Progressive_mesh_encoder(const Textured_progressive_mesh& mesh, const File_header& header)
-    : m_mesh(mesh), m_header(header), m_codec(header), m_table(mesh.progressive_mesh)
+    : m_mesh(mesh), m_header(header), m_codec(header), m_triangle_numbers(triangle_numbers(mesh))
   {
-    for(std::uint32_t t = 0; t < m_header.fine.triangles; ++t)
-      m_header.base.triangles += m_table.death(t) == Vsplit_table::never ? 1 : 0;
+    m_header.base.triangles = (std::min)(m_triangle_numbers[0], m_header.fine.triangles);
   }
 
   // Returns what is wrong with the connectivity of the mesh, or nothing.
@@ -97,6 +99,13 @@ private:
   };
 
   Vertex_index parent(Vertex_index w) const { return m_mesh.parent(w); }
+  // The wedge into which v has collapsed when only the first `end` are left.
+  Vertex_index ancestor(Vertex_index v, Vertex_index end) const
+  {
+    while(v >= end)
+      v = parent(v);
+    return v;
+  }
   bool is_second(Vertex_index w) const { return w > 0 && m_mesh.vertex[w] == m_mesh.vertex[w - 1]; }
   void set_values();
   void put_values(Vertex_index w, const Wedge_values& predicted);
@@ -109,8 +118,9 @@ private:
   const Textured_progressive_mesh& m_mesh;
   File_header m_header;
   Value_codec m_codec;
-  Vsplit_table m_table;
+  std::vector<std::uint32_t> m_triangle_numbers;
   Corner_rings m_rings;
+  Rings_ahead m_ahead;
   Parent_prediction m_parents;
   std::vector<Wedge_values> m_values;
   std::vector<std::array<std::uint32_t, 5>> m_low_values; // if there are
@@ -168,9 +178,8 @@ inline void Progressive_mesh_encoder::append_values(std::string& bytes) const
 inline std::string Progressive_mesh_encoder::put_base()
 {
   const Progressive_mesh& pm = m_mesh.progressive_mesh;
-  const auto& at_death = m_table.triangles_at_death();
-  std::vector<Triangle_indices> triangles(at_death.begin(),
-                                          at_death.begin() + m_header.base.triangles);
+  std::vector<Triangle_indices> triangles(pm.triangles.begin(),
+                                          pm.triangles.begin() + m_header.base.triangles);
   Column ends, corners;
   std::size_t last_end = 0;
   for(const std::size_t end : pm.batch_ends) {
@@ -180,8 +189,7 @@ inline std::string Progressive_mesh_encoder::put_base()
   Triangle_indices last = {0, 0, 0};
   for(std::uint32_t t = 0; t < triangles.size(); last = triangles[t++])
     for(int c = 0; c < 3; ++c) {
-      if(triangles[t][c] >= m_header.base.wedges)
-        return "the triangles are not in the order in which splits make them";
+      triangles[t][c] = ancestor(triangles[t][c], m_header.base.wedges);
       corners.push_back(zigzag(triangles[t][c] - last[c]));
     }
   Wedge_values before = {};
@@ -203,16 +211,16 @@ inline std::string Progressive_mesh_encoder::put_base()
 
 inline std::string Progressive_mesh_encoder::put_split(Vertex_index w)
 {
-  const std::size_t i = m_mesh.number_of_wedges() - 1 - w;
   const Vertex_index t = parent(w);
   Vertex_index left = no_vertex, right = no_vertex;
-  for(std::size_t f = m_rings.triangles().size();
-      f < m_header.fine.triangles && m_table.death(std::uint32_t(f)) == i; ++f) {
-    const Triangle_indices& triangle = m_table.triangles_at_death()[f];
-    if(triangle[1] == t && left == no_vertex && right == no_vertex)
-      left = triangle[2];
-    else if(triangle[2] == t && right == no_vertex)
-      right = triangle[1];
+  const std::size_t end = (std::min)(m_triangle_numbers[w + 1], m_header.fine.triangles);
+  for(std::size_t f = m_rings.triangles().size(); f < end; ++f) {
+    const Triangle_indices& fine = m_mesh.progressive_mesh.triangles[f];
+    const Vertex_index second = ancestor(fine[1], w), third = ancestor(fine[2], w);
+    if(second == t && third != t && left == no_vertex && right == no_vertex)
+      left = third;
+    else if(third == t && second != t && right == no_vertex)
+      right = second;
     else
       return "the triangles are not in the order in which splits make them";
   }
@@ -260,7 +268,14 @@ inline std::string Progressive_mesh_encoder::run()
   m_columns = Columns();
   m_parents = Parent_prediction(pm.batch_ends, m_header.base.wedges, m_header.fine.wedges);
   std::uint32_t splits = 0;
-  for(Vertex_index w = m_header.base.wedges; w < m_header.fine.wedges && error.empty(); ++w) {
+  const auto prefetch_values = [this](Vertex_index v) { internal::prefetch(&m_values[v]); };
+  Vertex_index w = m_header.base.wedges;
+  const auto parent_of = [this, &w](std::size_t v) {
+    const Vertex_index t = v < m_header.fine.wedges ? parent(Vertex_index(v)) : no_vertex;
+    return t < w ? t : no_vertex;
+  };
+  for(; w < m_header.fine.wedges && error.empty(); ++w) {
+    m_ahead.prefetch(m_rings, w, parent_of, prefetch_values);
     error = put_split(w);
     const bool is_last = w + 1 == m_header.fine.wedges;
     if(++splits >= splits_per_section && (is_last || !is_second(w + 1))) {

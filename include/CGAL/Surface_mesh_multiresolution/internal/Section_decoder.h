@@ -6,6 +6,7 @@
 
 #include <CGAL/Surface_mesh_multiresolution/Textured_progressive_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/Corner_rings.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/Rings_ahead.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/Value_codec.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/split_prediction.h>
 
@@ -46,9 +47,6 @@ public:
 private:
   typedef std::array<Column_reader, 5> Value_columns;
 
-  // The corners of a ring that are asked for one after the other: more than most splits pass.
-  static constexpr std::size_t corners_ahead = 8;
-
   bool open(Value_columns& high, Value_columns& low, const char*& from, const char* end,
             std::size_t vertices, std::size_t wedges) const;
   bool read_batch_ends(const char*& from, const char* end);
@@ -56,7 +54,6 @@ private:
   bool read_pairs(const char*& from, const char* end, std::size_t count);
   bool read_values(const char*& from, const char* end);
   bool read_connectivity(std::uint32_t splits, const char*& from, const char* end);
-  void prefetch(std::size_t i);
   bool split_all(Column_reader& kinds);
   bool append_points(std::size_t from);
   bool has_sound_counts() const;
@@ -75,7 +72,7 @@ private:
   std::vector<std::uint8_t> m_is_second;    // of two wedges of a vertex
   std::vector<Ring_split> m_splits;
   std::vector<Wedge_values> m_residuals;
-  std::array<Corner_rings::Corner, 16> m_cursors = {}; // of the splits to come, see prefetch()
+  Rings_ahead m_ahead;
   std::vector<std::array<std::uint32_t, 5>> m_low; // if there are
 };
 
@@ -237,33 +234,17 @@ inline bool Section_decoder::read_connectivity(std::uint32_t splits, const char*
       && moved.is_sound();
 }
 
-// Asks for what the splits after split i will need. Rings are lists, whose next corner is known only
-// when the one before is there: so each of the splits to come goes one corner on.
-inline void Section_decoder::prefetch(std::size_t i)
-{
-  const auto prefetch_values = [this](Vertex_index w) { internal::prefetch(&m_values[w]); };
-  const auto is_known = [this](std::size_t j) { // a parent may be a wedge that is not there yet
-    return j < m_splits.size() && m_splits[j].parent < m_values.size();
-  };
-  const std::size_t farthest = i + corners_ahead + 4, far = i + corners_ahead + 1;
-  if(is_known(farthest)) {
-    m_rings.prefetch(m_splits[farthest].parent);
-    prefetch_values(m_splits[farthest].parent);
-  }
-  m_cursors[far % m_cursors.size()]
-    = is_known(far) ? m_rings.prefetch_first(m_splits[far].parent) : 0;
-  for(std::size_t j = i + 1; j < far; ++j) {
-    Corner_rings::Corner& cursor = m_cursors[j % m_cursors.size()];
-    cursor = m_rings.prefetch_next(cursor, prefetch_values);
-  }
-}
-
 // The wedges with their values and vertices.
 inline bool Section_decoder::split_all(Column_reader& kinds)
 {
   const std::size_t n = m_splits.size();
+  const auto prefetch_values = [this](Vertex_index w) { internal::prefetch(&m_values[w]); };
+  const auto parent_of = [this](std::size_t j) { // it may be a wedge that is not there yet
+    return j < m_splits.size() && m_splits[j].parent < m_values.size() ? m_splits[j].parent
+                                                                       : no_vertex;
+  };
   for(std::size_t i = 0; i < n; ++i) {
-    prefetch(i);
+    m_ahead.prefetch(m_rings, i, parent_of, prefetch_values);
     Ring_split& split = m_splits[i];
     if(m_rings.is_border(split.parent) && !kinds.is_empty()) {
       const std::uint32_t kind = kinds.next<Column_code::RICE>();

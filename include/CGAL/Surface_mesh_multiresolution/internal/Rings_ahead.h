@@ -1,0 +1,52 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_RINGS_AHEAD_H
+#define CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_RINGS_AHEAD_H
+
+#include <CGAL/Surface_mesh_multiresolution/internal/Corner_rings.h>
+
+#include <array>
+#include <cstddef>
+
+namespace CGAL {
+namespace Surface_mesh_multiresolution {
+namespace internal {
+
+// Asks for what splits to come will need of the memory. Rings are lists, whose next corner is known
+// only when the one before is there: so each of the splits to come goes one corner on.
+class Rings_ahead
+{
+public:
+  // To be called before split i. parent_of(j) is the parent of split j, or `no_vertex` if it is not
+  // known or not there; prefetch_values(w) asks for what belongs to a wedge.
+  template <class ParentOf, class PrefetchValues>
+  void prefetch(const Corner_rings& rings, std::size_t i, const ParentOf& parent_of,
+                const PrefetchValues& prefetch_values)
+  {
+    const std::size_t farthest = i + corners_ahead + 4, far = i + corners_ahead + 1;
+    const Vertex_index parent = parent_of(farthest);
+    if(parent != no_vertex) {
+      rings.prefetch(parent);
+      prefetch_values(parent);
+    }
+    const Vertex_index next = parent_of(far);
+    m_cursors[far % m_cursors.size()] = next != no_vertex ? rings.prefetch_first(next) : 0;
+    for(std::size_t j = i + 1; j < far; ++j) {
+      Corner_rings::Corner& cursor = m_cursors[j % m_cursors.size()];
+      cursor = rings.prefetch_next(cursor, prefetch_values);
+    }
+  }
+
+private:
+  // The corners of a ring that are asked for one after the other: more than most splits pass.
+  static constexpr std::size_t corners_ahead = 8;
+
+  std::array<Corner_rings::Corner, 16> m_cursors = {};
+};
+
+} // namespace internal
+} // namespace Surface_mesh_multiresolution
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_RINGS_AHEAD_H
