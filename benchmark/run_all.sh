@@ -139,6 +139,7 @@ compare decimation --decimation
 "$HLSCM_BIN/flip_repair" "$HLSCM_DATA_DIR"/{lion-head,mannequin-devil}.off > "$out/flip_repair.csv"
 mapfile -t large < <(find "$charts" -maxdepth 1 -name '*_1[0-9][0-9][0-9]k.ply' | sort)
 "$HLSCM_BIN/live_map" "${large[@]}" > "$out/live_map.csv"
+"$HLSCM_BIN/levels" "${large[@]}" > "$out/levels.csv"
 "$HLSCM_BIN/stages" "${large[@]}" > "$out/stages.csv"
 "$HLSCM_BIN/parameters" --repeat "$repeat" "$charts/camel_313k.ply" \
   "$charts/scaling/bunny00_302k.ply" > "$out/parameters.csv"
