@@ -1,7 +1,8 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What changes of a map that is kept up to date cost beside its first solution: a CSV file on stdout.
+// What changes of a map that is kept up to date cost beside its first solution: a CSV file on
+// stdout.
 //
 // Usage: live_map MESH...
 
@@ -34,7 +35,8 @@ class Table
 public:
   Table(std::string chart, double tolerance) : m_chart(std::move(chart)), m_tolerance(tolerance) {}
 
-  // A row of a step that ended with the map as it is. The first one is what others are compared with.
+  // A row of a step that ended with the map as it is. The first one is what others are compared
+  // with.
   void add(const char* step, double seconds, const Conformal_map& map)
   {
     if(map.error() != SMP::OK)

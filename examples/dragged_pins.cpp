@@ -1,8 +1,8 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Drags a pin of a map that is kept up to date, as an editor of texture coordinates does: the map of a
-// surface of a file, or of hills of 80,000 faces.
+// Drags a pin of a map that is kept up to date, as an editor of texture coordinates does: the map
+// of a surface of a file, or of hills of 80,000 faces.
 
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Simple_cartesian.h>

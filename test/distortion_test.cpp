@@ -489,7 +489,8 @@ double greatest_common_area(const Indexed_triangle_mesh& mesh, const Parameters&
   return greatest;
 }
 
-// Random maps of small charts, of all kinds: with and without flips, bent until they meet themselves
+// Random maps of small charts, of all kinds: with and without flips, bent until they meet
+// themselves
 TEST(Overlap, is_a_common_area_of_two_faces)
 {
   Random random(5);

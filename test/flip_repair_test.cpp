@@ -1,8 +1,8 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The certificate on maps made by hand, the derivatives of the untangling energy by differences, and
-// the repair of tangled maps: what it promises, as a function that returns what is wrong.
+// The certificate on maps made by hand, the derivatives of the untangling energy by differences,
+// and the repair of tangled maps: what it promises, as a function that returns what is wrong.
 
 #include <support/conformal_maps.h>
 
@@ -378,7 +378,8 @@ TEST(Repair, of_faces_collapsed_to_a_point)
   expect_mended(mesh, uv, {0, 12});
 }
 
-// The energy of the identity is 0; the repair must find nearly that again, whatever the perturbation.
+// The energy of the identity is 0; the repair must find nearly that again, whatever the
+// perturbation.
 TEST(Repair, finds_the_conformal_map)
 {
   const auto mesh = irregular_grid(20, 15, 5);
@@ -500,7 +501,8 @@ Indexed_triangle_mesh rough_chart(std::uint64_t seed)
   return with_noise(with_hills(irregular_grid(40, 30, seed), 8., seed + 1), 0.45, seed + 2);
 }
 
-// Angles at inner vertices with sums of far more than 2 pi, around which a conformal map winds twice
+// Angles at inner vertices with sums of far more than 2 pi, around which a conformal map winds
+// twice
 TEST(Repair, makes_no_branch_points)
 {
   for(std::uint64_t seed = 1; seed <= 3; ++seed) {

@@ -98,8 +98,8 @@ Textured_soup read_textured_obj(const fs::path& path)
   return result;
 }
 
-// Empty if the corners of `level` are corners of `fine`, to the bit, and if each edge is used once in
-// each direction, or `border_edges` of them in one only.
+// Empty if the corners of `level` are corners of `fine`, to the bit, and if each edge is used once
+// in each direction, or `border_edges` of them in one only.
 std::string error_in_level(const Textured_soup& level, const Textured_soup& fine,
                            std::size_t border_edges)
 {

@@ -70,7 +70,8 @@ bool is_equal(const Halfedge_collapse& a, const Halfedge_collapse& b)
 }
 
 // `read` is the level of `mesh` that has as many splits; coordinates are compared by their bits if
-// no errors are allowed, and the bounds have room for the rounding of numbers of the size of `mesh`.
+// no errors are allowed, and the bounds have room for the rounding of numbers of the size of
+// `mesh`.
 std::string error_in_level(const SMM::Read_progressive_mesh& read,
                            const Textured_progressive_mesh& mesh)
 {
@@ -328,7 +329,8 @@ TEST(Progressive_mesh_file, every_beginning_is_a_coarser_model)
   }
 }
 
-// Narrow charts: a quarter of the wedges are the second of a pair, which a section must not cut off.
+// Narrow charts: a quarter of the wedges are the second of a pair, which a section must not cut
+// off.
 TEST(Progressive_mesh_file, sections_end_with_a_whole_vertex)
 {
   std::size_t longer_sections = 0;

@@ -1,10 +1,10 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The hierarchical method beside the sparse direct one on real charts: those among Debian's meshes of
-// CGAL, whose folder is HLSCM_DATA_DIR, and all in the folder HLSCM_EXTRA_DATA_DIR. What is not
-// there is skipped. Each test prints its rows of the table chart, faces, tolerance, gap, iterations,
-// flips.
+// The hierarchical method beside the sparse direct one on real charts: those among Debian's meshes
+// of CGAL, whose folder is HLSCM_DATA_DIR, and all in the folder HLSCM_EXTRA_DATA_DIR. What is not
+// there is skipped. Each test prints its rows of the table chart, faces, tolerance, gap,
+// iterations, flips.
 
 #include <support/conformal_maps.h>
 #include <support/real_meshes.h>
@@ -100,8 +100,8 @@ std::string name_of_chart(const ::testing::TestParamInfo<const char*>& info)
   return name;
 }
 
-// One border: mannequin-devil to patch-30. Several: ChineseDragon (2), blade (2), head (3), holes (7),
-// lion (5), mech-holes-shark (4), pig (7)
+// One border: mannequin-devil to patch-30. Several: ChineseDragon (2), blade (2), head (3), holes
+// (7), lion (5), mech-holes-shark (4), pig (7)
 INSTANTIATE_TEST_SUITE_P(, Debian_chart,
   ::testing::Values("mannequin-devil.off", "lion-head.off", "cylinder_locally_refined.off",
                     "mushroom.off", "three_peaks.off", "nefertiti.off", "mesh_with_border.off",

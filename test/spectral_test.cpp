@@ -67,8 +67,8 @@ std::vector<double> border_masses(const Indexed_triangle_mesh& mesh)
   return mass;
 }
 
-// A map z, the products H z and B z, and its Rayleigh quotient; z is moved so that its border has the
-// centre of mass 0. The mesh is normalized: the operator wants edges of length 1.
+// A map z, the products H z and B z, and its Rayleigh quotient; z is moved so that its border has
+// the centre of mass 0. The mesh is normalized: the operator wants edges of length 1.
 struct Eigen_equation
 {
   std::vector<Complex> z, hz, bz;

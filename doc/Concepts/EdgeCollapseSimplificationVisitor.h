@@ -5,9 +5,10 @@
 \ingroup PkgHLSCMConcepts
 \cgalConcept
 
-The concept `EdgeCollapseSimplificationVisitor` of CGAL's package Triangulated Surface Mesh Simplification
-describes an object that `edge_collapse()` tells what it does. The models of this package derive from
-CGAL's `Edge_collapse_visitor_base` and add what they need; only that is listed here.
+The concept `EdgeCollapseSimplificationVisitor` of CGAL's package Triangulated Surface Mesh
+Simplification describes an object that `edge_collapse()` tells what it does. The models of this
+package derive from CGAL's `Edge_collapse_visitor_base` and add what they need; only that is listed
+here.
 
 \cgalHasModel{CGAL::Surface_mesh_simplification::Accumulated_cost_visitor}
 \cgalHasModel{CGAL::Surface_mesh_multiresolution::Progressive_mesh_recorder}
@@ -15,8 +16,8 @@ CGAL's `Edge_collapse_visitor_base` and add what they need; only that is listed 
 class EdgeCollapseSimplificationVisitor
 {
 public:
-  /// Called right before an edge is collapsed, or found not to have a placement. Both models read the
-  /// profile here, while the stars of both vertices still exist.
+  /// Called right before an edge is collapsed, or found not to have a placement. Both models read
+  /// the profile here, while the stars of both vertices still exist.
   template <class EdgeProfile, class OptionalPoint>
   void OnCollapsing(const EdgeProfile& profile, const OptionalPoint& placement);
 

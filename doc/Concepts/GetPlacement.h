@@ -9,10 +9,10 @@ The concept `GetPlacement` of CGAL's package Triangulated Surface Mesh Simplific
 function object that gives an edge profile the point where the merged vertex shall be, or nothing
 if the edge must not be collapsed.
 
-The model of this package places it at one of the two points of the edge, so that `edge_collapse()` makes
-halfedge collapses. One thing must be known when identities of vertices matter: `edge_collapse()` always
-keeps the descriptor `v1` and moves it to the placement. With the placement `p0` it is the *name* `v0`
-that disappears although the *vertex* `v1` was removed.
+The model of this package places it at one of the two points of the edge, so that `edge_collapse()`
+makes halfedge collapses. One thing must be known when identities of vertices matter:
+`edge_collapse()` always keeps the descriptor `v1` and moves it to the placement. With the placement
+`p0` it is the *name* `v0` that disappears although the *vertex* `v1` was removed.
 `CGAL::Surface_mesh_multiresolution::Progressive_mesh_recorder` keeps track of this.
 
 \cgalHasModel{CGAL::Surface_mesh_simplification::Halfedge_collapse_placement}

@@ -6,8 +6,8 @@
 \cgalConcept
 
 The concept `MultigridLevels` describes the operations of a multigrid cycle on a hierarchy of linear
-systems \f$ A_l u_l = f_l \f$, where level 0 is the coarsest. `CGAL::Multigrid::cycle()` says in which
-order they are called; matrices and vectors are a matter of the model.
+systems \f$ A_l u_l = f_l \f$, where level 0 is the coarsest. `CGAL::Multigrid::cycle()` says in
+which order they are called; matrices and vectors are a matter of the model.
 
 A model need not be numerical: one that only writes down the calls shows what a
 `CGAL::Multigrid::Schedule` does.
@@ -37,8 +37,8 @@ public:
   void solve_coarsest();
 
   /// Sets \f$ u_l \f$ to an approximate solution, by at most `steps` steps of a Krylov method that
-  /// is preconditioned by `coarse_cycle()`. That is a cycle on `level` from \f$ u_l = 0 \f$, which the
-  /// model sets before each call; it reads \f$ f_l \f$ and changes \f$ u_l \f$.
+  /// is preconditioned by `coarse_cycle()`. That is a cycle on `level` from \f$ u_l = 0 \f$, which
+  /// the model sets before each call; it reads \f$ f_l \f$ and changes \f$ u_l \f$.
   ///
   /// \pre `level > 0` and `steps > 0`
   template <class CoarseCycle>

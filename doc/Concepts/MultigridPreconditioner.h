@@ -5,9 +5,9 @@
 \ingroup PkgHLSCMConcepts
 \cgalConcept
 
-The concept `MultigridPreconditioner` describes what `CGAL::Multigrid::minimize_energy()` improves its
-directions with: a function object that approximates \f$ H^{-1} r \f$. It may change from step to
-step, as a K-cycle does, since the conjugate gradients are flexible.
+The concept `MultigridPreconditioner` describes what `CGAL::Multigrid::minimize_energy()` improves
+its directions with: a function object that approximates \f$ H^{-1} r \f$. It may change from step
+to step, as a K-cycle does, since the conjugate gradients are flexible.
 
 \cgalHasModel{CGAL::Multigrid::Jacobi_preconditioner}
 \cgalHasModel{CGAL::Multigrid::Symmetric_gauss_seidel_preconditioner}

@@ -8,9 +8,9 @@
 The concept `PlacementFilter` of CGAL's package Triangulated Surface Mesh Simplification describes a
 function object that returns a placement if it is acceptable, and nothing otherwise.
 
-The models of this package are decorators: each has a base filter, which is asked first, so that they
-are put together like `Collapse_shape_filter<Angular_defect_filter<>>`, also with filters of CGAL at
-the bottom. They judge halfedge collapses and reject all other placements. Given to
+The models of this package are decorators: each has a base filter, which is asked first, so that
+they are put together like `Collapse_shape_filter<Angular_defect_filter<>>`, also with filters of
+CGAL at the bottom. They judge halfedge collapses and reject all other placements. Given to
 `CGAL::Surface_mesh_simplification::Halfedge_collapse_placement` they also choose between the two
 directions of an edge; given to `edge_collapse()` as its filter they only reject.
 

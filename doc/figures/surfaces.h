@@ -59,7 +59,8 @@ public:
   double radius() const { return m_profile.back().first; }
   double height() const { return -m_profile.back().second; }
 
-  // On a grid whose inner vertices are moved by up to a quarter of a cell, differently for each seed.
+  // On a grid whose inner vertices are moved by up to a quarter of a cell, differently for each
+  // seed.
   SMM::Indexed_triangle_mesh mesh(unsigned int cells, std::uint32_t seed) const
   {
     std::minstd_rand random(seed);

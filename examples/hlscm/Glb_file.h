@@ -12,7 +12,8 @@
 namespace hlscm {
 
 /// The bytes of a glTF 2.0 file (GLB) with the levels, the finest first, as the nodes of MSFT_lod
-/// and a checkerboard as the texture of all. Viewers that do not know the extension show the finest.
+/// and a checkerboard as the texture of all. Viewers that do not know the extension show the
+/// finest.
 ///
 /// The levels share one buffer of vertices, as each has the first vertices of the next finer one.
 /// `MSFT_screencoverage` changes to the next level when that has a triangle for every eight pixels

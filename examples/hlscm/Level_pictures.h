@@ -20,8 +20,9 @@ public:
   Level_picture_files(Output_files& files, const std::filesystem::path& folder);
 
   /// - levels.png: the fine surface and up to four levels with one checkerboard as their texture;
-  /// - swimming.png: for each of them below it how its picture differs from that of the fine surface:
-  ///   white where it is equal, black where a dark square has taken the place of a light one.
+  /// - swimming.png: for each of them below it how its picture differs from that of the fine
+  ///   surface: white where it is equal, black where a dark square has taken the place of a light
+  ///   one.
   void draw(const Progressive_model& model, const std::vector<Level_of_detail>& levels,
             Progress_bar& progress);
 

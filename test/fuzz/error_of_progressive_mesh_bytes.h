@@ -75,7 +75,8 @@ inline std::string error_in_read_mesh(
   return error_in_levels(pm, 2);
 }
 
-// Reads the bytes at once, in pieces, and as the writer writes what was read; returns what is wrong.
+// Reads the bytes at once, in pieces, and as the writer writes what was read; returns what is
+// wrong.
 inline std::string error_of_progressive_mesh_bytes(const std::string& bytes)
 {
   namespace SMM = CGAL::Surface_mesh_multiresolution;

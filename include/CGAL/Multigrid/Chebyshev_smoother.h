@@ -32,8 +32,8 @@ Real l1_inverse(const Hermitian_matrix<Real>& h, std::size_t slot)
 \ingroup PkgHLSCMMultigrid
 
 Returns the inverses of \f$ D_i = \frac12 ( H_{ii} + \sum_{j \ne i} |H_{ij}| ) \f$, with which no
-eigenvalue of \f$ D^{-1} H \f$ exceeds 2 whatever the signs of the entries (for a matrix of cotangents
-of acute triangles \f$ D \f$ is the diagonal). Rows of zeros, those of pins, get 0.
+eigenvalue of \f$ D^{-1} H \f$ exceeds 2 whatever the signs of the entries (for a matrix of
+cotangents of acute triangles \f$ D \f$ is the diagonal). Rows of zeros, those of pins, get 0.
 */
 template <class Real>
 std::vector<Real> l1_inverse_diagonal(const Hermitian_matrix<Real>& h)

@@ -42,8 +42,8 @@ struct Matrix_row
 \ingroup PkgHLSCMMultigrid
 
 The sparsity pattern that matrices of one level share: rows in slices of eight, whose entries are
-stored column-wise (sliced ELLPACK), rows of near equal length side by side. Slices with an imaginary
-part anywhere are marked.
+stored column-wise (sliced ELLPACK), rows of near equal length side by side. Slices with an
+imaginary part anywhere are marked.
 */
 struct Sliced_pattern
 {
@@ -66,8 +66,8 @@ struct Sliced_pattern
 /*!
 \ingroup PkgHLSCMMultigrid
 
-The class `Hermitian_matrix` is a sparse Hermitian matrix with a real diagonal, most of whose entries
-are real, such as that of a conformal energy. The values are stored as `Real`.
+The class `Hermitian_matrix` is a sparse Hermitian matrix with a real diagonal, most of whose
+entries are real, such as that of a conformal energy. The values are stored as `Real`.
 */
 template <class Real>
 class Hermitian_matrix

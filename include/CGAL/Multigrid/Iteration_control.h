@@ -18,10 +18,11 @@ namespace Multigrid {
 struct Energy_stop
 {
   double tolerance = 1e-2;         ///< of \f$ (E - E_{\min}) / E \f$
-  /// The least energy for which the tolerance is meant: where \f$ E \f$ is smaller, it counts as this.
+  /// The least energy for which the tolerance is meant: where \f$ E \f$ is smaller, it counts as
+  /// this.
   double least_energy = 0.;
-  /// Of the change of an unknown that is still to come; 0 if it does not matter. The first of the two
-  /// tolerances that is met ends the iteration.
+  /// Of the change of an unknown that is still to come; 0 if it does not matter. The first of the
+  /// two tolerances that is met ends the iteration.
   double change_tolerance = 0.;
   double known_rate = 0.;          ///< see `Energy_gap_estimator`
   std::size_t minimal_iterations = 0;  ///< at least so many
@@ -51,7 +52,8 @@ class Energy_gap_estimator
 {
 public:
   /// Constructs an estimator, for an iteration whose steps are known to lower the energy by this
-  /// factor, one to the next, from an earlier iteration with the same matrix; 0 if nothing is known.
+  /// factor, one to the next, from an earlier iteration with the same matrix; 0 if nothing is
+  /// known.
   explicit Energy_gap_estimator(double known_rate = 0.) : m_known_rate(known_rate) {}
 
   /// Tells by how much the last step lowered the energy.
@@ -70,8 +72,8 @@ public:
     return result;
   }
 
-  /// Returns the estimate of what remains after the last step; infinity before the third, if no rate
-  /// was known.
+  /// Returns the estimate of what remains after the last step; infinity before the third, if no
+  /// rate was known.
   double remaining() const
   {
     const std::size_t n = m_decreases.size();
@@ -133,9 +135,9 @@ public:
   /// Returns whether `step()` wants to know the largest change of an unknown.
   bool watches_changes() const { return m_stop.change_tolerance > 0.; }
 
-  /// Takes note of a step that lowered the energy by `decrease` to `energy` and changed no unknown by
-  /// more than `change`. `observe(part)` is told how far the iteration has come, in [0, 1]; returning
-  /// false stops it.
+  /// Takes note of a step that lowered the energy by `decrease` to `energy` and changed no unknown
+  /// by more than `change`. `observe(part)` is told how far the iteration has come, in [0, 1];
+  /// returning false stops it.
   template <class Observe>
   void step(double energy, double decrease, double change, const Observe& observe)
   {

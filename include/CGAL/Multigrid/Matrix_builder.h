@@ -25,8 +25,8 @@ class Matrix_builder
 {
 public:
   /// Returns the matrix of the given row lengths, whose row i is what `fill(i, row)` leaves in the
-  /// empty `Matrix_row` that it is given. A row may be shorter than announced, not longer. One call a
-  /// row, in any order and possibly at the same time.
+  /// empty `Matrix_row` that it is given. A row may be shorter than announced, not longer. One call
+  /// a row, in any order and possibly at the same time.
   template <class Real, class Fill>
   static Hermitian_matrix<Real> build(const std::vector<std::uint32_t>& row_lengths,
                                       const Fill& fill);

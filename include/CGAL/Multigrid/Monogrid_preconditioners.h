@@ -46,8 +46,8 @@ private:
 \ingroup PkgHLSCMMultigrid
 
 The class `Symmetric_gauss_seidel_preconditioner` makes a forward and a backward Gauss-Seidel sweep
-in the order of the rows: \f$ z = (D + L)^{-H} D (D + L)^{-1} r \f$. It needs no parameter and exists
-for every matrix with a positive diagonal.
+in the order of the rows: \f$ z = (D + L)^{-H} D (D + L)^{-1} r \f$. It needs no parameter and
+exists for every matrix with a positive diagonal.
 
 \cgalModels{MultigridPreconditioner}
 */

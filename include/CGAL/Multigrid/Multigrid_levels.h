@@ -71,7 +71,8 @@ public:
   /// Returns the solver of level 0.
   CoarsestSolver& coarsest_solver() { return m_coarsest; }
 
-  /// Sets `x` to the result of one cycle of `schedule` on the right-hand side `r` of level `l`, from
+  /// Sets `x` to the result of one cycle of `schedule` on the right-hand side `r` of level `l`,
+  /// from
   /// 0. The right-hand side is scaled to norm 1 meanwhile, so that single precision can hold it.
   template <class Real>
   void precondition(const Schedule& schedule, std::size_t l, const Complex_vector<Real>& r,

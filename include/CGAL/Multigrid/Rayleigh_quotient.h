@@ -96,8 +96,8 @@ struct Vector_and_product
   }
 };
 
-// The combination of the first `count` vectors with the smallest quotient, by its coefficients; none
-// if the vectors are linearly dependent.
+// The combination of the first `count` vectors with the smallest quotient, by its coefficients;
+// none if the vectors are linearly dependent.
 template <class Real>
 std::vector<std::complex<double>>
 best_combination(const std::array<const Vector_and_product<Real>*, 3>& vectors, int count,

@@ -49,8 +49,8 @@ records them as a `Progressive_mesh`. It runs the same cost and filter policies 
 
 A vertex is removed only if topology allows it: the mesh stays a manifold with the same Euler
 characteristic and the same border components. A border vertex leaves only along the border; locked
-vertices and vertices of more than 14 neighbours never leave; a vertex that has at most 14 neighbours
-never gets more. The result depends on the input alone,
+vertices and vertices of more than 14 neighbours never leave; a vertex that has at most 14
+neighbours never gets more. The result depends on the input alone,
 not on the number of threads (`Blocked_execution::Thread_scope`).
 
 \tparam Cost a model of `GetCost`; called by several threads at the same time for vertices that have

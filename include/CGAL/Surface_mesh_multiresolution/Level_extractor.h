@@ -18,8 +18,8 @@ namespace Surface_mesh_multiresolution {
 /*!
 \ingroup PkgHLSCMLevelsOfDetail
 
-The class `Level_extractor` returns the triangles of any level of a `Textured_progressive_mesh` in time
-proportional to their number.
+The class `Level_extractor` returns the triangles of any level of a `Textured_progressive_mesh` in
+time proportional to their number.
 
 A level after \f$ k \f$ collapses has the first wedges, vertices and triangles of the fine mesh; a
 corner that is not among these wedges has collapsed into one of them. Corners are stored at every
@@ -70,9 +70,9 @@ public:
   void extract(std::size_t k, std::vector<Triangle_indices>& result) const;
 
   /// Returns for each wedge of the level after `fine` collapses the one into which it has collapsed
-  /// after `coarse` collapses: a geomorph (Hoppe 1996) between the two levels draws the triangles of
-  /// the fine one with wedge \f$ w \f$ at \f$ (1 - \alpha) x_w + \alpha x_{a(w)} \f$, its texture
-  /// coordinate likewise. Precondition: `fine <= coarse`.
+  /// after `coarse` collapses: a geomorph (Hoppe 1996) between the two levels draws the triangles
+  /// of the fine one with wedge \f$ w \f$ at \f$ (1 - \alpha) x_w + \alpha x_{a(w)} \f$, its
+  /// texture coordinate likewise. Precondition: `fine <= coarse`.
   std::vector<Vertex_index> ancestors(std::size_t fine, std::size_t coarse) const;
 
 private:

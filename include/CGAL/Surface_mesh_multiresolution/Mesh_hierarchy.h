@@ -56,8 +56,9 @@ struct Mesh_level
 /*!
 \ingroup PkgHLSCMMultiresolution
 
-Returns the numbers of collapses at which levels are cut, ascending from 0 (the fine mesh): each about
-`ratio` times smaller than the one before, at the ends of passes if the progressive mesh has them.
+Returns the numbers of collapses at which levels are cut, ascending from 0 (the fine mesh): each
+about `ratio` times smaller than the one before, at the ends of passes if the progressive mesh has
+them.
 */
 inline std::vector<std::size_t> level_cuts(const Progressive_mesh& pm,
                                            const Hierarchy_options& options)

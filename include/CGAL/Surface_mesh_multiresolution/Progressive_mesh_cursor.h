@@ -20,8 +20,8 @@ namespace Surface_mesh_multiresolution {
 The class `Progressive_mesh_cursor` stands at one mesh of a `Progressive_mesh` and goes to the next
 coarser one by a halfedge collapse or to the next finer one by the vertex split that undoes it.
 
-Triangles keep their index; at a position those with `is_alive(t)` make up the mesh. A step costs the
-triangles that it changes.
+Triangles keep their index; at a position those with `is_alive(t)` make up the mesh. A step costs
+the triangles that it changes.
 
 Memory: 12 bytes a triangle beside the `Vsplit_table`.
 */

@@ -125,8 +125,8 @@ inline File_header header_for(const Textured_progressive_mesh& mesh,
 /*!
 \ingroup PkgHLSCMLevelsOfDetail
 
-Returns `mesh` as a progressive mesh file (extension `.pm`): the coarsest mesh and the splits, coarse
-to fine, so that any beginning of the file that has the coarsest mesh is a coarser model.
+Returns `mesh` as a progressive mesh file (extension `.pm`): the coarsest mesh and the splits,
+coarse to fine, so that any beginning of the file that has the coarsest mesh is a coarser model.
 
 What is read back has the connectivity of `mesh`, all numberings, the order of triangles and corners
 and `batch_ends` included; `source_vertex` is not written. If lossless, coordinates have the same
@@ -188,8 +188,8 @@ inline Read_progressive_mesh what_was_read(Progressive_mesh_decoder&& decoder)
 } // namespace internal
 
 /// \ingroup PkgHLSCMLevelsOfDetail
-/// Reads a progressive mesh file in memory, of which any beginning will do. Bytes behind its end are
-/// ignored. For a file that arrives bit by bit see `Progressive_mesh_decoder`.
+/// Reads a progressive mesh file in memory, of which any beginning will do. Bytes behind its end
+/// are ignored. For a file that arrives bit by bit see `Progressive_mesh_decoder`.
 inline Read_progressive_mesh decode_progressive_mesh(const char* data, std::size_t size)
 {
   Progressive_mesh_decoder decoder;

@@ -40,8 +40,9 @@ public:
   /// Constructs the operator.
   ///
   /// \param kept for each coarse vertex its index in the fine level, ascending
-  /// \param stencils for each of the other vertices of the fine level where its value comes from, in
-  ///        an order in which each refers only to kept vertices and to those of stencils before it
+  /// \param stencils for each of the other vertices of the fine level where its value comes from,
+  ///        in an order in which each refers only to kept vertices and to those of stencils before
+  ///        it
   Prolongation(std::vector<Vertex_index> kept, std::vector<Stencil> stencils);
 
   /// Returns for each coarse vertex its index in the fine level.

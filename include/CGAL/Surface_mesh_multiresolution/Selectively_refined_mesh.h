@@ -18,8 +18,8 @@ namespace Surface_mesh_multiresolution {
 /*!
 \ingroup PkgHLSCMLevelsOfDetail
 
-The class `Selectively_refined_mesh` is a mesh between the levels of a `Textured_progressive_mesh`: fine
-in some places, coarse in others, and open to change at any time.
+The class `Selectively_refined_mesh` is a mesh between the levels of a `Textured_progressive_mesh`:
+fine in some places, coarse in others, and open to change at any time.
 
 Each vertex beyond the coarsest level is there or not. A vertex split needs the triangles that it
 changes as they were in the progressive mesh, hence the splits that made them so: these

@@ -21,11 +21,12 @@ namespace Surface_mesh_multiresolution {
 The struct `Textured_progressive_mesh` is a `Progressive_mesh` with texture coordinates: all its
 levels share one texture, as no vertex that is left ever moves on the surface or in the texture.
 
-Where the texture has a seam, a vertex of the surface has several texture coordinates. The progressive
-mesh is therefore one of *wedges* (Hoppe 1996): a wedge is a vertex with one texture coordinate, the
-corners at a vertex between one seam and the next. In terms of wedges each chart is a mesh of its own,
-whose border is made of seams and of the border of the surface. Collapsing an edge on a seam takes two
-halfedge collapses, one a chart, which follow each other; a level between them would have a crack.
+Where the texture has a seam, a vertex of the surface has several texture coordinates. The
+progressive mesh is therefore one of *wedges* (Hoppe 1996): a wedge is a vertex with one texture
+coordinate, the corners at a vertex between one seam and the next. In terms of wedges each chart is
+a mesh of its own, whose border is made of seams and of the border of the surface. Collapsing an
+edge on a seam takes two halfedge collapses, one a chart, which follow each other; a level between
+them would have a crack.
 
     chart A   a                a           The vertex v has the wedge v' in chart A and v'' in chart
             / | \             / |          B. Its collapse into t is the pair (v', t'), (v'', t'') of
@@ -41,9 +42,9 @@ Invariants
   vertices of each level are the first ones as well.
 - The wedges of a vertex are removed one directly after the other; how many there are is any number
   for a vertex of the coarsest level, one or two for the others.
-- A triangle that a collapse removes has, when it dies, the removed wedge as its first corner; of two
-  triangles that die together, that to the left of the halfedge from the removed to the kept wedge
-  comes first.
+- A triangle that a collapse removes has, when it dies, the removed wedge as its first corner; of
+  two triangles that die together, that to the left of the halfedge from the removed to the kept
+  wedge comes first.
 
 Memory: 12 bytes a triangle, 28 bytes a wedge, 28 bytes a vertex.
 */

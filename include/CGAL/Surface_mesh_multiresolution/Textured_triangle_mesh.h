@@ -18,8 +18,8 @@ namespace Surface_mesh_multiresolution {
 /*!
 \ingroup PkgHLSCMLevelsOfDetail
 
-The struct `Textured_triangle_mesh` is a triangle mesh with a texture coordinate at each corner. Where
-corners of the same vertex have different ones, there is a seam.
+The struct `Textured_triangle_mesh` is a triangle mesh with a texture coordinate at each corner.
+Where corners of the same vertex have different ones, there is a seam.
 
 Invariant: `wedges` is as long as `triangles`; the entries of `triangles` are smaller than
 `points.size()`, those of `wedges` smaller than `uv.size()`.
@@ -128,9 +128,10 @@ private:
 /*!
 \ingroup PkgHLSCMLevelsOfDetail
 
-Returns `mesh` with one texture coordinate for each wedge, that is for the corners of a vertex between
-one seam and the next, in the order of the vertices. An edge is no seam if the texture coordinates
-of its ends are equal on both sides, whatever their indices. Linear time for bounded degrees.
+Returns `mesh` with one texture coordinate for each wedge, that is for the corners of a vertex
+between one seam and the next, in the order of the vertices. An edge is no seam if the texture
+coordinates of its ends are equal on both sides, whatever their indices. Linear time for bounded
+degrees.
 */
 inline Textured_triangle_mesh with_wedges(const Textured_triangle_mesh& mesh)
 {

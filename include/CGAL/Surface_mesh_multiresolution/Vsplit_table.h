@@ -22,8 +22,8 @@ The class `Vsplit_table` tells for each collapse of a `Progressive_mesh` which c
 which triangles it removes, so that the collapse, and the vertex split that undoes it, cost a few
 reads in a row.
 
-A corner is the number \f$ 3 t + c \f$, the place \f$ c \f$ of triangle \f$ t \f$. Collapse \f$ i \f$
-writes its kept vertex to the corners `moved(i)`, and the split writes back the removed one.
+A corner is the number \f$ 3 t + c \f$, the place \f$ c \f$ of triangle \f$ t \f$. Collapse \f$ i
+\f$ writes its kept vertex to the corners `moved(i)`, and the split writes back the removed one.
 
 Linear time. Memory: 16 bytes a triangle, and about 32 a collapse.
 */
@@ -66,8 +66,8 @@ public:
     std::uint32_t triangle; ///< the other triangle at the edge
   };
 
-  /// Returns, in the order of the collapses, the triangles beyond the edge where a split puts an ear,
-  /// that is a triangle whose new vertex gets no other.
+  /// Returns, in the order of the collapses, the triangles beyond the edge where a split puts an
+  /// ear, that is a triangle whose new vertex gets no other.
   const std::vector<Guard>& guards() const { return m_guards; }
 
   /// Returns the collapse that triangle `t` dies of, or `never`.

@@ -30,8 +30,8 @@ struct Textured_progressive_mesh_options
   std::size_t target_vertices = 0;
   Collapse_order order = Collapse_order::BATCHED; ///< which collapse comes next
   double angular_defect_bound = 70.; ///< a vertex of no smaller defect stays; degrees
-  /// How much the texture deviation at the removed vertex (Cohen, Olano, Manocha 1998) counts beside
-  /// volume, border and shape, as a length beside lengths; 0 leaves it out.
+  /// How much the texture deviation at the removed vertex (Cohen, Olano, Manocha 1998) counts
+  /// beside volume, border and shape, as a length beside lengths; 0 leaves it out.
   double texture_deviation_weight = 0.;
   /// For each vertex whether it must stay; empty for none.
   std::vector<bool> is_locked;
@@ -120,11 +120,11 @@ inline Wedge_collapses decimate_textured(const Textured_triangle_mesh& mesh,
 
 Returns a progressive mesh of `mesh` all levels of which share its texture coordinates.
 
-Vertices on seams and borders leave only along them, on both sides of a seam at once, and those where
-seams meet or end stay: every level has the topology of the input, and each chart stays what it is,
-a disk if it was one. No triangle turns over in the texture. What the collapses cost is the default
-of `build_progressive_mesh()`, at seams together with the square root of the area that the texture of
-a chart loses or gains.
+Vertices on seams and borders leave only along them, on both sides of a seam at once, and those
+where seams meet or end stay: every level has the topology of the input, and each chart stays what
+it is, a disk if it was one. No triangle turns over in the texture. What the collapses cost is the
+default of `build_progressive_mesh()`, at seams together with the square root of the area that the
+texture of a chart loses or gains.
 
 `mesh` may have any size and place, several components and borders. Bad data (vertices without a
 face or with several fans of faces, coordinates that are not finite) give a result with `error` set.
@@ -165,12 +165,12 @@ build_textured_progressive_mesh(const Textured_triangle_mesh& mesh,
 \ingroup PkgHLSCMLevelsOfDetail
 
 Returns the progressive mesh of one chart from the collapses with which it was parameterized, which
-spares the decimation: `pm` is what `HLSCM_parameterizer_3::progressive_mesh()` returns, `points` and
-`uv` belong to its vertices, of which those that are near in space should be near in memory.
+spares the decimation: `pm` is what `HLSCM_parameterizer_3::progressive_mesh()` returns, `points`
+and `uv` belong to its vertices, of which those that are near in space should be near in memory.
 
-Collapses that turn triangles over in the texture are left out, and those that are no longer possible
-without them. Then decimation goes on to the coarsest level that `options` ask for, of which
-`order` and `angular_defect_bound` count for this part only.
+Collapses that turn triangles over in the texture are left out, and those that are no longer
+possible without them. Then decimation goes on to the coarsest level that `options` ask for, of
+which `order` and `angular_defect_bound` count for this part only.
 
 Bad data: as above. Linear time.
 */

@@ -19,7 +19,8 @@ namespace CGAL {
 namespace Surface_mesh_multiresolution {
 namespace internal {
 
-// The first whole position with at most this many triangles; `numbers` are the `triangle_numbers()`.
+// The first whole position with at most this many triangles; `numbers` are the
+// `triangle_numbers()`.
 inline std::size_t position_with(const Textured_progressive_mesh& mesh,
                                  const std::vector<std::uint32_t>& numbers, double triangles)
 {

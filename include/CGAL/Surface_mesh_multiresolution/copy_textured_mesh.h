@@ -28,7 +28,8 @@ as in `vertices(mesh)`, triangles as in `faces(mesh)`. Linear time.
        target in this face. With a map `m` of vertices that is
        `[&](auto h) { return get(m, target(h, mesh)); }`. For `mesh` with a `Seam_mesh` of type `S`
        above it, `seams`, and the map `m` of its vertices that `SMP::parameterize()` fills it is
-       `[&](auto h) { return get(m, target(boost::graph_traits<S>::halfedge_descriptor(h), seams)); }`
+       `[&](auto h) { return get(m, target(boost::graph_traits<S>::halfedge_descriptor(h), seams));
+       }`
 
 \pre all faces are triangles
 */

@@ -133,9 +133,9 @@ void fill_conformal_row(
   }
 }
 
-// For each vertex how many others it has a triangle with: one more than its triangles at the border,
-// where the wedges (a, b) of the triangles (v, a, b) do not close, so that the sum of the differences
-// a - b is not 0.
+// For each vertex how many others it has a triangle with: one more than its triangles at the
+// border, where the wedges (a, b) of the triangles (v, a, b) do not close, so that the sum of the
+// differences a - b is not 0.
 inline std::vector<std::uint32_t>
 numbers_of_neighbors(const std::vector<Surface_mesh_multiresolution::Triangle_indices>& triangles,
                      const Surface_mesh_multiresolution::internal::Triangles_at_vertices& at)

@@ -19,9 +19,9 @@ namespace Surface_mesh_parameterization {
 
 The class `Conformal_triangle` is the one place with the formula of the conformal energy.
 
-A triangle with corners \f$ P_0, P_1, P_2 \f$ in its own plane, the plane taken as the complex plane,
-has the edge vectors \f$ W_j = P_{j+2} - P_{j+1} \f$ and the area \f$ A \f$. The conformal energy of the
-linear map with the complex values \f$ z_j = u_j + i v_j \f$ at the corners is
+A triangle with corners \f$ P_0, P_1, P_2 \f$ in its own plane, the plane taken as the complex
+plane, has the edge vectors \f$ W_j = P_{j+2} - P_{j+1} \f$ and the area \f$ A \f$. The conformal
+energy of the linear map with the complex values \f$ z_j = u_j + i v_j \f$ at the corners is
 \f[ E_T = \frac{1}{8A} \Bigl| \sum_j W_j z_j \Bigr|^2 = \frac{1}{2} z^H H_T z, \qquad
     (H_T)_{jk} = \frac{\overline{W_j} W_k}{4A}, \f]
 that is the Dirichlet energy minus the signed area of the image, or

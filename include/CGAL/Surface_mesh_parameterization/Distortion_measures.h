@@ -30,13 +30,14 @@ The struct `Distortion_measures` says how good a map of a triangle mesh to the p
 On each face the map from the surface to the plane is linear, with the singular values
 \f$ \sigma_1 \ge \sigma_2 \f$. The means, the quantile and the extremes are over the *regular*
 faces, those with an area on the surface and a positive one in the plane; flipped and degenerate
-faces, on which ratios and stretch would be infinite, are counted instead. If no face is regular, the
-measures are 0.
+faces, on which ratios and stretch would be infinite, are counted instead. If no face is regular,
+the measures are 0.
 */
 struct Distortion_measures
 {
   /// Dirichlet energy minus signed area, \f$ \frac12 \sum A (\sigma_1 \mp \sigma_2)^2 \f$ (minus;
-  /// plus on flipped faces), over all faces; see `Conformal_triangle`. In units of the plane's area.
+  /// plus on flipped faces), over all faces; see `Conformal_triangle`. In units of the plane's
+  /// area.
   double conformal_energy = 0.;
   /// The mean of the quasi-conformal ratio \f$ \sigma_1 / \sigma_2 \ge 1 \f$, weighted by the areas
   /// on the surface.
@@ -242,9 +243,9 @@ FaceOutputIterator flipped_faces(const TriangleMesh& mesh, VertexUVMap uvmap,
 \ingroup PkgHLSCMMeasures
 
 Returns whether the map `uvmap` covers a part of the plane twice, that is whether two faces of
-`mesh` have images whose interiors intersect. The answer is exact for the parameters as numbers of type
-`double`: faces that only touch do not overlap, but faces that would touch overlap by as much as
-rounding makes them. Faces without area in the plane overlap nothing; a map that is mirrored as a
+`mesh` have images whose interiors intersect. The answer is exact for the parameters as numbers of
+type `double`: faces that only touch do not overlap, but faces that would touch overlap by as much
+as rounding makes them. Faces without area in the plane overlap nothing; a map that is mirrored as a
 whole does not overlap itself for that.
 
 A flipped face beside one that is not decides at once. If all faces have the same orientation, the

@@ -17,9 +17,9 @@ struct Flip_repair_options
 {
   /// Which energy the mended map keeps low.
   Conformal_weights weights = Conformal_weights::EXACT;
-  /// The weight of the term that keeps areas away from 0, in parts of the conformal energy of a face
-  /// whose area scale is the mean one of its patch. A smaller one means less energy and flatter
-  /// faces.
+  /// The weight of the term that keeps areas away from 0, in parts of the conformal energy of a
+  /// face whose area scale is the mean one of its patch. A smaller one means less energy and
+  /// flatter faces.
   double barrier = 1e-2;
   /// The patch of flipped faces is that of the vertices within so many edges.
   int first_rings = 2;

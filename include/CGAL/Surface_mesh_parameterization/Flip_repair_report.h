@@ -26,7 +26,8 @@ struct Flip_repair_report
   double energy_before = 0.;         ///< conformal energy before, with the weights of the options
   double energy_after = 0.;          ///< and after the repair
   double seconds = 0.;               ///< time of the repair
-  /// The faces that are still flipped or degenerate, by their positions in `faces(mesh)`, ascending.
+  /// The faces that are still flipped or degenerate, by their positions in `faces(mesh)`,
+  /// ascending.
   std::vector<std::size_t> unmended_faces;
 };
 

@@ -79,8 +79,9 @@ struct HLSCM_options
 {
   /// How the minimum is found.
   Conformal_method method = Conformal_method::HLSCM;
-  /// The part of the energy by which the result may lie above the minimum, \f$ (E - E_{\min}) / E \f$:
-  /// 1e-2 cannot be told from the minimum by eye, 1e-4 leaves uv errors of about 1e-3 of the map.
+  /// The part of the energy by which the result may lie above the minimum, \f$ (E - E_{\min}) / E
+  /// \f$: 1e-2 cannot be told from the minimum by eye, 1e-4 leaves uv errors of about 1e-3 of the
+  /// map.
   double tolerance = 1e-2;
   /// Smoothing steps before and after the coarse correction, and visits of the coarse level. By
   /// default the K-cycle of `Multigrid::Schedule()`, and for the cascade, which takes
@@ -110,8 +111,9 @@ struct HLSCM_options
   /// Threads that a parameterizer with `Parallel_tag` may use; 0 for all that the machine has. The
   /// result does not depend on it.
   unsigned int threads = 0;
-  /// The iteration also ends when no uv will change by more than this part of the longer side of the
-  /// map's bounding box, as far as can be estimated, such as a texel of its texture; 0 for never.
+  /// The iteration also ends when no uv will change by more than this part of the longer side of
+  /// the map's bounding box, as far as can be estimated, such as a texel of its texture; 0 for
+  /// never.
   double uv_tolerance = 0.;
   /// Seconds after which the map becomes the result as it is; 0 for no limit. Nothing is cut off
   /// before the map of the coarsest level, which comes after about two thirds of the whole time.

@@ -34,12 +34,12 @@ namespace Surface_mesh_parameterization {
 
 The class `Hierarchical_conformal_map` keeps a conformal map of a triangle mesh up to date while its
 pins, the positions of its vertices or the weights of its faces change. The map is that of
-`HLSCM_parameterizer_3`, and without pins that of `Spectral_conformal_parameterizer_3`; the hierarchy
-of levels is built once, and every solution begins with the one before.
+`HLSCM_parameterizer_3`, and without pins that of `Spectral_conformal_parameterizer_3`; the
+hierarchy of levels is built once, and every solution begins with the one before.
 
-Two pins that move need no iteration: the map follows them by a similarity. A pin that is dragged among
-others costs a part of the first solution when it is first moved, and from then on two passes over the
-map, as long as the tolerance allows. `preview()` has a coarse map at hand at once.
+Two pins that move need no iteration: the map follows them by a similarity. A pin that is dragged
+among others costs a part of the first solution when it is first moved, and from then on two passes
+over the map, as long as the tolerance allows. `preview()` has a coarse map at hand at once.
 
 The mesh must satisfy what `HLSCM_parameterizer_3` asks for, must exist as long as the map does, and
 must keep its vertices and faces.
@@ -77,13 +77,13 @@ public:
   typedef std::pair<vertex_descriptor, Point_2> Pin;
 
   /*!
-  Builds the hierarchy of the component of `mesh` that has the border halfedge `bhd`. The pins are two
-  far vertices of the longest border, at (0, 0) and (1, 0), if `pins` is empty; none if
+  Builds the hierarchy of the component of `mesh` that has the border halfedge `bhd`. The pins are
+  two far vertices of the longest border, at (0, 0) and (1, 0), if `pins` is empty; none if
   `options.method` is `Conformal_method::SPECTRAL`. Other methods than that and
   `Conformal_method::HLSCM` are an error.
 
-  Vertices that are pinned here stay in all levels. Others can be pinned later, but the coarse levels
-  do not have them, which costs some iterations.
+  Vertices that are pinned here stay in all levels. Others can be pinned later, but the coarse
+  levels do not have them, which costs some iterations.
   */
   Hierarchical_conformal_map(const Triangle_mesh& mesh, halfedge_descriptor bhd,
                              const HLSCM_options& options = HLSCM_options(),
@@ -108,17 +108,17 @@ public:
   /// Returns the number of pins.
   std::size_t number_of_pins() const { return m_state->wanted.size(); }
 
-  /// Reads the positions of all vertices again. The levels, and the way from one to the next, remain
-  /// those of the old positions, which is right as long as the surface does not change beyond
-  /// recognition. Linear time.
+  /// Reads the positions of all vertices again. The levels, and the way from one to the next,
+  /// remain those of the old positions, which is right as long as the surface does not change
+  /// beyond recognition. Linear time.
   Error_code update_positions();
 
   /*!
   Multiplies the conformal energy of each face by a weight: where it is large, the map is more
   conformal at the cost of other places. Linear time.
 
-  \tparam FaceWeightMap a model of `ReadablePropertyMap` with the face descriptor as key and a number
-          as value, positive and finite
+  \tparam FaceWeightMap a model of `ReadablePropertyMap` with the face descriptor as key and a
+          number as value, positive and finite
   */
   template <class FaceWeightMap>
   Error_code set_face_weights(FaceWeightMap weights);
@@ -128,13 +128,13 @@ public:
   /// @{
 
   /// Brings the map up to date, to the tolerance of the options. Returns `OK`, or an error whose
-  /// reason in words is `report().message`; the map then stays what it was or, if the iteration gave
-  /// up, is the best there is.
+  /// reason in words is `report().message`; the map then stays what it was or, if the iteration
+  /// gave up, is the best there is.
   Error_code solve();
 
-  /// Returns the map as it will nearly be on a level of at most `vertices` vertices (or the coarsest
-  /// level if it has more): milliseconds for 10,000. What the view refers to lasts until the next
-  /// call.
+  /// Returns the map as it will nearly be on a level of at most `vertices` vertices (or the
+  /// coarsest level if it has more): milliseconds for 10,000. What the view refers to lasts until
+  /// the next call.
   Level_view preview(std::size_t vertices = 10000);
 
   /// Returns whether there is a map.

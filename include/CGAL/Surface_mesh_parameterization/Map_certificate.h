@@ -124,8 +124,8 @@ each pair once and in the order of `faces(mesh)`. What overlap means is said at
 
 \return `out` after the last pair
 
-Time \f$ O(n \log^2 n + k) \f$ for \f$ n \f$ faces and \f$ k \f$ pairs whose bounding boxes intersect:
-for certainty that there are none, `has_global_overlap()` is faster.
+Time \f$ O(n \log^2 n + k) \f$ for \f$ n \f$ faces and \f$ k \f$ pairs whose bounding boxes
+intersect: for certainty that there are none, `has_global_overlap()` is faster.
 */
 template <class TriangleMesh, class VertexUVMap, class PairOutputIterator>
 PairOutputIterator overlapping_faces(const TriangleMesh& mesh, VertexUVMap uvmap,

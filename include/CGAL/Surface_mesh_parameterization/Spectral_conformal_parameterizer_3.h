@@ -16,19 +16,19 @@ The class `Spectral_conformal_parameterizer_3` computes a conformal map with a f
 pins (Mullen et al. 2008): of all maps \f$ z \f$ whose border has its centre of mass at the origin,
 that of the least conformal energy for the size of the border,
 \f[ \min_z \frac{z^H H z}{z^H B z}, \qquad \sum_i b_i z_i = 0, \f]
-with the operator \f$ H \f$ of the conformal energy and \f$ B = \mathrm{diag}(b) \f$, half the length
-of the border edges at each border vertex. It is the smallest eigenvalue but 0 of \f$ H z = \lambda
-B z \f$, found by the locally optimal conjugate gradient method (Knyazev 2001), preconditioned by the
-multigrid cycle of `HLSCM_parameterizer_3`.
+with the operator \f$ H \f$ of the conformal energy and \f$ B = \mathrm{diag}(b) \f$, half the
+length of the border edges at each border vertex. It is the smallest eigenvalue but 0 of \f$ H z =
+\lambda B z \f$, found by the locally optimal conjugate gradient method (Knyazev 2001),
+preconditioned by the multigrid cycle of `HLSCM_parameterizer_3`.
 
 No vertex is singled out: sizes vary less over the map than with two pins, and its energy is mostly
-lower. The map comes with the area of the surface; of the two far vertices of the longest border that
-`HLSCM_parameterizer_3` would pin, one lies at the origin and one on the positive u axis.
+lower. The map comes with the area of the surface; of the two far vertices of the longest border
+that `HLSCM_parameterizer_3` would pin, one lies at the origin and one on the positive u axis.
 
-Options, report and requirements are those of `HLSCM_parameterizer_3`, `HLSCM_options::method` set to
-`Conformal_method::SPECTRAL`. `HLSCM_options::tolerance` bounds the relative distance of the quotient
-from its minimum. Where two eigenvalues nearly agree, maps of nearly the same energy may look
-different.
+Options, report and requirements are those of `HLSCM_parameterizer_3`, `HLSCM_options::method` set
+to `Conformal_method::SPECTRAL`. `HLSCM_options::tolerance` bounds the relative distance of the
+quotient from its minimum. Where two eigenvalues nearly agree, maps of nearly the same energy may
+look different.
 
 \tparam TriangleMesh a model of `FaceGraph`
 \tparam SolverTraits a model of `SparseLinearAlgebraWithFactorTraits_d` for the coarsest level

@@ -44,10 +44,10 @@ possible. Only vertices in small patches around such faces move; pinned vertices
 patch the map is first untangled by a family of energies that are finite for flipped faces, too
 (Garanzha, Kaporin, Kudryavtseva, Protais, Ray and Sokolov 2021, _Foldover-free maps in 50 lines of
 code_), and then brought near to the least conformal energy that it can have without flips. A patch
-is taken over only if all its faces have positive areas by an exact predicate, so that no face becomes
-flipped that was not, and, where that is possible, if its faces do not wind twice around a vertex
-around which they did not before. Otherwise it stays as it was, and is tried again with more rings
-around the faces.
+is taken over only if all its faces have positive areas by an exact predicate, so that no face
+becomes flipped that was not, and, where that is possible, if its faces do not wind twice around a
+vertex around which they did not before. Otherwise it stays as it was, and is tried again with more
+rings around the faces.
 
 The border of the surface is free: faces that do not overlap before may do so afterwards; see
 `certify_map()`.
@@ -55,8 +55,8 @@ The border of the surface is free: faces that do not overlap before may do so af
 \tparam TriangleMesh a model of `FaceListGraph` whose faces are triangles
 \tparam VertexUVMap a model of `ReadWritePropertyMap` with the vertex descriptor as key and a model
         of `Kernel::Point_2` as value, whose coordinates are made of numbers of type `double`
-\tparam VertexPinnedMap a model of `ReadablePropertyMap` with the vertex descriptor as key and `bool`
-        as value
+\tparam VertexPinnedMap a model of `ReadablePropertyMap` with the vertex descriptor as key and
+        `bool` as value
 
 \param mesh the mesh
 \param uvmap the map; only values of vertices that move are written
@@ -67,8 +67,8 @@ The border of the surface is free: faces that do not overlap before may do so af
 \return what was done, and the faces that could not be mended, for instance those with three pinned
         vertices, or of images that are smaller than 1e-13 of their coordinates
 
-Linear time, plus that of a sparse Cholesky factorization of the unknowns of a patch for each of some
-ten to some hundred steps of Newton's method. Patches are worked on in parallel within a
+Linear time, plus that of a sparse Cholesky factorization of the unknowns of a patch for each of
+some ten to some hundred steps of Newton's method. Patches are worked on in parallel within a
 `Blocked_execution::Thread_scope`; the result does not depend on it.
 */
 template <class TriangleMesh, class VertexUVMap, class VertexPinnedMap>

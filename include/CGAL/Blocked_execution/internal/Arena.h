@@ -20,11 +20,12 @@ namespace CGAL {
 namespace Blocked_execution {
 namespace internal {
 
-// The threads of a `Thread_scope`; `run(n, body)` calls `body(block)` for the blocks [0, n) on them.
+// The threads of a `Thread_scope`; `run(n, body)` calls `body(block)` for the blocks [0, n) on
+// them.
 #if defined(CGAL_BLOCKED_EXECUTION_STD_THREADS)
 
-// For thread sanitizers, which cannot see what TBB orders: the only order between blocks is that all
-// come after what was before the loop, and before what follows it.
+// For thread sanitizers, which cannot see what TBB orders: the only order between blocks is that
+// all come after what was before the loop, and before what follows it.
 class Arena
 {
 public:

@@ -31,8 +31,8 @@ struct Ring_split
   std::uint32_t moved; // the corners that move; 0 for END, which moves all that follow
 };
 
-// The triangles of a mesh that grows by vertex splits, with the ring of each vertex as a list of its
-// corners, counterclockwise. A corner is 4 t + c, place c < 3 of triangle t: no divisions by 3.
+// The triangles of a mesh that grows by vertex splits, with the ring of each vertex as a list of
+// its corners, counterclockwise. A corner is 4 t + c, place c < 3 of triangle t: no divisions by 3.
 //
 //        a                       a              INSIDE: the corners of t in the triangles between
 //      / | \                   / | \            b and a become corners of the new vertex v. New
@@ -70,8 +70,8 @@ public:
   std::vector<Triangle_indices> take_triangles() { return std::move(m_triangles); }
   bool is_border(Vertex_index v) const { return (m_first[v] & border_flag) != 0; }
 
-  // Ask for the memory that a split of v will need: first that of v, then, when that is there, along
-  // the ring, a corner a call.
+  // Ask for the memory that a split of v will need: first that of v, then, when that is there,
+  // along the ring, a corner a call.
   void prefetch(Vertex_index v) const { internal::prefetch(&m_first[v]); }
   Corner prefetch_first(Vertex_index v) const
   {

@@ -14,7 +14,8 @@ namespace internal {
 
 typedef std::array<std::array<std::uint32_t, 256>, 8> Crc32_tables;
 
-// Table j holds the remainders of a byte followed by j zero bytes; polynomial 0x04C11DB7, reflected.
+// Table j holds the remainders of a byte followed by j zero bytes; polynomial 0x04C11DB7,
+// reflected.
 constexpr Crc32_tables make_crc32_tables()
 {
   Crc32_tables tables = {};

@@ -70,8 +70,8 @@ inline std::string error_in_numbers(const Textured_progressive_mesh& mesh)
   return {};
 }
 
-// Writes the bytes of a mesh without `error_in_numbers()`, given a header that tells how to; only the
-// number of triangles of the base is not asked for.
+// Writes the bytes of a mesh without `error_in_numbers()`, given a header that tells how to; only
+// the number of triangles of the base is not asked for.
 //
 // It replays the splits as a reader does, and compares the triangles at the end: whatever it writes
 // can be read.

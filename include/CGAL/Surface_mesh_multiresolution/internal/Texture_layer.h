@@ -23,11 +23,11 @@ struct No_texture_layer
   static constexpr bool is_textured = false;
 };
 
-// The texture of a mesh under decimation: which wedge is at which corner, which edges are seams, and
-// what a collapse does to them.
+// The texture of a mesh under decimation: which wedge is at which corner, which edges are seams,
+// and what a collapse does to them.
 //
-// A vertex at the end of a seam edge has a list of *spokes*: its edges that are seams or borders, in
-// the order of its ring, each with the wedge of the corners from it to the next.
+// A vertex at the end of a seam edge has a list of *spokes*: its edges that are seams or borders,
+// in the order of its ring, each with the wedge of the corners from it to the next.
 //
 //            s        The wedges of v are w0 (from the spoke t to s) and w1 (from s to t). Vertices
 //        w1  |  w1    off the seams have one wedge and no spokes.

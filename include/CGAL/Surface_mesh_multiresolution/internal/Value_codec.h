@@ -15,8 +15,8 @@ namespace CGAL {
 namespace Surface_mesh_multiresolution {
 namespace internal {
 
-// Maps the bits of floating point numbers to integers in the order of the numbers, and back, so that
-// the difference of two near numbers is small.
+// Maps the bits of floating point numbers to integers in the order of the numbers, and back, so
+// that the difference of two near numbers is small.
 inline std::uint32_t ordered(std::uint32_t bits) { return (bits >> 31) != 0 ? ~bits : bits | 1u << 31; }
 inline std::uint32_t unordered(std::uint32_t x) { return (x >> 31) != 0 ? x & ~(1u << 31) : ~x; }
 
@@ -34,8 +34,8 @@ inline float float_of(std::uint32_t bits)
   return x;
 }
 
-// A coordinate as one integer of the width that `File_header::mask()` tells, which is predicted, and
-// for float64 a second one, the lower half, which is not.
+// A coordinate as one integer of the width that `File_header::mask()` tells, which is predicted,
+// and for float64 a second one, the lower half, which is not.
 class Value_codec
 {
 public:

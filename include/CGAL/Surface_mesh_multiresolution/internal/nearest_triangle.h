@@ -117,8 +117,9 @@ struct Nearest_triangle
   Triangle_indices triangle = {0, 0, 0};
 };
 
-// The triangle of the star of `star` that has the foot of the perpendicular from p. The first that is
-// much nearer than the centre of the star will do; on folded surfaces there may be others farther off.
+// The triangle of the star of `star` that has the foot of the perpendicular from p. The first that
+// is much nearer than the centre of the star will do; on folded surfaces there may be others
+// farther off.
 inline Nearest_triangle triangle_below(const Triangles_at_vertices& at,
                                        const Indexed_triangle_mesh& mesh, Vertex_index star,
                                        const Indexed_triangle_mesh::Point_3& p)
@@ -138,9 +139,9 @@ inline Nearest_triangle triangle_below(const Triangles_at_vertices& at,
   return best;
 }
 
-// The triangle whose plane point below p lies in it, in the star of `star`; if no triangle of it has
-// one, a walk goes on in the star of that vertex of the nearest triangle that weighs most, as long
-// as this brings it nearer.
+// The triangle whose plane point below p lies in it, in the star of `star`; if no triangle of it
+// has one, a walk goes on in the star of that vertex of the nearest triangle that weighs most, as
+// long as this brings it nearer.
 inline Nearest_triangle walk_to_nearest(const Triangles_at_vertices& at,
                                         const Indexed_triangle_mesh& mesh, Vertex_index star,
                                         const Indexed_triangle_mesh::Point_3& p)

@@ -20,11 +20,11 @@ namespace internal {
 
 // The parents of successive splits.
 //
-// A pass of the batched decimation goes through the mesh in spatial order. So the wedges made in one
-// pass, a range of numbers, are sorted spatially, and the splits of each later pass sweep all ranges
-// at the same time: a parent is near the last parent *of its range*. The number of the range, counted
-// back from the present one, and the difference take half of the bits that a difference to the last
-// parent takes.
+// A pass of the batched decimation goes through the mesh in spatial order. So the wedges made in
+// one pass, a range of numbers, are sorted spatially, and the splits of each later pass sweep all
+// ranges at the same time: a parent is near the last parent *of its range*. The number of the
+// range, counted back from the present one, and the difference take half of the bits that a
+// difference to the last parent takes.
 class Parent_prediction
 {
 public:
@@ -88,8 +88,8 @@ constexpr std::uint32_t expected_moved = 3;
 struct alignas(32) Wedge_values : std::array<std::uint32_t, 8>
 {};
 
-// The values of a wedge as the mean of those of its parent and other neighbours. In arithmetic modulo
-// 2^32, so that the sums of any values exist.
+// The values of a wedge as the mean of those of its parent and other neighbours. In arithmetic
+// modulo 2^32, so that the sums of any values exist.
 class Value_prediction
 {
 public:

@@ -14,14 +14,15 @@ namespace Surface_mesh_multiresolution {
 namespace internal {
 
 // For each w the number of triangles of the level that has the first w wedges; for less wedges than
-// the coarsest level has, that of the coarsest. A split makes two triangles inside a chart and one at
-// its border. Linear time.
+// the coarsest level has, that of the coarsest. A split makes two triangles inside a chart and one
+// at its border. Linear time.
 inline std::vector<std::uint32_t> triangle_numbers(const Textured_progressive_mesh& mesh)
 {
   const std::size_t n = mesh.number_of_wedges();
   const std::size_t base = mesh.number_of_wedges_after(mesh.number_of_collapses());
   const std::vector<Triangle_indices>& triangles = mesh.progressive_mesh.triangles;
-  // Round a wedge inside a chart the edges opposite to it close, and their differences add up to zero
+  // Round a wedge inside a chart the edges opposite to it close, and their differences add up to
+  // zero
   std::vector<Vertex_index> gap(n, 0);
   for(const Triangle_indices& t : triangles)
     for(int c = 0; c < 3; ++c)

@@ -24,8 +24,8 @@ namespace Surface_mesh_parameterization {
 namespace internal {
 
 // The weights of the triangles of each level, from those of the finest; none if those are empty.
-// Coarse triangles get the mean weight of the fine ones that they stand for, so that the energy of a
-// level resembles that of the finest.
+// Coarse triangles get the mean weight of the fine ones that they stand for, so that the energy of
+// a level resembles that of the finest.
 inline std::vector<std::vector<double>>
 level_weights(const std::vector<Surface_mesh_multiresolution::Mesh_level>& levels,
               std::vector<double> finest)
@@ -51,8 +51,8 @@ level_weights(const std::vector<Surface_mesh_multiresolution::Mesh_level>& level
   return weights;
 }
 
-// The levels of a chart, the conformal operator of each, under pins, and the cycle over them. Level 0
-// is the coarsest.
+// The levels of a chart, the conformal operator of each, under pins, and the cycle over them. Level
+// 0 is the coarsest.
 //
 // A pin is a vertex of the finest level. On a level that does not have it, the vertex from which it
 // would get most of its value stands for it.
@@ -74,9 +74,9 @@ public:
   const std::vector<Level>& levels() const { return m_levels; }
   std::size_t number_of_levels() const { return m_levels.size(); }
 
-  // Builds the operators from the meshes of the levels, without pins. `triangle_weights` are those of
-  // the finest level, empty for 1. After each level, the finest first, `after_level(l)` says whether
-  // to go on.
+  // Builds the operators from the meshes of the levels, without pins. `triangle_weights` are those
+  // of the finest level, empty for 1. After each level, the finest first, `after_level(l)` says
+  // whether to go on.
   template <class After_level>
   void build_operators(std::vector<double> triangle_weights, const After_level& after_level);
 
@@ -127,8 +127,8 @@ public:
                                        const Multigrid::Energy_stop& stop, const Observe& observe,
                                        Vector& z);
 
-  // Lowers the energy of z on level l for the mass of its border. The rows of the pins, for which the
-  // preconditioner has no correction, are moved by the combination with the map itself.
+  // Lowers the energy of z on level l for the mass of its border. The rows of the pins, for which
+  // the preconditioner has no correction, are moved by the combination with the map itself.
   template <class Observe>
   Multigrid::Iteration_report
   minimize_without_pins(std::size_t l, const Multigrid::Diagonal_mass& mass,

@@ -293,8 +293,8 @@ Multigrid::Iteration_report Conformal_solver<CoarsestSolver>::improve(std::size_
 // Whether a map of that size has no energy but rounding errors.
 inline bool is_without_energy(double energy, double size) { return !(energy > 1e-12 * size * size); }
 
-// Takes the second pin out of the preconditioner. In a plane, where there is a map without energy, it
-// is needed: with one pin the matrix would be singular.
+// Takes the second pin out of the preconditioner. In a plane, where there is a map without energy,
+// it is needed: with one pin the matrix would be singular.
 template <class CoarsestSolver>
 bool Conformal_solver<CoarsestSolver>::release_second_pin(double energy, double size)
 {
@@ -335,9 +335,9 @@ void Conformal_solver<CoarsestSolver>::solve_coarsest(Vector& z)
     conclude(result, "raise the number of iterations");
 }
 
-// A map without pins has no size, position or direction of its own: that of level l gets the area of
-// the surface, the first of the two far vertices at the origin and the second on the u axis. Returns
-// the factor of its energy.
+// A map without pins has no size, position or direction of its own: that of level l gets the area
+// of the surface, the first of the two far vertices at the origin and the second on the u axis.
+// Returns the factor of its energy.
 template <class CoarsestSolver>
 double Conformal_solver<CoarsestSolver>::fit_to_surface(std::size_t l, Vector& z) const
 {

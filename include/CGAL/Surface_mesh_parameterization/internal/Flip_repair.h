@@ -22,8 +22,8 @@ namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
 
-// Repairs a map of triangles, given as arrays. Works in rounds: the patches of the flipped faces are
-// mended where that can be done, and become larger in the next round where it could not.
+// Repairs a map of triangles, given as arrays. Works in rounds: the patches of the flipped faces
+// are mended where that can be done, and become larger in the next round where it could not.
 class Flip_repair
 {
 public:

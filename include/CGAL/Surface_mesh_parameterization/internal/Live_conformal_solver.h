@@ -19,10 +19,10 @@ namespace internal {
 
 // A solver that keeps its hierarchy and its map for other pins, positions and weights.
 //
-// The map is linear in the values of the pins. When pins move, the map of their moves alone is found
-// as if it were a new one, and added; its energy is small, and so is the accuracy that it needs. If the
-// pin that moved last moves on, that map is at hand, and only scaled. Errors add up in the norm of the
-// energy.
+// The map is linear in the values of the pins. When pins move, the map of their moves alone is
+// found as if it were a new one, and added; its energy is small, and so is the accuracy that it
+// needs. If the pin that moved last moves on, that map is at hand, and only scaled. Errors add up
+// in the norm of the energy.
 template <class CoarsestSolver>
 class Live_conformal_solver
   : private Conformal_solver<CoarsestSolver>
@@ -34,8 +34,8 @@ public:
   using typename Base::Vector;
   typedef Surface_mesh_multiresolution::Vertex_index Vertex_index;
 
-  // Builds the hierarchy, on all levels of which the pins of now stay. All is kept by reference; the
-  // pins, and the method, HLSCM or SPECTRAL, may change.
+  // Builds the hierarchy, on all levels of which the pins of now stay. All is kept by reference;
+  // the pins, and the method, HLSCM or SPECTRAL, may change.
   Live_conformal_solver(Chart& chart, const std::vector<Pin>& pins, const HLSCM_options& options,
                         HLSCM_report& report)
     : Base(chart, pins, options, report)

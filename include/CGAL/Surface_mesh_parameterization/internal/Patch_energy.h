@@ -28,10 +28,11 @@ namespace internal {
 //   f = 1/2 c y^2 + 1/2 m y^2 / chi(D) + 1/2 a (1 + D^2) / chi(D),
 //   chi(D) = (D + R) / 2,  R = sqrt(D^2 + eps^2),
 //
-// and its derivatives. The first term is the conformal energy. The second one is 0 for similarities,
-// too, and is large near and below D = 0; the third one holds D near 1, lest triangles shrink to
-// points together. With eps > 0 all are finite for all maps, and their minimisers untangle as eps
-// tends to 0 (Garanzha et al. 2021); with eps = 0 they are barriers, since chi(D) = D.
+// and its derivatives. The first term is the conformal energy. The second one is 0 for
+// similarities, too, and is large near and below D = 0; the third one holds D near 1, lest
+// triangles shrink to points together. With eps > 0 all are finite for all maps, and their
+// minimisers untangle as eps tends to 0 (Garanzha et al. 2021); with eps = 0 they are barriers,
+// since chi(D) = D.
 struct Energy_terms
 {
   double conformal; // c
@@ -88,8 +89,8 @@ private:
   }
 };
 
-// A triangle of a patch: places of its corners among the values of the patch, of which the first ones
-// are free, and the coefficients of the derivatives of a map on it.
+// A triangle of a patch: places of its corners among the values of the patch, of which the first
+// ones are free, and the coefficients of the derivatives of a map on it.
 struct Patch_triangle
 {
   typedef std::complex<double> Complex;
@@ -142,7 +143,8 @@ public:
 
   double least_determinant(const Values& z) const;
 
-  // The greatest t up to which no triangle of z + t d loses its positive area; infinity if none does.
+  // The greatest t up to which no triangle of z + t d loses its positive area; infinity if none
+  // does.
   double first_flip(const Values& z, const Values& d) const;
 
   // The area of the image to that of the surface, signs disregarded.

@@ -183,8 +183,8 @@ inline void Coarse_metric::find_owners(const Prolongation& prolongation)
       m_below[next[owner[t]]++] = t;
 }
 
-// Asks for what the sums over the fine triangles after m_below[i] will read: triangles first and, when
-// these are there, their points.
+// Asks for what the sums over the fine triangles after m_below[i] will read: triangles first and,
+// when these are there, their points.
 inline void Coarse_metric::prefetch(std::uint32_t i) const
 {
   using Surface_mesh_multiresolution::internal::prefetch;

@@ -34,8 +34,8 @@ public:
     , m_is_inside(is_fixed.size(), false)
   {}
 
-  // The patches of the vertices within `rings` edges of the faces, by their least vertices. Faces of
-  // fixed vertices alone get none.
+  // The patches of the vertices within `rings` edges of the faces, by their least vertices. Faces
+  // of fixed vertices alone get none.
   std::vector<Flip_patch> patches_around(const std::vector<std::uint32_t>& faces, int rings);
 
 private:

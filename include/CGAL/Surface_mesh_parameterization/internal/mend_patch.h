@@ -84,8 +84,8 @@ inline double Patch_minimizer::take_step(Values& z, const Energy_terms& terms, d
   return value;
 }
 
-// Moves the free values to where all triangles have positive areas; returns whether such a place was
-// found. The area scale must be about 1.
+// Moves the free values to where all triangles have positive areas; returns whether such a place
+// was found. The area scale must be about 1.
 inline bool untangle(const Patch_energy& energy, Patch_energy::Values& z)
 {
   Patch_minimizer minimizer(energy);
@@ -96,8 +96,8 @@ inline bool untangle(const Patch_energy& energy, Patch_energy::Values& z)
     const double least = energy.least_determinant(z);
     if(least > 0.)
       return true;
-    // As long as there is a way, the least determinant follows epsilon to 0. It stays behind if, for
-    // instance, the border of the patch turns the wrong way round.
+    // As long as there is a way, the least determinant follows epsilon to 0. It stays behind if,
+    // for instance, the border of the patch turns the wrong way round.
     if(!(least > -30. * epsilon))
       return false;
   }
@@ -105,8 +105,8 @@ inline bool untangle(const Patch_energy& energy, Patch_energy::Values& z)
 }
 
 // Moves the free values of a patch to where all its triangles have positive areas and its conformal
-// energy is near the least one that can be had so; returns whether it succeeded. `start` is the energy
-// that untangles, `barrier` the weight of the term that keeps areas away from 0.
+// energy is near the least one that can be had so; returns whether it succeeded. `start` is the
+// energy that untangles, `barrier` the weight of the term that keeps areas away from 0.
 inline bool mend_patch(const Patch_energy& energy, const Patch_energy& start, double barrier,
                        Patch_energy::Values& z)
 {

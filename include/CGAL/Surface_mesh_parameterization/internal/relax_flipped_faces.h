@@ -71,8 +71,8 @@ vertices_around(const Multigrid::Hermitian_matrix<double>& h,
   return result;
 }
 
-// Moves the vertices of a patch to the minimum of the energy for which all others stay. The patch is
-// ascending and has no pins.
+// Moves the vertices of a patch to the minimum of the energy for which all others stay. The patch
+// is ascending and has no pins.
 inline void minimize_on_patch(const Multigrid::Hermitian_matrix<double>& h,
                               const std::vector<std::uint32_t>& slot,
                               const std::vector<std::uint32_t>& patch,
@@ -109,10 +109,10 @@ inline void minimize_on_patch(const Multigrid::Hermitian_matrix<double>& h,
     z[patch[i]] += x[i];
 }
 
-// Brings the neighbourhoods of flipped faces to their minimum. An iteration that stops at a small gap
-// of the energy may leave single small faces flipped that are not flipped at the minimum, since the
-// energy hardly sees them. Faces that are flipped at the minimum stay so; for those the patches grow
-// as long as all of them together remain small.
+// Brings the neighbourhoods of flipped faces to their minimum. An iteration that stops at a small
+// gap of the energy may leave single small faces flipped that are not flipped at the minimum, since
+// the energy hardly sees them. Faces that are flipped at the minimum stay so; for those the patches
+// grow as long as all of them together remain small.
 inline void relax_flipped_faces(
   const Multigrid::Hermitian_matrix<double>& h,
   const std::vector<Surface_mesh_multiresolution::Triangle_indices>& triangles,

@@ -62,8 +62,8 @@ Flip_repair::Shape_of_face shapes_of_faces(const TriangleMesh& mesh,
   };
 }
 
-// Repairs the map `z` of these faces. Of the energies the report has the difference only: that before
-// is 0.
+// Repairs the map `z` of these faces. Of the energies the report has the difference only: that
+// before is 0.
 template <class TriangleMesh>
 Flip_repair_report repair_map(const TriangleMesh& mesh, const Mapped_faces<TriangleMesh>& mapped,
                               const std::vector<bool>& is_fixed,

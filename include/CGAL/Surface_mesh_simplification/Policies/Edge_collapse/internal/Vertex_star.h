@@ -31,8 +31,8 @@ struct Collapse_measure
 //            r2 ---- r1          The triangles are (p, r_i, r_i+1), counterclockwise. The last one,
 //           /  \    /  \         (p, r_d-1, r_0), exists only if p is inside the surface.
 //         r3 --- p --- r0        After the collapse of p into r_k they are (r_k, r_i, r_i+1) for
-//           \  /    \  /         i = k + 1, ..., k + d - 2, modulo d. At the border, where k is 0 or
-//            r4 ---- r5          d - 1, this leaves out the last one, which does not exist.
+//           \  /    \  /         i = k + 1, ..., k + d - 2, modulo d. At the border, where k is 0
+//            or r4 ---- r5          d - 1, this leaves out the last one, which does not exist.
 //
 // Differences to p are taken in double precision and measured in a unit of local size, so that
 // single precision is enough for all that follows, for coordinates of any size.
