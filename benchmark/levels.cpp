@@ -56,7 +56,8 @@ public:
   // A row of the size of a file.
   void add_size(const std::string& file, double bytes) const
   {
-    std::cout << m_chart << ',' << m_faces << ',' << file << ",," << bytes << ",bytes," << std::endl;
+    std::cout << m_chart << ',' << m_faces << ',' << file << ",," << bytes << ",bytes,"
+              << std::endl;
   }
 
 private:
@@ -90,14 +91,16 @@ SMM::Textured_progressive_mesh build(const Mesh& mesh, Uv_map uv, const Table& t
   table.add("build it without the collapses of the parameterization",
             seconds_of([&] { anew = SMM::build_textured_progressive_mesh(textured); }),
             double(num_faces(mesh)), "faces");
-  table.add("parameterize; build and write the progressive mesh", median_seconds_of(repetitions, [&] {
+  const double seconds = median_seconds_of(repetitions, [&] {
     SMP::HLSCM_options options;
     options.keep_progressive_mesh = true;
     Parameterizer parameterizer(options);
     parameterize(parameterizer);
     result = SMP::build_textured_progressive_mesh(mesh, uv, parameterizer.progressive_mesh());
     SMM::encode_progressive_mesh(result.mesh);
-  }), double(num_faces(mesh)), "faces");
+  });
+  table.add("parameterize; build and write the progressive mesh", seconds,
+            double(num_faces(mesh)), "faces");
   for(const std::string& error : {result.error, anew.error})
     if(!error.empty())
       throw std::runtime_error(error);
@@ -247,9 +250,10 @@ void measure_selection(const SMM::Textured_progressive_mesh& pm, const Table& ta
   std::vector<double> frames;
   std::size_t triangles = 0;
   for(int frame = 0; frame < 60; ++frame) {
-    const SMM::Textured_progressive_mesh::Point_3 eye = pm.points[pm.points.size() - 1 - 10 * frame];
+    const auto eye = pm.points[pm.points.size() - 1 - 10 * std::size_t(frame)];
     const auto needs = [&](SMM::Vertex_index v) {
-      const double near = 0.01 * size * size / (1e-9 * size * size + squared_distance(eye, pm.points[v]));
+      const double far = 1e-9 * size * size + squared_distance(eye, pm.points[v]);
+      const double near = 0.01 * size * size / far;
       return double(v) < n * std::min(1., 0.2 * near * near);
     };
     const double seconds = seconds_of([&] { selective.adapt(needs); });

@@ -169,8 +169,8 @@ private:
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     primitive.material = 0;
-    const int points
-        = add_accessor(m_point_view, level.wedges, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);
+    const int points = add_accessor(m_point_view, level.wedges, TINYGLTF_COMPONENT_TYPE_FLOAT,
+                                    TINYGLTF_TYPE_VEC3);
     set_bounds(m_gltf.accessors[std::size_t(points)], level.wedges);
     primitive.attributes["POSITION"] = points;
     primitive.attributes["NORMAL"] = add_accessor(

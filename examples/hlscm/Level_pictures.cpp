@@ -70,7 +70,8 @@ public:
     std::vector<std::uint8_t> all;
     for(std::size_t y = 0; y < m_height; ++y) {
       for(const auto& picture : m_pictures) {
-        all.insert(all.end(), picture.begin() + long(y * row), picture.begin() + long((y + 1) * row));
+        const auto begin = picture.begin() + long(y * row);
+        all.insert(all.end(), begin, begin + long(row));
       }
     }
     write_png(all, m_width * m_pictures.size(), file);
@@ -124,7 +125,8 @@ void Level_picture_files::draw(const Progressive_model& model,
   Strip pictures{std::size_t(width), std::size_t(height)}, differences = pictures;
   pictures.add(original);
   const std::size_t stride = (levels.size() + most_levels - 1) / most_levels;
-  for(std::size_t i = stride == 0 ? 0 : (levels.size() - 1) % stride; i < levels.size(); i += stride) {
+  const std::size_t first = stride == 0 ? 0 : (levels.size() - 1) % stride; // the last one, too
+  for(std::size_t i = first; i < levels.size(); i += stride) {
     const auto level = picture(scaled.surface(levels[i].triangles, levels[i].wedges));
     pictures.add(level);
     differences.add(difference(original, level));

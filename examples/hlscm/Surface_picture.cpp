@@ -225,8 +225,8 @@ double checkerboard_square(const Drawn_surface& surface)
   return 1;
 }
 
-void draw_checkerboard(Canvas& canvas, const View& view, const Drawn_surface& surface, double square,
-                       Progress_bar& progress)
+void draw_checkerboard(Canvas& canvas, const View& view, const Drawn_surface& surface,
+                       double square, Progress_bar& progress)
 {
   Surface_drawing(canvas, view, surface, Pattern::CHECKERBOARD, square).run(progress);
 }

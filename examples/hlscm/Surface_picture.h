@@ -25,8 +25,8 @@ void draw_surface(Canvas& canvas, const View& view, const Drawn_surface& surface
 double checkerboard_square(const Drawn_surface& surface);
 
 /// The same with squares of a given size, for surfaces that are to be compared.
-void draw_checkerboard(Canvas& canvas, const View& view, const Drawn_surface& surface, double square,
-                       Progress_bar& progress);
+void draw_checkerboard(Canvas& canvas, const View& view, const Drawn_surface& surface,
+                       double square, Progress_bar& progress);
 
 } // namespace hlscm
 

@@ -264,7 +264,8 @@ void Flat_collapse_engine<Cost, Filter, Texture>::set_profile(Worker& worker, Ve
 // The cost of the collapse that the profile describes, or `no_cost` if the policies forbid it.
 // Declared inline because it is what the loop over the targets does.
 template <class Cost, class Filter, class Texture>
-inline float Flat_collapse_engine<Cost, Filter, Texture>::cost_of(const Flat_collapse_profile& profile) const
+inline float Flat_collapse_engine<Cost, Filter, Texture>::
+cost_of(const Flat_collapse_profile& profile) const
 {
   if(!m_filter(profile, profile.placement()))
     return no_cost;
@@ -363,8 +364,8 @@ void Flat_collapse_engine<Cost, Filter, Texture>::evaluate(Worker& worker, Verte
 // Collapses v into its best target if that still costs at most `limit`. If topology forbids it, v
 // gets the best target that it allows, and stays for now.
 template <class Cost, class Filter, class Texture>
-bool Flat_collapse_engine<Cost, Filter, Texture>::try_collapse(Worker& worker, Vertex_index v, float limit,
-                                                      Collapses& collapses)
+bool Flat_collapse_engine<Cost, Filter, Texture>::
+try_collapse(Worker& worker, Vertex_index v, float limit, Collapses& collapses)
 {
   const Vertex_index* r = m_rings.ring(v);
   const std::uint32_t d = m_rings.degree(v);
@@ -560,7 +561,8 @@ run_strict(const Flat_collapse_options& options, Progressive_mesh& pm)
 }
 
 template <class Cost, class Filter, class Texture>
-Progressive_mesh Flat_collapse_engine<Cost, Filter, Texture>::run(const Flat_collapse_options& options)
+Progressive_mesh
+Flat_collapse_engine<Cost, Filter, Texture>::run(const Flat_collapse_options& options)
 {
   Progressive_mesh pm;
   pm.number_of_vertices = m_mesh.points.size();

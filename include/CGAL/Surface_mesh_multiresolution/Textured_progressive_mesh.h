@@ -28,10 +28,10 @@ a mesh of its own, whose border is made of seams and of the border of the surfac
 edge on a seam takes two halfedge collapses, one a chart, which follow each other; a level between
 them would have a crack.
 
-    chart A   a                a           The vertex v has the wedge v' in chart A and v'' in chart
-            / | \             / |          B. Its collapse into t is the pair (v', t'), (v'', t'') of
-       s === v === t    s ======= t        collapses of wedges, each of which removes one triangle.
-            \ | /             \ |
+    chart A   a                a        The vertex v has the wedge v' in chart A and v'' in
+            / | \             / |       chart B. Its collapse into t is the pair (v', t'),
+       s === v === t    s ======= t     (v'', t'') of collapses of wedges, each of which removes
+            \ | /             \ |       one triangle.
     chart B   b                b
 
 Invariants
