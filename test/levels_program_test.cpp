@@ -303,11 +303,15 @@ TEST_F(Levels, stand_in_one_glb_file)
   EXPECT_GT(coverage[0], coverage[1]);
   EXPECT_EQ(coverage[2], 0.);
   EXPECT_EQ(gltf["images"][0]["mimeType"], "image/png");
+  Json primitive_indices;
   const auto check_accessor = [&](const Json& index, std::size_t count, std::size_t item_size) {
     const Json& accessor = gltf["accessors"][index.get<std::size_t>()];
     EXPECT_EQ(accessor["count"], count);
     const Json& view = gltf["bufferViews"][accessor["bufferView"].get<std::size_t>()];
     EXPECT_LE(count * item_size, view["byteLength"].get<std::size_t>());
+    if(index != primitive_indices) { // required where accessors share a view
+      EXPECT_EQ(view["byteStride"], item_size);
+    }
     const std::size_t begin = view.value("byteOffset", std::size_t(0));
     EXPECT_EQ(begin % 4, 0u);
     EXPECT_LE(begin + view["byteLength"].get<std::size_t>(),
@@ -317,6 +321,7 @@ TEST_F(Levels, stand_in_one_glb_file)
     const Json& level = report["levels"][i];
     const Json& primitive = gltf["meshes"][i]["primitives"][0];
     const std::size_t wedges = level["texture_vertices"];
+    primitive_indices = primitive["indices"];
     check_accessor(primitive["indices"], 3 * level["faces"].get<std::size_t>(), 4);
     check_accessor(primitive["attributes"]["POSITION"], wedges, 12);
     check_accessor(primitive["attributes"]["NORMAL"], wedges, 12);

@@ -98,19 +98,28 @@ public:
   }
 
 private:
-  int add_view(const void* data, std::size_t size, int target)
+  // `stride` is that of vertices, which the accessors of several levels share; else 0.
+  int add_view(const void* data, std::size_t size, int target, std::size_t stride = 0)
   {
     std::vector<unsigned char>& bytes = m_gltf.buffers[0].data;
     tinygltf::BufferView view;
     view.buffer = 0;
     view.byteOffset = bytes.size();
     view.byteLength = size;
+    view.byteStride = stride;
     view.target = target;
     const auto* begin = static_cast<const unsigned char*>(data);
     bytes.insert(bytes.end(), begin, begin + size);
     bytes.resize((bytes.size() + 3) / 4 * 4); // accessors begin at multiples of four
     m_gltf.bufferViews.push_back(std::move(view));
     return int(m_gltf.bufferViews.size()) - 1;
+  }
+
+  template <typename Item>
+  int add_vertex_view(const std::vector<Item>& items)
+  {
+    return add_view(items.data(), sizeof(Item) * items.size(), TINYGLTF_TARGET_ARRAY_BUFFER,
+                    sizeof(Item));
   }
 
   int add_accessor(int view, std::size_t count, int component, int type)
@@ -157,11 +166,9 @@ private:
       normals.push_back(all_normals[m_model.vertex[w]]);
       uv.push_back({float(m_model.uv[w].x()), float(1 - m_model.uv[w].y())});
     }
-    m_point_view = add_view(m_points.data(), sizeof(Vector) * m_points.size(),
-                            TINYGLTF_TARGET_ARRAY_BUFFER);
-    m_normal_view
-        = add_view(normals.data(), sizeof(Vector) * normals.size(), TINYGLTF_TARGET_ARRAY_BUFFER);
-    m_uv_view = add_view(uv.data(), sizeof(uv[0]) * uv.size(), TINYGLTF_TARGET_ARRAY_BUFFER);
+    m_point_view = add_vertex_view(m_points);
+    m_normal_view = add_vertex_view(normals);
+    m_uv_view = add_vertex_view(uv);
   }
 
   void add_level(const Level_of_detail& level)
