@@ -16,6 +16,7 @@
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh_file.h>
 #include <CGAL/Surface_mesh_multiresolution/Selectively_refined_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/copy_textured_mesh.h>
+#include <CGAL/Surface_mesh_multiresolution/texture_deviation.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/build_textured_progressive_mesh.h>
 
@@ -53,10 +54,10 @@ public:
               << things << ',' << number / seconds << std::endl;
   }
 
-  // A row of the size of a file.
-  void add_size(const std::string& file, double bytes) const
+  // A row of something that is not a time.
+  void add_value(const std::string& name, double value, const char* unit) const
   {
-    std::cout << m_chart << ',' << m_faces << ',' << file << ",," << bytes << ",bytes,"
+    std::cout << m_chart << ',' << m_faces << ',' << name << ",," << value << ',' << unit << ','
               << std::endl;
   }
 
@@ -64,6 +65,28 @@ private:
   std::string m_chart;
   std::size_t m_faces;
 };
+
+// What the price of texture deviation does to the levels with a tenth of the triangles.
+void measure_deviation_term(const SMM::Textured_triangle_mesh& mesh, const Table& table)
+{
+  for(const double weight : {0., 1., 4.}) {
+    SMM::Textured_progressive_mesh_options options;
+    options.texture_deviation_weight = weight;
+    SMM::Textured_progressive_mesh_result result;
+    std::ostringstream name;
+    name << "with texture deviation times " << weight;
+    table.add("build " + name.str(), seconds_of([&] {
+      result = SMM::build_textured_progressive_mesh(mesh, options);
+    }), double(mesh.triangles.size()), "faces");
+    const SMM::Level_extractor levels(result.mesh);
+    const auto error = SMM::measure_texture_deviation(
+      result.mesh, levels.position_of_triangles(mesh.triangles.size() / 10));
+    table.add_value("deviation at 10 % " + name.str(), 1e6 * error.relative(error.deviation.mean),
+                    "millionths of the diagonal on average");
+    table.add_value("distance at 10 % " + name.str(), 1e6 * error.relative(error.distance.mean),
+                    "millionths of the diagonal on average");
+  }
+}
 
 // The map, without and with the levels of detail.
 SMM::Textured_progressive_mesh build(const Mesh& mesh, Uv_map uv, const Table& table)
@@ -91,6 +114,7 @@ SMM::Textured_progressive_mesh build(const Mesh& mesh, Uv_map uv, const Table& t
   table.add("build it without the collapses of the parameterization",
             seconds_of([&] { anew = SMM::build_textured_progressive_mesh(textured); }),
             double(num_faces(mesh)), "faces");
+  measure_deviation_term(textured, table);
   const double seconds = median_seconds_of(repetitions, [&] {
     SMP::HLSCM_options options;
     options.keep_progressive_mesh = true;
@@ -177,7 +201,7 @@ void measure_draco(const std::string& obj, const Table& table)
   const std::string command = "draco_encoder -qp 16 -qt 16 -cl 7 -i '" + from.string() + "' -o '"
                             + to.string() + "' > /dev/null 2>&1";
   if(std::system(command.c_str()) == 0)
-    table.add_size("Draco; 16 bits; one level only", double(fs::file_size(to)));
+    table.add_value("Draco; 16 bits; one level only", double(fs::file_size(to)), "bytes");
   fs::remove(from);
   fs::remove(to);
 }
@@ -200,11 +224,11 @@ void measure_files(const SMM::Textured_progressive_mesh& pm, const Table& table)
       if(read.status != SMM::Progressive_mesh_file_status::COMPLETE)
         throw std::runtime_error(read.message);
     }), splits, "splits");
-    table.add_size("progressive mesh; " + kind, double(file.bytes.size()));
+    table.add_value("progressive mesh; " + kind, double(file.bytes.size()), "bytes");
   }
-  table.add_size("PLY; binary; floats; one level only", double(as_ply(pm).size()));
+  table.add_value("PLY; binary; floats; one level only", double(as_ply(pm).size()), "bytes");
   const std::string obj = as_obj(pm);
-  table.add_size("OBJ; nine digits; one level only", double(obj.size()));
+  table.add_value("OBJ; nine digits; one level only", double(obj.size()), "bytes");
   measure_draco(obj, table);
 }
 

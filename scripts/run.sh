@@ -2,8 +2,9 @@
 # Copyright (c) 2026  The HLSCM for CGAL authors.
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# Installs what is missing, builds the program hlscm and parameterizes MESH with it; without MESH,
-# a real one of 25,888 triangles from Debian's package libcgal-demo.
+# Installs what is missing, builds the program hlscm, parameterizes MESH with it and makes levels of
+# detail of the result; without MESH, a real one of 25,888 triangles from Debian's package
+# libcgal-demo.
 #
 # Usage: scripts/run.sh [MESH]
 
@@ -38,9 +39,13 @@ say "parameterizing $mesh"
 "$build/bin/hlscm" parameterize "$mesh" -o "$output/$name.obj" \
   --report "$output/$name.json" --pictures "$output"
 
+say "making levels of detail"
+"$build/bin/hlscm" levels "$output/$name.obj" -o "$output/levels" --pictures "$output/levels"
+
 cat <<END
 
 Mesh with texture coordinates: $output/$name.obj
 Report:                        $output/$name.json
-Pictures:                      $output/*.png
+Levels of detail:              $output/levels/level_*.obj, levels.glb, mesh.pm
+Pictures:                      $output/*.png, $output/levels/*.png
 END
