@@ -95,7 +95,6 @@ Progressive_model build_from_texture(const Polygon_soup& soup, const Program_opt
                                      Progress_bar& progress)
 {
   SMM::Textured_progressive_mesh_options build;
-  build.angular_defect_bound = options.library.angular_defect_bound;
   build.progress = [&progress](double part) { return progress.try_advance(part); };
   progress.start_stage("decimating");
   const CGAL::Blocked_execution::Thread_scope threads(options.library.threads);
@@ -121,7 +120,6 @@ Progressive_model build_from_chart(const Polygon_soup& soup, const Program_optio
   report.seconds_parameterize = solving.seconds();
   const Stopwatch building;
   SMM::Textured_progressive_mesh_options build;
-  build.angular_defect_bound = options.library.angular_defect_bound;
   Progressive_model model = checked(
       SMP::build_textured_progressive_mesh(mesh, uv, chart.progressive_mesh, build), options.input);
   report.seconds_build = building.seconds();

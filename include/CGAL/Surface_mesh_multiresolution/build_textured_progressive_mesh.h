@@ -29,7 +29,9 @@ struct Textured_progressive_mesh_options
   /// Vertices of the coarsest level; 0: as few as topology, shape and texture allow.
   std::size_t target_vertices = 0;
   Collapse_order order = Collapse_order::BATCHED; ///< which collapse comes next
-  double angular_defect_bound = 70.; ///< a vertex of no smaller defect stays; degrees
+  /// A vertex of no smaller angular defect stays, in degrees; 360 for none. The bound that helps
+  /// hierarchies for maps keeps so many tips that little is left for the rest of a very light model.
+  double angular_defect_bound = 360.;
   /// How much the texture deviation at the removed vertex (Cohen, Olano, Manocha 1998) counts
   /// beside volume, border and shape, as a length beside lengths; 0 leaves it out.
   double texture_deviation_weight = 0.;
