@@ -18,7 +18,6 @@ using Progressive_model = CGAL::Surface_mesh_multiresolution::Textured_progressi
 /// One of the levels that a run makes.
 struct Level_of_detail
 {
-  std::size_t position = 0; ///< collapses from the fine mesh
   std::size_t vertices = 0, wedges = 0;
   std::vector<CGAL::Surface_mesh_multiresolution::Triangle_indices> triangles; ///< of wedges
   std::optional<CGAL::Surface_mesh_multiresolution::Texture_deviation> deviation;

@@ -23,7 +23,7 @@ struct Levels_report
   std::vector<std::string> warnings;
   std::optional<CGAL::Surface_mesh_parameterization::HLSCM_report> solver; ///< if it was needed
   std::size_t faces = 0, vertices = 0, wedges = 0; ///< of the fine mesh
-  std::size_t collapses = 0, smallest_faces = 0;
+  std::size_t smallest_faces = 0;
   std::vector<std::pair<std::string, std::size_t>> files; ///< names, and sizes in bytes
   double seconds_read = 0, seconds_parameterize = 0, seconds_build = 0, seconds_measure = 0,
          seconds_write = 0;

@@ -205,7 +205,7 @@ std::vector<Level_of_detail> make_levels(const Progressive_model& model,
   const auto all = positions(model, extractor, options);
   for(const std::size_t k : all) {
     progress.advance(double(levels.size()) / double(all.size()));
-    levels.push_back({k, model.number_of_vertices_after(k), model.number_of_wedges_after(k),
+    levels.push_back({model.number_of_vertices_after(k), model.number_of_wedges_after(k),
                       extractor.triangles(k), SMM::measure_texture_deviation(model, k)});
   }
   const std::size_t least = options.faces.empty()
@@ -315,7 +315,6 @@ int run_levels(const Program_options& options)
   report.faces = model.progressive_mesh.triangles.size();
   report.vertices = model.points.size();
   report.wedges = model.number_of_wedges();
-  report.collapses = model.number_of_collapses();
   const Stopwatch measuring;
   const std::vector<Level_of_detail> levels = make_levels(model, options, progress, report);
   report.seconds_measure = measuring.seconds();

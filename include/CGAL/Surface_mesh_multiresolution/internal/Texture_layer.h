@@ -110,6 +110,14 @@ private:
     Vertex_index vertex_a, vertex_b;
   };
 
+  // The wedges of the target of a collapse: in the triangle behind the edge from the removed vertex,
+  // as rings count, and in the one ahead of it. At a border there is only one triangle, which is both.
+  struct Target_wedges
+  {
+    Vertex_index behind, ahead;
+  };
+
+  Target_wedges target_wedges(Vertex_index v, std::uint32_t k) const;
   void find_wedges(const Textured_triangle_mesh& texture, const std::vector<Vertex_index>& source);
 
   template <class Use>
@@ -249,6 +257,21 @@ inline Vertex_index Texture_layer::other_end(Vertex_index v, Vertex_index t) con
   return r[0] == t ? r[m_rings->degree(v) - 1] : r[0];
 }
 
+inline Texture_layer::Target_wedges Texture_layer::target_wedges(Vertex_index v,
+                                                                 std::uint32_t k) const
+{
+  const Vertex_index* r = m_rings->ring(v);
+  const std::uint32_t d = m_rings->degree(v);
+  const bool is_open = m_rings->is_border(v);
+  const auto behind = [&] { return wedge_behind(r[k], r[k + 1 == d ? 0 : k + 1]); };
+  const auto ahead = [&] { return wedge_behind(r[k], v); };
+  if(is_open && k + 1 == d)
+    return {ahead(), ahead()};
+  if(is_open && k == 0)
+    return {behind(), behind()};
+  return {behind(), ahead()};
+}
+
 // Calls use(change) for each triangle of v that survives the collapse into ring vertex k.
 template <class Use>
 void Texture_layer::for_each_change(Vertex_index v, std::uint32_t k, const Use& use) const
@@ -257,20 +280,15 @@ void Texture_layer::for_each_change(Vertex_index v, std::uint32_t k, const Use& 
   const std::uint32_t d = m_rings->degree(v);
   const bool is_open = m_rings->is_border(v);
   const Vertex_index t = r[k];
-  // The wedges of t on either side of the edge; beyond a border there is only the other
-  Vertex_index behind = no_vertex, ahead = no_vertex;
-  if(!(is_open && k + 1 == d))
-    behind = wedge_behind(t, r[k + 1 == d ? 0 : k + 1]);
-  if(!(is_open && k == 0))
-    ahead = wedge_behind(t, v);
+  const Target_wedges target = target_wedges(v, k);
   Vertex_index wedge_v = has_spokes(v) ? find_spoke(v, t)->wedge : m_wedge[v];
-  Vertex_index wedge_t = behind == no_vertex ? ahead : behind;
+  Vertex_index wedge_t = target.behind;
   for(std::uint32_t step = 0; step < d; ++step) {
     const std::uint32_t i = (k + step) % d;
     const Vertex_index a = r[i], b = r[i + 1 == d ? 0 : i + 1];
     if(step > 0 && has_spokes(v) && is_spoke(v, a)) { // the other chart begins
       wedge_v = find_spoke(v, a)->wedge;
-      wedge_t = ahead;
+      wedge_t = target.ahead;
     }
     if(a != t && b != t && !(is_open && i + 1 == d))
       use(Change{wedge_v, wedge_t, wedge_behind(a, b), wedge_behind(b, v), a, b});
@@ -293,8 +311,9 @@ inline double Texture_layer::seam_shift(Vertex_index v, std::uint32_t k) const
     if(uv_length > 0.)
       result = (std::max)(result, area * length / uv_length);
   };
-  add(find_spoke(v, t)->wedge, wedge_behind(t, r[k + 1 == d ? 0 : k + 1]), wedge_behind(s, v));
-  add(find_spoke(v, s)->wedge, wedge_behind(t, v), wedge_behind(s, r[j + 1 == d ? 0 : j + 1]));
+  const Target_wedges target = target_wedges(v, k);
+  add(find_spoke(v, t)->wedge, target.behind, wedge_behind(s, v));
+  add(find_spoke(v, s)->wedge, target.ahead, wedge_behind(s, r[j + 1 == d ? 0 : j + 1]));
   return result;
 }
 
@@ -358,22 +377,17 @@ inline void Texture_layer::replace_spoke(Vertex_index v, Vertex_index neighbor, 
 
 inline void Texture_layer::collapse(Vertex_index v, std::uint32_t k)
 {
-  const Vertex_index* r = m_rings->ring(v);
-  const std::uint32_t d = m_rings->degree(v);
-  const Vertex_index t = r[k];
-  const bool is_open = m_rings->is_border(v);
+  const Vertex_index t = m_rings->ring(v)[k];
   if(m_deviation_weight > 0.)
     m_deviation[t] = (std::max)(m_deviation[t], float(deviation(v, k)) + m_deviation[v]);
-  const Vertex_index ahead = is_open && k == 0 ? no_vertex : wedge_behind(t, v);
-  const Vertex_index behind
-    = is_open && k + 1 == d ? ahead : wedge_behind(t, r[k + 1 == d ? 0 : k + 1]);
+  const Target_wedges target = target_wedges(v, k);
   if(has_spokes(v)) {
-    m_kept_wedge[find_spoke(v, t)->wedge] = behind;
-    m_kept_wedge[find_spoke(v, other_end(v, t))->wedge] = ahead;
+    m_kept_wedge[find_spoke(v, t)->wedge] = target.behind;
+    m_kept_wedge[find_spoke(v, other_end(v, t))->wedge] = target.ahead;
   } else {
-    m_kept_wedge[m_wedge[v]] = behind;
+    m_kept_wedge[m_wedge[v]] = target.behind;
   }
-  if(has_spokes(v) || is_open) {
+  if(has_spokes(v) || m_rings->is_border(v)) {
     const Vertex_index s = other_end(v, t);
     replace_spoke(s, v, t);
     replace_spoke(t, v, s);
