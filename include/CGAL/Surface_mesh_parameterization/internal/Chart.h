@@ -51,6 +51,13 @@ struct Chart
   }
 };
 
+inline void check_point(const Chart::Mesh::Point_3& p, std::size_t vertex, Chart& chart)
+{
+  if(!std::isfinite(p.x()) || !std::isfinite(p.y()) || !std::isfinite(p.z()))
+    chart.fail(ERROR_WRONG_PARAMETER, "vertex " + std::to_string(vertex)
+               + " has a coordinate that is not a finite number; correct or remove it");
+}
+
 // Copies the faces and positions of `mesh`; vertices are numbered as in vertices(mesh).
 template <class TriangleMesh>
 void copy_faces(const TriangleMesh& mesh, Chart& chart)
@@ -65,9 +72,7 @@ void copy_faces(const TriangleMesh& mesh, Chart& chart)
   for(const typename Graph_traits::vertex_descriptor v : vertices(mesh)) {
     const auto& p = get(vpm, v);
     const Chart::Mesh::Point_3 q(to_double(p[0]), to_double(p[1]), to_double(p[2]));
-    if(!std::isfinite(q.x()) || !std::isfinite(q.y()) || !std::isfinite(q.z()))
-      chart.fail(ERROR_WRONG_PARAMETER, "vertex " + std::to_string(index)
-                 + " has a coordinate that is not a finite number; correct or remove it");
+    check_point(q, index, chart);
     chart.mesh.points.push_back(q);
     put(position, v, index++);
   }
@@ -149,8 +154,8 @@ inline void check_topology(Chart& chart)
                + std::to_string(twice_genus / 2) + "; cut its handles first");
 }
 
-// Takes the arrays of `chart.mesh` with `chart.source` set, and the component of the vertex at
-// position `seed` (`no_vertex`: all must be one component).
+// Takes the arrays of `chart.mesh` with `chart.source` set, and of it the component of the vertex at
+// position `seed`; without a seed all must be one component.
 inline void prepare_chart(Chart& chart, std::uint32_t seed)
 {
   namespace SMM = Surface_mesh_multiresolution;
@@ -179,6 +184,9 @@ inline void prepare_chart(Chart& chart, std::uint32_t seed)
       first = v;
   const std::vector<bool> is_reached = SMM::internal::component_of(chart.rings, first);
   if(std::find(is_reached.begin(), is_reached.end(), false) != is_reached.end()) {
+    if(seed == SMM::no_vertex)
+      return chart.fail(ERROR_NO_TOPOLOGICAL_DISC,
+                        "the surface has several components; map them one by one");
     keep_vertices(chart, is_reached);
     connect(chart);
   }

@@ -1,0 +1,113 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_CHART_DISTORTION_H
+#define CGAL_SURFACE_MESH_TEXTURING_CHART_DISTORTION_H
+
+#include <CGAL/Surface_mesh_multiresolution/Indexed_triangle_mesh.h>
+
+#include <CGAL/assertions.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+How far a chart may be distorted. Both bounds are on 98 % of the area of the chart, so that a few
+triangles at a tip do not decide.
+*/
+struct Distortion_bound
+{
+  /// The area scale \f$ \sigma_1 \sigma_2 \f$ that 99 % of the chart's area do not exceed, to that
+  /// which 99 % do not fall below.
+  double area_scale = 4.;
+  /// The quasi-conformal ratio \f$ \sigma_1 / \sigma_2 \f$ that 99 % of the chart's area do not
+  /// exceed.
+  double quasi_conformal = 2.;
+};
+
+/// \ingroup PkgHLSCMTexturing
+/// How far a chart is distorted; see `Distortion_bound`.
+struct Chart_distortion
+{
+  double area_scale = 1.;        ///< range of the area scale of 98 % of the area
+  double quasi_conformal = 1.;   ///< the ratio of 99 % of the area
+  double area = 0.;              ///< on the surface
+  double uv_area = 0.;           ///< in the plane, signed
+  std::size_t flipped_faces = 0; ///< triangles whose area in the plane is not positive
+
+  /// Returns whether the chart is within the bound. Flipped triangles are another matter.
+  bool is_within(const Distortion_bound& bound) const
+  {
+    return area_scale <= bound.area_scale && quasi_conformal <= bound.quasi_conformal;
+  }
+};
+
+namespace internal {
+
+// The value that the given part of the weights does not exceed. Reorders the pairs (value, weight).
+inline double weighted_quantile(std::vector<std::pair<float, float>>& values, double part)
+{
+  if(values.empty())
+    return 1.;
+  std::sort(values.begin(), values.end());
+  double all = 0., sum = 0.;
+  for(const auto& v : values)
+    all += v.second;
+  for(const auto& v : values) {
+    sum += v.second;
+    if(sum >= part * all)
+      return v.first;
+  }
+  return values.back().first;
+}
+
+} // namespace internal
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+Measures the map `uv` of the vertices of `mesh`. Triangles without area on the surface are left out.
+Time \f$ O(n \log n) \f$.
+*/
+inline Chart_distortion
+measure_chart_distortion(const Surface_mesh_multiresolution::Indexed_triangle_mesh& mesh,
+                         const std::vector<Simple_cartesian<double>::Point_2>& uv)
+{
+  CGAL_precondition(uv.size() == mesh.points.size());
+  Chart_distortion result;
+  std::vector<std::pair<float, float>> scales, ratios;
+  for(const auto& t : mesh.triangles) {
+    const auto x = mesh.points[t[1]] - mesh.points[t[0]], y = mesh.points[t[2]] - mesh.points[t[0]];
+    const auto p = uv[t[1]] - uv[t[0]], q = uv[t[2]] - uv[t[0]];
+    const double xx = x * x, xy = x * y, yy = y * y;
+    const double area = std::sqrt((std::max)(0., xx * yy - xy * xy)); // twice
+    const double uv_area = p.x() * q.y() - p.y() * q.x();
+    result.uv_area += 0.5 * uv_area;
+    result.area += 0.5 * area;
+    result.flipped_faces += uv_area > 0. ? 0 : 1;
+    if(!(area > 0.) || !(uv_area > 0.))
+      continue;
+    // Dirichlet energy: (sigma_1^2 + sigma_2^2) times the area
+    const double energy = ((p * p) * yy - 2. * (p * q) * xy + (q * q) * xx) / area;
+    const double half = (std::max)(1., 0.5 * energy / uv_area); // (r + 1/r) / 2
+    scales.push_back({float(uv_area / area), float(area)});
+    ratios.push_back({float(half + std::sqrt(half * half - 1.)), float(area)});
+  }
+  result.quasi_conformal = internal::weighted_quantile(ratios, 0.99);
+  result.area_scale
+    = internal::weighted_quantile(scales, 0.99) / internal::weighted_quantile(scales, 0.01);
+  return result;
+}
+
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_CHART_DISTORTION_H

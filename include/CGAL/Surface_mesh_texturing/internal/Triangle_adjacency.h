@@ -1,0 +1,70 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_TRIANGLE_ADJACENCY_H
+#define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_TRIANGLE_ADJACENCY_H
+
+#include <CGAL/Surface_mesh_multiresolution/Indexed_triangle_mesh.h>
+
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+namespace internal {
+
+// The triangle across each edge of a mesh the edges of which have one or two triangles, of equal
+// orientation. The halfedge 3 t + c goes from corner c of triangle t to its corner (c + 1) mod 3.
+class Triangle_adjacency
+{
+  typedef Surface_mesh_multiresolution::Vertex_index Vertex_index;
+  typedef Surface_mesh_multiresolution::Triangle_indices Triangle_indices;
+
+public:
+  explicit Triangle_adjacency(const std::vector<Triangle_indices>& triangles)
+    : m_opposite(3 * triangles.size(), Surface_mesh_multiresolution::no_vertex)
+  {
+    // The halfedges by their smaller vertex, which the two of an edge share
+    Vertex_index n = 0;
+    for(const Triangle_indices& t : triangles)
+      for(const Vertex_index v : t)
+        n = v < n ? n : v + 1;
+    std::vector<std::uint32_t> begin(n + 1, 0), halfedge(m_opposite.size());
+    const auto ends = [&triangles](std::uint32_t h) {
+      const Triangle_indices& t = triangles[h / 3];
+      return std::array<Vertex_index, 2>{t[h % 3], t[(h + 1) % 3]};
+    };
+    const auto smaller = [&ends](std::uint32_t h) {
+      const auto e = ends(h);
+      return e[0] < e[1] ? e[0] : e[1];
+    };
+    for(std::uint32_t h = 0; h < m_opposite.size(); ++h)
+      ++begin[smaller(h) + 1];
+    for(std::size_t v = 0; v < n; ++v)
+      begin[v + 1] += begin[v];
+    std::vector<std::uint32_t> end(begin.begin(), begin.end() - (n > 0 ? 1 : 0));
+    for(std::uint32_t h = 0; h < m_opposite.size(); ++h) {
+      const Vertex_index v = smaller(h);
+      for(std::uint32_t i = begin[v]; i < end[v]; ++i) {
+        const auto e = ends(halfedge[i]), f = ends(h);
+        if(e[0] == f[1] && e[1] == f[0]) {
+          m_opposite[h] = halfedge[i];
+          m_opposite[halfedge[i]] = h;
+        }
+      }
+      halfedge[end[v]++] = h;
+    }
+  }
+
+  /// The halfedge on the other side of that from corner c of t, or `no_vertex` on the border.
+  std::uint32_t opposite(std::uint32_t t, int c) const { return m_opposite[3 * t + c]; }
+  std::uint32_t opposite(std::uint32_t halfedge) const { return m_opposite[halfedge]; }
+
+private:
+  std::vector<std::uint32_t> m_opposite;
+};
+
+} // namespace internal
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_INTERNAL_TRIANGLE_ADJACENCY_H
