@@ -111,6 +111,34 @@ Flip_repair_report repair_flipped_faces(const TriangleMesh& mesh, VertexUVMap uv
                               options);
 }
 
+/*!
+\ingroup PkgHLSCMMeasures
+
+The same without pins for a mesh that is two arrays, with the parameter `uv[v]` of each vertex.
+*/
+inline Flip_repair_report
+repair_flipped_faces(const Surface_mesh_multiresolution::Indexed_triangle_mesh& mesh,
+                     std::vector<Simple_cartesian<double>::Point_2>& uv,
+                     const Flip_repair_options& options = Flip_repair_options())
+{
+  CGAL_precondition(uv.size() == mesh.points.size());
+  const auto start = std::chrono::steady_clock::now();
+  const internal::Flip_repair::Shape_of_face shape_of_face = internal::shapes_of_triangles(mesh, options.weights);
+  std::vector<std::complex<double>> z;
+  for(const auto& p : uv)
+    z.push_back({p.x(), p.y()});
+  const std::vector<std::complex<double>> before = z;
+  internal::Flip_repair repair(mesh.triangles, std::vector<bool>(z.size(), false), shape_of_face, z);
+  Flip_repair_report report = repair.run(options);
+  report.energy_before = internal::energy_of_map(mesh.triangles, shape_of_face, before);
+  report.energy_after += report.energy_before;
+  for(std::size_t v = 0; v < z.size(); ++v)
+    if(z[v] != before[v])
+      uv[v] = Simple_cartesian<double>::Point_2(z[v].real(), z[v].imag());
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return report;
+}
+
 } // namespace Surface_mesh_parameterization
 } // namespace CGAL
 

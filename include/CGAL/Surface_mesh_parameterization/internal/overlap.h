@@ -92,6 +92,24 @@ bool has_fold(const View& view, std::array<std::size_t, 3>& count)
   return false;
 }
 
+// Whether the segments ab and bc have more than b in common.
+inline bool successive_segments_meet(const Uv_point& a, const Uv_point& b, const Uv_point& c)
+{
+  return collinear(a, b, c) && !collinear_are_strictly_ordered_along_line(a, b, c);
+}
+
+// Whether the segments ab and cd, whose boxes intersect, have a point in common.
+inline bool segments_meet(const Uv_point& a, const Uv_point& b, const Uv_point& c,
+                          const Uv_point& d)
+{
+  const auto separates = [](const Uv_point& p, const Uv_point& q, const Uv_point& r,
+                            const Uv_point& s) {
+    const Orientation sign = orientation(p, q, r);
+    return sign != COLLINEAR && sign == orientation(p, q, s);
+  };
+  return !separates(a, b, c, d) && !separates(c, d, a, b);
+}
+
 // Whether the images of two border halfedges have a point in common, the vertex between two
 // successive ones aside.
 template <class View>
@@ -102,15 +120,9 @@ bool border_halfedges_meet(const View& view, typename View::halfedge_descriptor 
   if(next(h, mesh) == g)
     std::swap(g, h);
   const Uv_point a = view.point(source(g, mesh)), b = view.point(target(g, mesh)),
-                 c = view.point(source(h, mesh)), d = view.point(target(h, mesh));
-  if(next(g, mesh) == h) // b is c
-    return collinear(a, b, d) && !collinear_are_strictly_ordered_along_line(a, b, d);
-  const auto separates = [](const Uv_point& p, const Uv_point& q, const Uv_point& r,
-                            const Uv_point& s) {
-    const Orientation sign = orientation(p, q, r);
-    return sign != COLLINEAR && sign == orientation(p, q, s);
-  };
-  return !separates(a, b, c, d) && !separates(c, d, a, b); // their boxes intersect
+                 d = view.point(target(h, mesh));
+  return next(g, mesh) == h ? successive_segments_meet(a, b, d)
+                            : segments_meet(a, b, view.point(source(h, mesh)), d);
 }
 
 // The orientation of the border cycle of `h`, whose image is simple: that at its leftmost vertex.

@@ -48,6 +48,12 @@ struct Mapped_faces
   }
 };
 
+// The weight of the energy of a face of this shape, which is in units of `unit`.
+inline double energy_weight(const Conformal_triangle& shape, Conformal_weights weights, double unit)
+{
+  return weights == Conformal_weights::EXACT ? 1. : 8. * shape.area() * unit * unit;
+}
+
 // The shape of each of these faces, in units of the mean edge, and the weight of its energy.
 template <class TriangleMesh>
 Flip_repair::Shape_of_face shapes_of_faces(const TriangleMesh& mesh,
@@ -57,8 +63,27 @@ Flip_repair::Shape_of_face shapes_of_faces(const TriangleMesh& mesh,
   const double unit = mean_edge_length(mesh);
   return [&mesh, &mapped, weights, unit](std::uint32_t t) {
     const Conformal_triangle shape = conformal_triangle(mesh, mapped.descriptors[t], unit);
-    const bool is_exact = weights == Conformal_weights::EXACT;
-    return std::make_pair(shape, is_exact ? 1. : 8. * shape.area() * unit * unit);
+    return std::make_pair(shape, energy_weight(shape, weights, unit));
+  };
+}
+
+// The same for a mesh that is two arrays.
+inline Flip_repair::Shape_of_face
+shapes_of_triangles(const Surface_mesh_multiresolution::Indexed_triangle_mesh& mesh,
+                    Conformal_weights weights)
+{
+  double sum = 0.;
+  for(const auto& t : mesh.triangles)
+    for(int c = 0; c < 3; ++c)
+      sum += std::sqrt(squared_distance(mesh.points[t[c]], mesh.points[t[(c + 1) % 3]]));
+  const double unit = sum > 0. ? sum / (3. * double(mesh.triangles.size())) : 1.;
+  return [&mesh, weights, unit](std::uint32_t t) {
+    const auto corner = [&](int c) {
+      const auto d = mesh.points[mesh.triangles[t][c]] - mesh.points[mesh.triangles[t][0]];
+      return Conformal_triangle::Point_3(d.x() / unit, d.y() / unit, d.z() / unit);
+    };
+    const Conformal_triangle shape(corner(0), corner(1), corner(2));
+    return std::make_pair(shape, energy_weight(shape, weights, unit));
   };
 }
 

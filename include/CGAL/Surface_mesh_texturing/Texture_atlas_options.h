@@ -1,0 +1,53 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_TEXTURE_ATLAS_OPTIONS_H
+#define CGAL_SURFACE_MESH_TEXTURING_TEXTURE_ATLAS_OPTIONS_H
+
+#include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
+#include <CGAL/Surface_mesh_texturing/Chart_distortion.h>
+#include <CGAL/Surface_mesh_texturing/Face_charts.h>
+#include <CGAL/Surface_mesh_texturing/pack_charts.h>
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+
+/// \ingroup PkgHLSCMTexturing
+/// The options of `build_texture_atlas()`.
+struct Texture_atlas_options
+{
+  /// How far charts may be distorted. Charts that are given are cut only if their maps are not
+  /// one-to-one.
+  Distortion_bound bound;
+  /// The number of charts to come down to, beyond the bound on distortion if need be; 0 for as few
+  /// as the bound allows.
+  std::size_t max_charts = 0;
+  /// Triangles of the level on which the charts are found.
+  std::size_t coarse_faces = 4000;
+  /// The charts, if they are given; those that are no disks are cut.
+  std::optional<Face_charts> charts;
+  /// How charts of more than `direct_faces` triangles are mapped; smaller ones are solved directly.
+  Surface_mesh_parameterization::Conformal_method method
+    = Surface_mesh_parameterization::Conformal_method::SPECTRAL;
+  /// See `HLSCM_options::tolerance`.
+  double tolerance = 1e-2;
+  /// Charts with fewer triangles are mapped by a direct solver.
+  std::size_t direct_faces = 20000;
+  /// For each triangle the texels that it is to have along a unit of length, relative to others; a
+  /// chart gets the mean over its area. Empty for equal texel density.
+  std::vector<float> density;
+  /// The textures, and how charts are placed in them.
+  Packing_options packing;
+  /// Told the part done in [0, 1] from time to time; returning `false` cancels.
+  std::function<bool(double)> progress;
+};
+
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_TEXTURE_ATLAS_OPTIONS_H

@@ -1,0 +1,281 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_BUILD_TEXTURE_ATLAS_H
+#define CGAL_SURFACE_MESH_TEXTURING_BUILD_TEXTURE_ATLAS_H
+
+#include <CGAL/Surface_mesh_multiresolution/build_progressive_mesh.h>
+#include <CGAL/Surface_mesh_parameterization/internal/Progress.h>
+#include <CGAL/Surface_mesh_texturing/Texture_atlas.h>
+#include <CGAL/Surface_mesh_texturing/Texture_atlas_options.h>
+#include <CGAL/Surface_mesh_texturing/Texture_atlas_report.h>
+#include <CGAL/Surface_mesh_texturing/internal/map_charts.h>
+
+#include <CGAL/assertions.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+
+/// \ingroup PkgHLSCMTexturing
+/// What `build_texture_atlas()` returns.
+struct Texture_atlas_result
+{
+  Texture_atlas atlas;         ///< empty if there is an error or it was cancelled
+  Texture_atlas_report report; ///< what was done
+  std::string error;           ///< why there is no atlas, as a sentence; empty if all is well
+};
+
+namespace internal {
+
+// What is wrong with a mesh that is to be cut into charts, as a sentence.
+inline std::string surface_error(const Indexed_triangle_mesh& mesh)
+{
+  namespace SMM = Surface_mesh_multiresolution;
+  if(mesh.triangles.empty())
+    return "the mesh has no faces";
+  const std::string error = SMM::internal::point_error(mesh.points);
+  if(!error.empty())
+    return error;
+  std::vector<Vertex_index> source(mesh.points.size());
+  for(Vertex_index v = 0; v < source.size(); ++v)
+    source[v] = v;
+  return SMM::internal::ring_error(SMM::internal::Vertex_rings(mesh), source);
+}
+
+// The length of the seams between triangles, each once.
+inline double seam_length(const Indexed_triangle_mesh& mesh, const Face_charts& charts)
+{
+  const Triangle_adjacency adjacency(mesh.triangles);
+  double sum = 0.;
+  for(std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    for(int c = 0; c < 3; ++c) {
+      const std::uint32_t opposite = adjacency.opposite(t, c);
+      if(opposite != no_vertex && 3 * t + std::uint32_t(c) < opposite && charts.is_seam(t, c))
+        sum += std::sqrt(squared_distance(mesh.points[mesh.triangles[t][c]],
+                                          mesh.points[mesh.triangles[t][(c + 1) % 3]]));
+    }
+  return sum;
+}
+
+// The charts whose triangles these are, with all seams between wedges.
+inline Face_charts charts_of_maps(const Indexed_triangle_mesh& mesh,
+                                  const std::vector<Mapped_chart>& maps)
+{
+  std::vector<std::uint8_t> seams(mesh.triangles.size());
+  for(const Mapped_chart& map : maps) {
+    const Triangle_adjacency adjacency(map.chart.mesh.triangles);
+    for(std::uint32_t t = 0; t < map.chart.triangles.size(); ++t)
+      for(int c = 0; c < 3; ++c)
+        if(adjacency.opposite(t, c) == no_vertex)
+          seams[map.chart.triangles[t]] |= 1 << c;
+  }
+  return charts_between(mesh.triangles, std::move(seams));
+}
+
+// Makes the charts as large as their density asks for.
+inline void scale_by_density(const std::vector<float>& density, Mapped_chart& map)
+{
+  if(density.empty())
+    return;
+  double sum = 0., all = 0.;
+  const Indexed_triangle_mesh& mesh = map.chart.mesh;
+  for(std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Triangle_indices& vs = mesh.triangles[t];
+    const double area
+      = std::sqrt(squared_area(mesh.points[vs[0]], mesh.points[vs[1]], mesh.points[vs[2]]));
+    sum += area * density[map.chart.triangles[t]];
+    all += area;
+  }
+  const double scale = all > 0. ? sum / all : 1.;
+  for(Point_2& p : map.uv)
+    p = Point_2(scale * p.x(), scale * p.y());
+}
+
+// Measures the whole atlas, in texels.
+inline void measure_atlas(const Texture_atlas& atlas, Texture_atlas_report& report)
+{
+  namespace SMP = Surface_mesh_parameterization;
+  SMP::internal::Distortion_summary summary;
+  const Textured_triangle_mesh& mesh = atlas.mesh;
+  const double width = double(atlas.width), height = double(atlas.height);
+  double area = 0.;
+  for(std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    std::array<SMP::Conformal_triangle::Point_3, 3> corner;
+    SMP::internal::Uv_triangle uv;
+    for(int c = 0; c < 3; ++c) {
+      const auto d = mesh.points[mesh.triangles[t][c]] - mesh.points[mesh.triangles[t][0]];
+      corner[c] = SMP::Conformal_triangle::Point_3(d.x() * report.texels_per_unit, d.y() * report.texels_per_unit,
+                                   d.z() * report.texels_per_unit);
+      const Point_2& p = mesh.uv[mesh.wedges[t][c]];
+      uv[c] = SMP::internal::Uv_point(p.x() * width, p.y() * height);
+    }
+    area += 0.5 * CGAL::abs((uv[1].x() - uv[0].x()) * (uv[2].y() - uv[0].y())
+                            - (uv[1].y() - uv[0].y()) * (uv[2].x() - uv[0].x()));
+    summary.add(SMP::Conformal_triangle(corner[0], corner[1], corner[2]), uv,
+                SMP::internal::orientation_of(uv));
+  }
+  report.distortion = summary.result();
+  report.utilisation = area / (width * height * double(atlas.number_of_pages));
+}
+
+} // namespace internal
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+Cuts a surface into charts, maps each of them conformally, and packs them into textures.
+
+Every chart is a disk whose map is one-to-one and whose distortion is within `options.bound`: charts
+for which that is not so on the fine mesh are cut again. The charts of a chart given by the user are
+only cut where their maps are not one-to-one. The atlas does not depend on the unit of length.
+
+`mesh` may be closed, of any genus, and have several components and borders. Bad data (vertices
+without a face or with several fans of faces, coordinates that are not finite) give a result with
+`error` set.
+
+Uses the threads of the caller's `Blocked_execution::Thread_scope`; the result does not depend on
+them. Expected linear time. About 250 bytes a triangle of temporary memory.
+*/
+inline Texture_atlas_result build_texture_atlas(const Indexed_triangle_mesh& mesh,
+                                                const Texture_atlas_options& options
+                                                = Texture_atlas_options());
+
+namespace internal {
+
+// The steps of `build_texture_atlas()`.
+class Texture_atlas_builder
+{
+public:
+  Texture_atlas_builder(const Indexed_triangle_mesh& mesh, const Texture_atlas_options& options)
+    : m_mesh(mesh), m_options(options)
+  {}
+
+  Texture_atlas_result run()
+  {
+    m_result.error = surface_error(m_mesh);
+    if(m_result.error.empty() && segment() && map() && pack())
+      fill();
+    m_result.report.seconds_total = m_watch.seconds();
+    return std::move(m_result);
+  }
+
+private:
+  bool segment();
+  bool map();
+  bool pack();
+  void fill();
+
+  // Tells that a part of a stage, which begins and ends at these parts of the whole, is done.
+  bool proceed(double begin, double end, double part)
+  {
+    if(!m_options.progress || m_options.progress(begin + part * (end - begin)))
+      return true;
+    m_result.report.cancelled = true;
+    m_result.error = "cancelled";
+    return false;
+  }
+
+  const Indexed_triangle_mesh& m_mesh;
+  const Texture_atlas_options& m_options;
+  Face_charts m_charts;
+  std::vector<Mapped_chart> m_maps;
+  Packing_result m_packing;
+  Texture_atlas_result m_result;
+  Surface_mesh_parameterization::internal::Stopwatch m_watch;
+};
+
+inline bool Texture_atlas_builder::segment()
+{
+  const Surface_mesh_parameterization::internal::Stopwatch watch;
+  if(m_options.charts) {
+    m_charts = *m_options.charts;
+  } else {
+    Segmentation_options segmentation;
+    segmentation.bound = m_options.bound;
+    segmentation.max_charts = m_options.max_charts;
+    segmentation.coarse_faces = m_options.coarse_faces;
+    segmentation.progress = [this](double part) { return proceed(0., 0.4, part); };
+    Segmentation_result result = segment_into_charts(m_mesh, segmentation);
+    m_charts = std::move(result.charts);
+    if(m_result.error.empty())
+      m_result.error = std::move(result.error);
+  }
+  m_result.report.seconds_segment = watch.seconds();
+  return m_result.error.empty() && proceed(0.4, 0.4, 0.);
+}
+
+inline bool Texture_atlas_builder::map()
+{
+  const Surface_mesh_parameterization::internal::Stopwatch watch;
+  m_maps = map_charts(chart_meshes(m_mesh, m_charts), m_options,
+                      [this](double part) { return proceed(0.4, 0.8, part); },
+                      m_result.report.recut_charts);
+  for(Mapped_chart& chart : m_maps)
+    scale_by_density(m_options.density, chart);
+  m_result.report.seconds_map = watch.seconds();
+  return m_result.error.empty();
+}
+
+inline bool Texture_atlas_builder::pack()
+{
+  const Surface_mesh_parameterization::internal::Stopwatch watch;
+  std::vector<Chart_shape> shapes;
+  for(const Mapped_chart& map : m_maps)
+    shapes.push_back({map.uv, map.chart.mesh.triangles});
+  Packing_options packing = m_options.packing;
+  packing.progress = [this](double part) { return proceed(0.8, 1., part); };
+  m_packing = pack_charts(shapes, packing);
+  if(m_result.error.empty())
+    m_result.error = m_packing.error;
+  m_result.report.seconds_pack = watch.seconds();
+  return m_result.error.empty();
+}
+
+inline void Texture_atlas_builder::fill()
+{
+  Texture_atlas& atlas = m_result.atlas;
+  Texture_atlas_report& report = m_result.report;
+  atlas.width = m_options.packing.width;
+  atlas.height = m_options.packing.height;
+  atlas.number_of_pages = m_packing.pages;
+  atlas.mesh.points = m_mesh.points;
+  atlas.mesh.triangles = m_mesh.triangles;
+  atlas.mesh.wedges.resize(m_mesh.triangles.size());
+  atlas.charts = charts_of_maps(m_mesh, m_maps);
+  for(std::size_t i = 0; i < m_maps.size(); ++i) {
+    const Mapped_chart& map = m_maps[i];
+    const Vertex_index first = Vertex_index(atlas.mesh.uv.size());
+    for(const Point_2& p : map.uv) {
+      const Point_2 q = m_packing.placements[i](p);
+      atlas.mesh.uv.emplace_back(q.x() / double(atlas.width), q.y() / double(atlas.height));
+    }
+    for(std::size_t t = 0; t < map.chart.triangles.size(); ++t)
+      for(int c = 0; c < 3; ++c)
+        atlas.mesh.wedges[map.chart.triangles[t]][c] = first + map.chart.mesh.triangles[t][c];
+    atlas.page.push_back(m_packing.placements[i].page);
+    report.charts.push_back(map.report);
+    report.charts.back().page = atlas.page.back();
+  }
+  report.texels_per_unit = m_packing.texels_per_unit;
+  report.seam_length = seam_length(m_mesh, atlas.charts);
+  measure_atlas(atlas, report);
+}
+
+} // namespace internal
+
+inline Texture_atlas_result build_texture_atlas(const Indexed_triangle_mesh& mesh,
+                                                const Texture_atlas_options& options)
+{
+  CGAL_precondition(options.density.empty() || options.density.size() == mesh.triangles.size());
+  CGAL_precondition(!options.charts || options.charts->chart.size() == mesh.triangles.size());
+  return internal::Texture_atlas_builder(mesh, options).run();
+}
+
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_BUILD_TEXTURE_ATLAS_H

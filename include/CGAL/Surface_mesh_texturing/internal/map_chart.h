@@ -1,0 +1,142 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_MAP_CHART_H
+#define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_MAP_CHART_H
+
+#include <CGAL/Surface_mesh_parameterization/conformal_map.h>
+#include <CGAL/Surface_mesh_parameterization/repair_flipped_faces.h>
+#include <CGAL/Surface_mesh_texturing/Texture_atlas_options.h>
+#include <CGAL/Surface_mesh_texturing/Texture_atlas_report.h>
+#include <CGAL/Surface_mesh_texturing/internal/is_simple_border.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+namespace internal {
+
+typedef Simple_cartesian<double>::Point_2 Point_2;
+
+// A chart with its map, in units of length of the surface, and whether it may stay as it is.
+struct Mapped_chart
+{
+  Chart_mesh chart;
+  std::vector<Point_2> uv;
+  Chart_report report;
+  bool is_valid = false;
+};
+
+// The triangles that are flipped, and those without area, by exact predicates.
+inline std::pair<std::size_t, std::size_t>
+count_flips(const std::vector<Triangle_indices>& triangles, const std::vector<Point_2>& uv)
+{
+  namespace SMP = Surface_mesh_parameterization::internal;
+  std::pair<std::size_t, std::size_t> count = {0, 0};
+  for(const Triangle_indices& t : triangles) {
+    const auto p = [&](int c) { return SMP::Uv_point(uv[t[c]].x(), uv[t[c]].y()); };
+    const Orientation sign = SMP::orientation_of({p(0), p(1), p(2)});
+    count.first += sign == RIGHT_TURN ? 1 : 0;
+    count.second += sign == COLLINEAR ? 1 : 0;
+  }
+  return count;
+}
+
+// A single triangle laid out in the plane. One without area becomes a flat one, so that it has a
+// place in the texture.
+inline std::vector<Point_2> lay_out_triangle(const Indexed_triangle_mesh& mesh)
+{
+  const Triangle_indices& t = mesh.triangles[0];
+  const auto length = [&](int c, int d) {
+    return std::sqrt(squared_distance(mesh.points[t[c]], mesh.points[t[d]]));
+  };
+  // Along the longest side; the square root of a difference of squares would lose flat triangles
+  int c = 0;
+  for(int d = 1; d < 3; ++d)
+    if(length(d, (d + 1) % 3) > length(c, (c + 1) % 3))
+      c = d;
+  const double base = length(c, (c + 1) % 3), side = length(c, (c + 2) % 3);
+  const auto a = mesh.points[t[(c + 1) % 3]] - mesh.points[t[c]];
+  const auto b = mesh.points[t[(c + 2) % 3]] - mesh.points[t[c]];
+  constexpr double least_height = 1e-3; // in sides
+  const double x = base > 0. ? (a * b) / base : 0.;
+  const double height = (std::max)(std::sqrt((std::max)(0., side * side - x * x)),
+                                   least_height * (base > 0. ? base : 1.));
+  std::vector<Point_2> uv(mesh.points.size(), Point_2(0., 0.));
+  uv[t[c]] = Point_2(0., 0.);
+  uv[t[(c + 1) % 3]] = Point_2(base > 0. ? base : least_height, 0.);
+  uv[t[(c + 2) % 3]] = Point_2(x, height);
+  return uv;
+}
+
+// Scales a map so that its area is that of the surface, the bounding box at the origin. False if it
+// has no area.
+inline bool scale_to_surface(const Chart_distortion& distortion, std::vector<Point_2>& uv)
+{
+  const double scale = std::sqrt(distortion.area / distortion.uv_area);
+  if(!(scale > 0.) || !std::isfinite(scale))
+    return false;
+  for(Point_2& p : uv)
+    p = Point_2(scale * p.x(), scale * p.y());
+  return true;
+}
+
+inline double border_length(const Indexed_triangle_mesh& mesh)
+{
+  const Triangle_adjacency adjacency(mesh.triangles);
+  double sum = 0.;
+  for(std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    for(int c = 0; c < 3; ++c)
+      if(adjacency.opposite(t, c) == no_vertex)
+        sum += std::sqrt(squared_distance(mesh.points[mesh.triangles[t][c]],
+                                          mesh.points[mesh.triangles[t][(c + 1) % 3]]));
+  return sum;
+}
+
+// Maps a chart and says whether the map is one-to-one and within the bound.
+inline Mapped_chart map_chart(Chart_mesh chart, const Texture_atlas_options& options)
+{
+  namespace SMP = Surface_mesh_parameterization;
+  Mapped_chart result;
+  result.chart = std::move(chart);
+  const Indexed_triangle_mesh& mesh = result.chart.mesh;
+  result.report.faces = mesh.triangles.size();
+  result.report.border_length = border_length(mesh);
+  if(mesh.triangles.size() == 1) {
+    result.uv = lay_out_triangle(mesh);
+    result.report.distortion = measure_chart_distortion(mesh, result.uv);
+    result.is_valid = true;
+    return result;
+  }
+  SMP::HLSCM_options solver;
+  solver.method = mesh.triangles.size() < options.direct_faces ? SMP::Conformal_method::DIRECT
+                                                               : options.method;
+  solver.tolerance = options.tolerance;
+  SMP::Conformal_map map = SMP::conformal_map(mesh, solver);
+  result.report.is_one_to_one = false;
+  if(map.error != SMP::OK)
+    return result;
+  result.uv = std::move(map.uv);
+  if(!scale_to_surface(measure_chart_distortion(mesh, result.uv), result.uv))
+    return result;
+  const auto flips = count_flips(mesh.triangles, result.uv);
+  if(flips.first + flips.second > 0)
+    SMP::repair_flipped_faces(mesh, result.uv);
+  const auto left = count_flips(mesh.triangles, result.uv);
+  result.report.repaired_flips = flips.first - (std::min)(flips.first, left.first);
+  result.report.distortion = measure_chart_distortion(mesh, result.uv);
+  result.report.is_one_to_one = left.first == 0 && is_simple_border(mesh.triangles, result.uv);
+  result.is_valid = result.report.is_one_to_one
+                 && (options.charts || result.report.distortion.is_within(options.bound));
+  return result;
+}
+
+} // namespace internal
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_INTERNAL_MAP_CHART_H

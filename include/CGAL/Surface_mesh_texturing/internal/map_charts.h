@@ -1,0 +1,107 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_MAP_CHARTS_H
+#define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_MAP_CHARTS_H
+
+#include <CGAL/Surface_mesh_texturing/internal/halve_chart.h>
+#include <CGAL/Surface_mesh_texturing/internal/map_chart.h>
+#include <CGAL/Surface_mesh_texturing/segment_into_charts.h>
+
+#include <CGAL/Blocked_execution/blocked_for.h>
+
+#include <algorithm>
+#include <functional>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+namespace internal {
+
+// Maps charts: the large ones one after the other, each in parallel within, then the others side by
+// side.
+inline std::vector<Mapped_chart> map_each(std::vector<Chart_mesh> charts,
+                                          const Texture_atlas_options& options)
+{
+  constexpr std::size_t large = 50000; // triangles
+  std::vector<Mapped_chart> result(charts.size());
+  std::vector<std::size_t> small;
+  for(std::size_t i = 0; i < charts.size(); ++i)
+    if(charts[i].mesh.triangles.size() < large)
+      small.push_back(i);
+    else
+      result[i] = map_chart(std::move(charts[i]), options);
+  std::stable_sort(small.begin(), small.end(), [&charts](std::size_t i, std::size_t j) {
+    return charts[i].mesh.triangles.size() > charts[j].mesh.triangles.size();
+  });
+  Blocked_execution::blocked_for(small.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for(std::size_t i = begin; i < end; ++i)
+      result[small[i]] = map_chart(std::move(charts[small[i]]), options);
+  });
+  return result;
+}
+
+// Cuts a chart that may not stay as it is into smaller ones, given as parts of the whole mesh.
+inline std::vector<Chart_mesh> cut_again(const Mapped_chart& mapped,
+                                         const Texture_atlas_options& options)
+{
+  constexpr double margin = 0.9; // below the bound, which the chart just missed
+  const Chart_mesh& chart = mapped.chart;
+  Segmentation_options segmentation;
+  segmentation.bound = options.bound;
+  segmentation.bound.area_scale = (std::max)(1.1, margin * options.bound.area_scale);
+  segmentation.least_charts = 2;
+  segmentation.coarse_faces = options.coarse_faces;
+  Segmentation_result cut = segment_into_charts(chart.mesh, segmentation);
+  if(!cut.error.empty() || cut.charts.number_of_charts < 2)
+    cut.charts = halve_chart(chart.mesh);
+  std::vector<Chart_mesh> parts = chart_meshes(chart.mesh, cut.charts);
+  for(Chart_mesh& part : parts) {
+    for(Vertex_index& v : part.vertices)
+      v = chart.vertices[v];
+    for(std::uint32_t& t : part.triangles)
+      t = chart.triangles[t];
+  }
+  return parts;
+}
+
+// The charts and their maps; those that fail are cut until all are valid, which single triangles
+// always are. In the order of their first triangles. `proceed(part done)` says whether to go on.
+inline std::vector<Mapped_chart> map_charts(std::vector<Chart_mesh> charts,
+                                            const Texture_atlas_options& options,
+                                            const std::function<bool(double)>& proceed,
+                                            std::size_t& recut)
+{
+  std::vector<Mapped_chart> done;
+  recut = 0;
+  for(int round = 0; !charts.empty(); ++round) {
+    std::vector<Mapped_chart> mapped = map_each(std::move(charts), options);
+    charts.clear();
+    std::vector<std::vector<Chart_mesh>> parts(mapped.size());
+    Blocked_execution::blocked_for(mapped.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for(std::size_t i = begin; i < end; ++i)
+        if(!mapped[i].is_valid)
+          parts[i] = cut_again(mapped[i], options);
+    });
+    for(std::size_t i = 0; i < mapped.size(); ++i) {
+      recut += round == 0 && !mapped[i].is_valid ? 1 : 0;
+      if(mapped[i].is_valid)
+        done.push_back(std::move(mapped[i]));
+      std::move(parts[i].begin(), parts[i].end(), std::back_inserter(charts));
+    }
+    if(!proceed(double(round + 1) / double(round + 2)))
+      return {};
+  }
+  std::sort(done.begin(), done.end(), [](const Mapped_chart& a, const Mapped_chart& b) {
+    return a.chart.triangles.front() < b.chart.triangles.front();
+  });
+  return done;
+}
+
+} // namespace internal
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_INTERNAL_MAP_CHARTS_H
