@@ -4,10 +4,12 @@
 // Texture atlases: charts that are disks, maps that are one-to-one in each chart and between charts,
 // whatever the surface.
 
-#include <support/mesh_generators.h>
+#include <support/chart_generators.h>
 #include <support/texture_atlas_properties.h>
 
-#include <CGAL/Surface_mesh_texturing/build_texture_atlas.h>
+#include <CGAL/Polyhedron_3.h>
+#include <CGAL/Surface_mesh_texturing/texture_atlas_of_mesh.h>
+#include <CGAL/boost/graph/copy_face_graph.h>
 
 #include <gtest/gtest.h>
 
@@ -166,6 +168,48 @@ TEST(Texture_atlas, gives_charts_the_density_that_is_asked_for)
     area[t / 200] += CGAL::area(p[0], p[1], p[2]);
   }
   EXPECT_NEAR(area[1] / area[0], 9., 1e-6);
+}
+
+// The texture coordinates of the corners and the charts of the faces, in the order of faces(mesh),
+// each face from its first halfedge.
+template <class Mesh>
+std::pair<std::vector<double>, std::vector<std::size_t>> atlas_of(const Mesh& mesh)
+{
+  typedef CGAL::Simple_cartesian<double>::Point_2 Point_2;
+  const auto uv = get(CGAL::dynamic_halfedge_property_t<Point_2>(), mesh);
+  const auto chart = get(CGAL::dynamic_face_property_t<std::size_t>(), mesh);
+  EXPECT_EQ(SMT::build_texture_atlas(mesh, uv, chart, small_texture()).error, "");
+  std::pair<std::vector<double>, std::vector<std::size_t>> result;
+  for(const auto f : faces(mesh)) {
+    result.second.push_back(get(chart, f));
+    for(const auto h : CGAL::halfedges_around_face(halfedge(f, mesh), mesh)) {
+      result.first.push_back(get(uv, h).x());
+      result.first.push_back(get(uv, h).y());
+    }
+  }
+  return result;
+}
+
+TEST(Texture_atlas, is_the_same_for_every_type_of_mesh)
+{
+  const Indexed_triangle_mesh arrays = torus(30, 15);
+  const Surface_mesh mesh = to_surface_mesh(arrays);
+  const auto expected = SMT::build_texture_atlas(arrays, small_texture()).atlas;
+  const auto [uv, chart] = atlas_of(mesh);
+  ASSERT_EQ(chart, std::vector<std::size_t>(expected.charts.chart.begin(),
+                                            expected.charts.chart.end()));
+  // The first halfedge of a face may point to any of its corners
+  for(std::size_t t = 0; t < arrays.triangles.size(); ++t)
+    for(int c = 0; c < 3; ++c) {
+      const auto& p = expected.mesh.uv[expected.mesh.wedges[t][c]];
+      bool is_found = false;
+      for(std::size_t i = 6 * t; i < 6 * t + 6; i += 2)
+        is_found = is_found || (uv[i] == p.x() && uv[i + 1] == p.y());
+      ASSERT_TRUE(is_found) << t;
+    }
+  CGAL::Polyhedron_3<CGAL::Simple_cartesian<double>> polyhedron;
+  CGAL::copy_face_graph(mesh, polyhedron);
+  EXPECT_EQ(atlas_of(polyhedron).second.size(), chart.size()); // of other first corners
 }
 
 TEST(Texture_atlas, says_what_is_wrong_with_a_mesh)
