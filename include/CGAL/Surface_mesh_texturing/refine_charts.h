@@ -78,7 +78,7 @@ inline Face_charts refine_charts(const Progressive_mesh& pm,
                                  const Straightening_options& options = Straightening_options())
 {
   CGAL_precondition(k <= pm.collapses.size() && points.size() == pm.number_of_vertices);
-  internal::Seam_graph graph(pm.triangles, points, options.creases);
+  internal::Seam_net graph(pm.triangles, points, options.creases);
   const std::vector<internal::Halfedge> edges = internal::collapse_all(pm, k, graph.mesh());
   graph.set_seams(internal::seams_of_survivors(pm, graph.mesh(), edges, coarse));
   internal::Seam_straightener straightener(graph);

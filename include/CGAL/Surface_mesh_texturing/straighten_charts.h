@@ -50,7 +50,7 @@ struct Seam_length
 inline Seam_length measure_seams(const Indexed_triangle_mesh& mesh, const Face_charts& charts,
                                  const Crease_weights& creases = Crease_weights())
 {
-  internal::Seam_graph graph(mesh.triangles, mesh.points, creases);
+  internal::Seam_net graph(mesh.triangles, mesh.points, creases);
   graph.set_seams(charts.seams);
   Seam_length result;
   for(internal::Halfedge h = 0; h < 3 * mesh.triangles.size(); ++h) {
@@ -82,7 +82,7 @@ inline Face_charts straighten_charts(const Indexed_triangle_mesh& mesh, const Fa
                                        = Straightening_options())
 {
   CGAL_precondition(charts.seams.size() == mesh.triangles.size());
-  internal::Seam_graph graph(mesh.triangles, mesh.points, options.creases);
+  internal::Seam_net graph(mesh.triangles, mesh.points, options.creases);
   graph.set_seams(charts.seams);
   internal::Seam_straightener(graph).run(internal::reach_of(options));
   return internal::charts_between(graph.mesh(), graph.seams());

@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_BAND_SEARCH_H
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_BAND_SEARCH_H
 
-#include <CGAL/Surface_mesh_texturing/internal/Seam_graph.h>
+#include <CGAL/Surface_mesh_texturing/internal/Seam_net.h>
 
 #include <algorithm>
 #include <functional>
@@ -24,12 +24,12 @@ namespace internal {
 class Band_search
 {
 public:
-  typedef Seam_graph::Length Length;
+  typedef Seam_net::Length Length;
   typedef std::vector<Halfedge> Path;
 
   static constexpr Length no_length = (std::numeric_limits<Length>::max)();
 
-  explicit Band_search(const Seam_graph& graph)
+  explicit Band_search(const Seam_net& graph)
     : m_graph(graph), m_place(graph.mesh().number_of_vertices(), {0, 0})
   {}
 
@@ -128,7 +128,7 @@ private:
   }
   void relax(Halfedge h, Length so_far, Length bound, const End* to, Paths& paths);
 
-  const Seam_graph& m_graph;
+  const Seam_net& m_graph;
   std::vector<Place> m_place; // of each vertex
   std::uint32_t m_band_number = 0;
   std::vector<Vertex_index> m_band;

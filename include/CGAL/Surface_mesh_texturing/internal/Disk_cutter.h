@@ -56,7 +56,7 @@ public:
   }
 
 private:
-  typedef Seam_graph::Length Length;
+  typedef Seam_net::Length Length;
 
   struct Forest
   {
@@ -90,7 +90,7 @@ private:
   void add_extremities();
 
   Disk_cut m_options;
-  Seam_graph m_graph;
+  Seam_net m_graph;
   Crease_metric m_plain;
   bool m_is_closed = true;
 };

@@ -34,7 +34,7 @@ struct Straightening_reach
 class Seam_straightener
 {
 public:
-  explicit Seam_straightener(Seam_graph& graph) : m_graph(graph), m_band(graph) {}
+  explicit Seam_straightener(Seam_net& graph) : m_graph(graph), m_band(graph) {}
 
   // Straightens the seams between the triangles that the graph has at present.
   void run(const Straightening_reach& reach)
@@ -55,7 +55,7 @@ public:
   }
 
 private:
-  typedef Seam_graph::Length Length;
+  typedef Seam_net::Length Length;
   typedef Band_search::Path Path;
 
   Vertex_index source(Halfedge h) const { return m_graph.mesh().source(h); }
@@ -94,7 +94,7 @@ private:
   Path tail(const Path& arc, bool is_last, std::size_t length) const;
   void replace_tail(Path& arc, bool is_last, std::size_t length, const Path& tail) const;
 
-  Seam_graph& m_graph;
+  Seam_net& m_graph;
   Band_search m_band;
   Band_search::Paths m_paths;
   Straightening_reach m_reach = {};

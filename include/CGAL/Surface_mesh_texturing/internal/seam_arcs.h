@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_SEAM_ARCS_H
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_SEAM_ARCS_H
 
-#include <CGAL/Surface_mesh_texturing/internal/Seam_graph.h>
+#include <CGAL/Surface_mesh_texturing/internal/Seam_net.h>
 
 #include <algorithm>
 #include <tuple>
@@ -30,13 +30,13 @@ struct Seam_arcs
   std::vector<Arc_end> ends; // by node
 };
 
-inline bool is_seam_node(const Seam_graph& graph, Vertex_index v)
+inline bool is_seam_node(const Seam_net& graph, Vertex_index v)
 {
   return graph.degree(v) != 2 || graph.is_border(v);
 }
 
 // The other seam at the end of h, which is no node, as a halfedge from there.
-inline Halfedge next_seam(const Seam_graph& graph, Halfedge h)
+inline Halfedge next_seam(const Seam_net& graph, Halfedge h)
 {
   Halfedge g = next(h);
   while(!graph.is_seam(g))
@@ -46,7 +46,7 @@ inline Halfedge next_seam(const Seam_graph& graph, Halfedge h)
 
 // The arcs in the order of their first halfedges. Time linear in the number of triangles; but for a
 // look at each, in that of the seams.
-inline Seam_arcs find_seam_arcs(const Seam_graph& graph)
+inline Seam_arcs find_seam_arcs(const Seam_net& graph)
 {
   Seam_arcs result;
   const Linked_triangles& mesh = graph.mesh();

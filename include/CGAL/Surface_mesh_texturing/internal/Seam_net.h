@@ -1,8 +1,8 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_SEAM_GRAPH_H
-#define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_SEAM_GRAPH_H
+#ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_SEAM_NET_H
+#define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_SEAM_NET_H
 
 #include <CGAL/Surface_mesh_texturing/internal/Crease_metric.h>
 #include <CGAL/Surface_mesh_texturing/internal/Linked_triangles.h>
@@ -20,13 +20,13 @@ namespace internal {
 // A mesh that vertex splits refine, with the graph of its seams and their lengths.
 //
 // Edges on the border of the surface are seams. Triangles that are not there at present have none.
-class Seam_graph
+class Seam_net
 {
 public:
   typedef Crease_metric::Length Length;
   typedef Crease_metric::Point_3 Point_3;
 
-  Seam_graph(const std::vector<Triangle_indices>& triangles, const std::vector<Point_3>& points,
+  Seam_net(const std::vector<Triangle_indices>& triangles, const std::vector<Point_3>& points,
              const Crease_weights& weights)
     : m_mesh(triangles, points.size()), m_metric(points, weights)
     , m_seams(triangles.size(), 0), m_degree(points.size(), 0), m_is_border(points.size(), 0)
@@ -123,7 +123,7 @@ private:
 };
 
 // The seams at both ends of a new edge but for those that are yet to be placed.
-struct Seam_graph::Star
+struct Seam_net::Star
 {
   std::uint32_t at_r = 0, at_k = 0;
   bool is_leaf = false; // the seams ended at k
@@ -132,7 +132,7 @@ struct Seam_graph::Star
   bool is_border = false; // the new edge has one triangle
 };
 
-inline void Seam_graph::set_seams(std::vector<std::uint8_t> seams)
+inline void Seam_net::set_seams(std::vector<std::uint8_t> seams)
 {
   CGAL_precondition(seams.size() == m_seams.size());
   m_seams = std::move(seams);
@@ -145,7 +145,7 @@ inline void Seam_graph::set_seams(std::vector<std::uint8_t> seams)
 }
 
 // Marks the border, and lets the other sides of the new triangles be no seams for the moment.
-inline Seam_graph::Star Seam_graph::star_after_split(Halfedge e, Vertex_index r, Vertex_index k)
+inline Seam_net::Star Seam_net::star_after_split(Halfedge e, Vertex_index r, Vertex_index k)
 {
   Star star;
   star.at_k = m_degree[k];
@@ -179,7 +179,7 @@ inline Seam_graph::Star Seam_graph::star_after_split(Halfedge e, Vertex_index r,
 //   .. - k - ..   r --- k     of its ends have seams, which were connected at k; an end of a seam
 //        |         \   /      stays at k.
 //        R           R
-inline void Seam_graph::split(Halfedge e, Vertex_index r, Vertex_index k)
+inline void Seam_net::split(Halfedge e, Vertex_index r, Vertex_index k)
 {
   m_mesh.split(e, r);
   if(m_degree[k] == 0)
@@ -219,4 +219,4 @@ inline void Seam_graph::split(Halfedge e, Vertex_index r, Vertex_index k)
 } // namespace Surface_mesh_texturing
 } // namespace CGAL
 
-#endif // CGAL_SURFACE_MESH_TEXTURING_INTERNAL_SEAM_GRAPH_H
+#endif // CGAL_SURFACE_MESH_TEXTURING_INTERNAL_SEAM_NET_H
