@@ -31,6 +31,20 @@ struct Merge_weights
   double fill = 0.5;      // times the part of its convex hull that the union leaves empty
 };
 
+// A chart as a mesh of its own, with its border and a hash of its triangles and seams.
+struct Cut_mesh
+{
+  Indexed_triangle_mesh mesh;
+  std::vector<Border_edge> border;
+  std::uint64_t key = 0xcbf29ce484222325u;
+
+  void add_to_key(std::uint64_t x)
+  {
+    key = (key ^ x) * 0x100000001b3u;
+    key ^= key >> 29;
+  }
+};
+
 // Charts that are merged two by two. A chart is a set of triangles that form a disk when cut along
 // the seams; a merge removes one arc of the seams between two charts, so that the union is one too.
 class Chart_merger
@@ -63,7 +77,7 @@ public:
   Chart_merger(const Growth_surface& surface, const std::vector<std::uint8_t>& is_feature,
                const Distortion_bound& bound, double least_fill, std::size_t least)
     : m_surface(surface), m_is_feature(is_feature), m_bound(bound), m_least_fill(least_fill)
-    , m_least(least)
+    , m_least(least), m_position(surface.size())
   {
     for(const double a : surface.area)
       m_area += a;
@@ -73,7 +87,7 @@ public:
   State start(const Seam_graph& graph, const Indices& patch, std::size_t number);
 
   // Merges while a union of two charts, one of which `is_active`, is within the bound.
-  void merge(State& state, std::vector<bool> is_active, const Merge_weights& weights);
+  void merge(State& state, const std::vector<bool>& is_active, const Merge_weights& weights);
 
   // Merges the union of least distortion, whatever it is, until no more than `number` are left or
   // nothing can be merged.
@@ -107,15 +121,14 @@ private:
     double crease = 0.;  // their length on features
     Trial_map trial;
     bool is_known = false;
-    std::uint64_t key = 0;
+    bool is_hopeless = false; // far beyond the bound, or a part of it is
   };
   typedef std::map<Pair, Candidate> Candidates;
 
   Indices longest_arc(const State& state, std::uint32_t a, std::uint32_t b) const;
   Candidate candidate(State& state, const Pair& pair) const;
   Indices union_of(const State& state, const Pair& pair) const;
-  Indexed_triangle_mesh cut_mesh(const Seam_graph& graph, const Indices& triangles,
-                                 const Indices& opened, std::uint64_t& key) const;
+  Cut_mesh cut_mesh(const Seam_graph& graph, const Indices& triangles, const Indices& opened);
   void add_candidates(State& state, std::uint32_t c, Candidates& candidates) const;
   void try_all(const State& state, Candidates& candidates);
   double cost(const State& state, const Pair& pair, const Candidate& candidate,
@@ -125,6 +138,14 @@ private:
     const Piece& piece = state.pieces[pair.first];
     return state.charts_of_component[m_surface.component[piece.triangles[0]]] > m_least;
   }
+  bool is_far_beyond_bound(const Trial_map& trial) const
+  {
+    constexpr double much = 1.3; // the power of the bound
+    return trial.is_disk
+        && (trial.distortion.area_scale > std::pow(m_bound.area_scale, much)
+            || trial.distortion.quasi_conformal > std::pow(m_bound.quasi_conformal, much));
+  }
+  void merge_pair(State& state, const Pair& pair, Candidates& candidates) const;
   void apply(State& state, const Pair& pair, const Candidate& candidate) const;
   void measure(const Seam_graph& graph, Piece& piece) const;
 
@@ -133,6 +154,7 @@ private:
   Distortion_bound m_bound;
   double m_least_fill;
   std::size_t m_least;
+  Indices m_position; // of triangles in a chart
   double m_area = 0.;
   std::size_t m_work = 0;
   std::unordered_map<std::uint64_t, Trial_map> m_known; // by a hash of triangles and seams
@@ -160,55 +182,52 @@ inline Chart_merger::State Chart_merger::start(const Seam_graph& graph, const In
     measure(graph, piece);
     ++state.charts_of_component[m_surface.component[piece.triangles[0]]];
   }
-  Blocked_execution::blocked_for(number, 1, [&](std::size_t i, std::size_t) {
-    std::uint64_t key = 0;
-    Piece& piece = state.pieces[i];
-    piece.trial = try_map(cut_mesh(graph, piece.triangles, {}, key));
-  });
-  m_work += patch.size();
+  Candidates candidates;
+  for(std::uint32_t i = 0; i < number; ++i)
+    candidates[Pair(i, i)];
+  try_all(state, candidates);
+  for(std::uint32_t i = 0; i < number; ++i)
+    state.pieces[i].trial = candidates[Pair(i, i)].trial;
   return state;
 }
 
-// The mesh of the triangles, cut along the seams but those that are opened, and its hash.
-inline Indexed_triangle_mesh Chart_merger::cut_mesh(const Seam_graph& graph,
-                                                    const Indices& triangles,
-                                                    const Indices& opened,
-                                                    std::uint64_t& key) const
+// The mesh of the triangles, cut along the seams but those that are opened.
+inline Cut_mesh Chart_merger::cut_mesh(const Seam_graph& graph, const Indices& triangles,
+                                       const Indices& opened)
 {
-  const auto position = [&triangles](std::uint32_t t) {
-    const auto it = std::lower_bound(triangles.begin(), triangles.end(), t);
-    return std::uint32_t(it - triangles.begin());
-  };
+  for(std::uint32_t i = 0; i < triangles.size(); ++i)
+    m_position[triangles[i]] = i;
   std::vector<std::uint8_t> is_open(3 * triangles.size());
   for(std::uint32_t i = 0; i < is_open.size(); ++i)
     is_open[i] = !graph.is_seam(3 * triangles[i / 3] + i % 3);
   for(const std::uint32_t h : opened)
     for(const std::uint32_t g : {h, graph.opposite(h)})
-      is_open[3 * position(g / 3) + g % 3] = 1;
+      is_open[3 * m_position[g / 3] + g % 3] = 1;
   Disjoint_sets corners(is_open.size());
-  key = 0xcbf29ce484222325u;
+  Cut_mesh result;
   for(std::uint32_t i = 0; i < is_open.size(); ++i) {
     const std::uint32_t h = 3 * triangles[i / 3] + i % 3;
-    key = (key ^ (2 * h + is_open[i])) * 0x100000001b3u;
-    key ^= key >> 29;
+    result.add_to_key(2 * h + is_open[i]);
     if(!is_open[i] || graph.opposite(h) > h)
       continue;
-    const std::uint32_t g = graph.opposite(h), j = 3 * position(g / 3) + g % 3;
+    const std::uint32_t g = graph.opposite(h), j = 3 * m_position[g / 3] + g % 3;
     corners.join(i, next_halfedge(j));
     corners.join(next_halfedge(i), j);
   }
-  Indexed_triangle_mesh result;
   Indices wedge(is_open.size());
-  result.triangles.resize(triangles.size());
+  result.mesh.triangles.resize(triangles.size());
   for(std::uint32_t i = 0; i < is_open.size(); ++i) {
     const std::uint32_t first = corners.find(i);
     if(first == i) {
-      wedge[i] = std::uint32_t(result.points.size());
-      result.points.push_back(
+      wedge[i] = std::uint32_t(result.mesh.points.size());
+      result.mesh.points.push_back(
         m_surface.mesh.points[m_surface.mesh.triangles[triangles[i / 3]][i % 3]]);
     }
-    result.triangles[i / 3][i % 3] = wedge[first];
+    result.mesh.triangles[i / 3][i % 3] = wedge[first];
   }
+  for(std::uint32_t i = 0; i < is_open.size(); ++i)
+    if(!is_open[i])
+      result.border.push_back({wedge[corners.find(i)], wedge[corners.find(next_halfedge(i))]});
   return result;
 }
 
@@ -275,6 +294,8 @@ inline Chart_merger::Candidate Chart_merger::candidate(State& state, const Pair&
 inline Chart_merger::Indices Chart_merger::union_of(const State& state, const Pair& pair) const
 {
   const Indices &s = state.pieces[pair.first].triangles, &t = state.pieces[pair.second].triangles;
+  if(pair.first == pair.second)
+    return s;
   Indices result(s.size() + t.size());
   std::merge(s.begin(), s.end(), t.begin(), t.end(), result.begin());
   return result;
@@ -304,34 +325,35 @@ inline void Chart_merger::add_candidates(State& state, std::uint32_t c,
   }
 }
 
-// Maps the unions that have not been mapped yet.
+// Maps the unions that have not been mapped yet; (a, a) stands for chart a alone.
 inline void Chart_merger::try_all(const State& state, Candidates& candidates)
 {
   struct Item
   {
     Candidate* candidate;
-    Indexed_triangle_mesh mesh;
+    Cut_mesh chart;
   };
   std::vector<Item> items;
   for(auto& [pair, candidate] : candidates) {
-    if(candidate.is_known)
+    if(candidate.is_known || candidate.is_hopeless)
       continue;
     candidate.is_known = true;
-    Indexed_triangle_mesh mesh
-      = cut_mesh(state.graph, union_of(state, pair), candidate.opened, candidate.key);
-    const auto known = m_known.find(candidate.key);
+    Cut_mesh chart = cut_mesh(state.graph, union_of(state, pair), candidate.opened);
+    const auto known = m_known.find(chart.key);
     if(known != m_known.end())
       candidate.trial = known->second;
     else
-      items.push_back({&candidate, std::move(mesh)});
+      items.push_back({&candidate, std::move(chart)});
   }
   Blocked_execution::blocked_for(items.size(), 1, [&](std::size_t i, std::size_t) {
-    items[i].candidate->trial = try_map(items[i].mesh);
+    items[i].candidate->trial = try_map(items[i].chart.mesh, items[i].chart.border);
   });
   for(const Item& item : items) {
-    m_known.emplace(item.candidate->key, item.candidate->trial);
-    m_work += item.mesh.triangles.size();
+    m_known.emplace(item.chart.key, item.candidate->trial);
+    m_work += item.chart.mesh.triangles.size();
   }
+  for(auto& [pair, candidate] : candidates)
+    candidate.is_hopeless = candidate.is_hopeless || is_far_beyond_bound(candidate.trial);
 }
 
 // What the union costs; it is not to be had if that is infinite.
@@ -366,7 +388,25 @@ inline void Chart_merger::apply(State& state, const Pair& pair, const Candidate&
   --state.charts_of_component[m_surface.component[a.triangles[0]]];
 }
 
-inline void Chart_merger::merge(State& state, std::vector<bool> is_active,
+// Merges the pair and renews the candidates: what was hopeless with a part is so with the union.
+inline void Chart_merger::merge_pair(State& state, const Pair& pair, Candidates& candidates) const
+{
+  apply(state, pair, candidates[pair]);
+  Indices foes;
+  for(auto it = candidates.begin(); it != candidates.end(); ) {
+    const auto [a, b] = it->first;
+    const bool has_a = a == pair.first || a == pair.second;
+    const bool has_b = b == pair.first || b == pair.second;
+    if(has_a != has_b && it->second.is_hopeless)
+      foes.push_back(has_a ? b : a);
+    it = has_a || has_b ? candidates.erase(it) : std::next(it);
+  }
+  add_candidates(state, pair.first, candidates);
+  for(const std::uint32_t c : foes)
+    candidates[Pair(std::minmax(pair.first, c))].is_hopeless = true;
+}
+
+inline void Chart_merger::merge(State& state, const std::vector<bool>& is_active,
                                 const Merge_weights& weights)
 {
   Candidates candidates;
@@ -375,27 +415,20 @@ inline void Chart_merger::merge(State& state, std::vector<bool> is_active,
       add_candidates(state, c, candidates);
   while(!m_goes_on || m_goes_on()) {
     try_all(state, candidates);
-    auto best = candidates.end();
+    const Pair* best = nullptr;
     double least = (std::numeric_limits<double>::max)();
-    for(auto it = candidates.begin(); it != candidates.end(); ++it) {
-      if(!is_good(it->second.trial) || !may_merge(state, it->first))
+    for(const auto& [pair, candidate] : candidates) {
+      if(!is_good(candidate.trial) || !may_merge(state, pair))
         continue;
-      const double c = cost(state, it->first, it->second, weights);
+      const double c = cost(state, pair, candidate, weights);
       if(c < least) {
         least = c;
-        best = it;
+        best = &pair;
       }
     }
-    if(best == candidates.end())
+    if(best == nullptr)
       return;
-    const Pair pair = best->first;
-    apply(state, pair, best->second);
-    for(auto it = candidates.begin(); it != candidates.end(); ) {
-      const bool is_stale = it->first.first == pair.first || it->first.second == pair.first
-                         || it->first.first == pair.second || it->first.second == pair.second;
-      it = is_stale ? candidates.erase(it) : std::next(it);
-    }
-    add_candidates(state, pair.first, candidates);
+    merge_pair(state, Pair(*best), candidates);
   }
 }
 
@@ -447,31 +480,26 @@ inline void Chart_merger::merge_down_to(State& state, std::size_t number)
   for(std::uint32_t c = 0; c < state.pieces.size(); ++c)
     add_candidates(state, c, candidates);
   while(state.number_of_charts > number && (!m_goes_on || m_goes_on())) {
+    for(auto& [pair, candidate] : candidates)
+      candidate.is_hopeless = false;
     try_all(state, candidates);
-    auto best = candidates.end();
+    const Pair* best = nullptr;
     std::pair<int, double> least;
-    for(auto it = candidates.begin(); it != candidates.end(); ++it) {
-      const Trial_map& trial = it->second.trial;
-      if(!may_merge(state, it->first) || it->second.opened.empty())
+    for(const auto& [pair, candidate] : candidates) {
+      const Trial_map& trial = candidate.trial;
+      if(!may_merge(state, pair) || candidate.opened.empty())
         continue;
-      const std::pair<int, double> c(trial.is_disk ? (trial.is_one_to_one ? 0 : 1) : 2,
-                                     trial.distortion.area_scale
-                                       * trial.distortion.quasi_conformal);
-      if(best == candidates.end() || c < least) {
+      const int defect = !trial.is_disk ? 2 : trial.is_one_to_one ? 0 : 1;
+      const std::pair<int, double> c(
+        defect, trial.distortion.area_scale * trial.distortion.quasi_conformal);
+      if(best == nullptr || c < least) {
         least = c;
-        best = it;
+        best = &pair;
       }
     }
-    if(best == candidates.end())
+    if(best == nullptr)
       return;
-    const Pair pair = best->first;
-    apply(state, pair, best->second);
-    for(auto it = candidates.begin(); it != candidates.end(); ) {
-      const bool is_stale = it->first.first == pair.first || it->first.second == pair.first
-                         || it->first.first == pair.second || it->first.second == pair.second;
-      it = is_stale ? candidates.erase(it) : std::next(it);
-    }
-    add_candidates(state, pair.first, candidates);
+    merge_pair(state, Pair(*best), candidates);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <CGAL/Surface_mesh_texturing/internal/Chart_merger.h>
 #include <CGAL/Surface_mesh_texturing/internal/feature_curves.h>
 #include <CGAL/Surface_mesh_texturing/internal/grow_patches.h>
+#include <CGAL/Surface_mesh_texturing/internal/straighten_seams.h>
 
 #include <algorithm>
 #include <functional>
@@ -89,7 +90,18 @@ inline Chart_search::State Chart_search::start()
   const std::size_t number = m_surface.size() / m_options.patch_size;
   constexpr std::size_t least_patches = 6; // of a component
   growth.grow(number, (std::max)(least_patches, 2 * m_options.least_charts));
-  return m_merger.start(growth.seams(), growth.patch(), growth.number_of_patches());
+  const Seam_straightening straightening(m_surface, m_is_feature);
+  for(;;) {
+    Seam_graph graph = growth.seams();
+    std::vector<std::uint32_t> patch = growth.patch(), bad;
+    straightening.run(graph, patch, [](std::uint32_t) { return true; });
+    State state = m_merger.start(graph, patch, growth.number_of_patches());
+    for(std::uint32_t p = 0; p < state.pieces.size(); ++p)
+      if(!m_merger.is_good(state.pieces[p].trial))
+        bad.push_back(p);
+    if(!growth.refine(bad))
+      return state;
+  }
 }
 
 inline bool Chart_search::run()

@@ -48,6 +48,10 @@ public:
   // About `number` patches, at least `least` in each component that has enough triangles.
   void grow(std::size_t number, std::size_t least);
 
+  // Cuts each of the given patches, if it has at least two triangles, by a seed in its part that is
+  // farthest from its own; returns whether there was one.
+  bool refine(const std::vector<std::uint32_t>& patches);
+
   const std::vector<std::uint32_t>& patch() const { return m_patch; } // of each triangle
   std::size_t number_of_patches() const { return m_seeds.size(); }
 
@@ -182,6 +186,19 @@ inline void Patch_growth::grow(std::size_t number, std::size_t least)
     for(const std::uint32_t t : seeds)
       add_seed(t);
   }
+}
+
+inline bool Patch_growth::refine(const std::vector<std::uint32_t>& patches)
+{
+  std::vector<std::uint32_t> farthest = m_seeds;
+  for(std::uint32_t t = 0; t < m_surface.size(); ++t)
+    if(m_distance[t] > m_distance[farthest[m_patch[t]]])
+      farthest[m_patch[t]] = t;
+  const std::size_t before = m_seeds.size();
+  for(const std::uint32_t p : patches)
+    if(m_distance[farthest[p]] > 0.) // not a seed, which it may have become
+      add_seed(farthest[p]);
+  return m_seeds.size() > before;
 }
 
 inline Seam_graph Patch_growth::seams() const

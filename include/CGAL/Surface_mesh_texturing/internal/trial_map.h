@@ -89,17 +89,11 @@ inline double hull_area(const std::vector<Border_edge>& border, const std::vecto
   return 0.5 * twice;
 }
 
-// Maps the mesh, if it is a disk, as the whole chart will be mapped later.
-inline Trial_map try_map(const Indexed_triangle_mesh& mesh)
+// Maps the mesh with the given border, if it is a disk, as the whole chart will be mapped later.
+inline Trial_map try_map(const Indexed_triangle_mesh& mesh, const std::vector<Border_edge>& border)
 {
   namespace SMP = Surface_mesh_parameterization;
   Trial_map result;
-  const Triangle_adjacency adjacency(mesh.triangles);
-  std::vector<Border_edge> border;
-  for(std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-    for(int c = 0; c < 3; ++c)
-      if(adjacency.opposite(t, c) == Surface_mesh_multiresolution::no_vertex)
-        border.push_back({mesh.triangles[t][c], mesh.triangles[t][(c + 1) % 3]});
   SMP::HLSCM_options options;
   options.method = SMP::Conformal_method::DIRECT;
   const SMP::Conformal_map map = SMP::conformal_map(mesh, options);
@@ -111,6 +105,18 @@ inline Trial_map try_map(const Indexed_triangle_mesh& mesh)
     = result.distortion.flipped_faces == 0 && !border_meets_itself(border, map.uv);
   const double hull = hull_area(border, map.uv);
   result.fill = hull > 0. ? result.distortion.uv_area / hull : 0.;
+  return result;
+}
+
+// The edges of the mesh that have one triangle.
+inline std::vector<Border_edge> border_edges(const Indexed_triangle_mesh& mesh)
+{
+  const Triangle_adjacency adjacency(mesh.triangles);
+  std::vector<Border_edge> result;
+  for(std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    for(int c = 0; c < 3; ++c)
+      if(adjacency.opposite(t, c) == Surface_mesh_multiresolution::no_vertex)
+        result.push_back({mesh.triangles[t][c], mesh.triangles[t][(c + 1) % 3]});
   return result;
 }
 
