@@ -50,6 +50,7 @@ struct Cut_mesh
 class Chart_merger
 {
   static constexpr std::uint32_t none = Surface_mesh_multiresolution::no_vertex;
+  static constexpr double least_dart_defect = 0.3; // radians
 
 public:
   typedef std::vector<std::uint32_t> Indices;
@@ -119,6 +120,7 @@ private:
     Indices opened;      // halfedges that would be no seams any more
     double removed = 0.; // their length
     double crease = 0.;  // their length on features
+    std::size_t arc = 0; // the number of those on an arc between the charts
     Trial_map trial;
     bool is_known = false;
     bool is_hopeless = false; // far beyond the bound, or a part of it is
@@ -131,6 +133,8 @@ private:
   Cut_mesh cut_mesh(const Seam_graph& graph, const Indices& triangles, const Indices& opened);
   void add_candidates(State& state, std::uint32_t c, Candidates& candidates) const;
   void try_all(const State& state, Candidates& candidates);
+  void try_known_arcs(const State& state, Candidates& candidates, std::vector<Candidate*>& fresh);
+  bool make_dart(const State& state, Candidate& candidate) const;
   double cost(const State& state, const Pair& pair, const Candidate& candidate,
               const Merge_weights& weights) const;
   bool may_merge(const State& state, const Pair& pair) const
@@ -279,6 +283,7 @@ inline Chart_merger::Candidate Chart_merger::candidate(State& state, const Pair&
   Seam_graph& graph = state.graph;
   const std::uint32_t from = graph.source(result.opened.front());
   const std::uint32_t to = graph.target(result.opened.back());
+  result.arc = result.opened.size();
   for(const std::uint32_t h : result.opened)
     graph.open(h);
   graph.zip(from, result.opened);
@@ -328,6 +333,60 @@ inline void Chart_merger::add_candidates(State& state, std::uint32_t c,
 // Maps the unions that have not been mapped yet; (a, a) stands for chart a alone.
 inline void Chart_merger::try_all(const State& state, Candidates& candidates)
 {
+  std::vector<Candidate*> fresh;
+  try_known_arcs(state, candidates, fresh);
+  bool has_darts = false;
+  for(Candidate* c : fresh)
+    has_darts = make_dart(state, *c) || has_darts;
+  if(has_darts)
+    try_known_arcs(state, candidates, fresh);
+  for(auto& [pair, candidate] : candidates)
+    candidate.is_hopeless = candidate.is_hopeless || is_far_beyond_bound(candidate.trial);
+}
+
+// If the union is too much distorted, leaves a part of the seam, from an end to the vertex of
+// largest curvature, as a cut within the union. Returns whether there is such a vertex.
+inline bool Chart_merger::make_dart(const State& state, Candidate& candidate) const
+{
+  const Trial_map& trial = candidate.trial;
+  if(!trial.is_disk || trial.distortion.is_within(m_bound) || candidate.arc < 2)
+    return false;
+  const Seam_graph& graph = state.graph;
+  std::size_t tip = 0;
+  double largest = least_dart_defect;
+  for(std::size_t i = 0; i + 1 < candidate.arc; ++i) {
+    const double defect = m_surface.defect[graph.target(candidate.opened[i])];
+    if(defect > largest) {
+      largest = defect;
+      tip = i + 1;
+    }
+  }
+  if(tip == 0)
+    return false;
+  const auto begin = candidate.opened.begin();
+  const auto length = [&](auto from, auto to) {
+    double sum = 0.;
+    for(; from != to; ++from)
+      sum += m_surface.length[*from];
+    return sum;
+  };
+  if(length(begin, begin + tip) > length(begin + tip, begin + candidate.arc))
+    candidate.opened.resize(tip);
+  else
+    candidate.opened = Indices(begin + tip, begin + candidate.arc);
+  candidate.arc = 0;
+  candidate.removed = candidate.crease = 0.;
+  for(const std::uint32_t h : candidate.opened) {
+    candidate.removed += m_surface.length[h];
+    candidate.crease += m_is_feature[h] ? m_surface.length[h] : 0.;
+  }
+  candidate.is_known = false;
+  return true;
+}
+
+inline void Chart_merger::try_known_arcs(const State& state, Candidates& candidates,
+                                         std::vector<Candidate*>& fresh)
+{
   struct Item
   {
     Candidate* candidate;
@@ -338,6 +397,7 @@ inline void Chart_merger::try_all(const State& state, Candidates& candidates)
     if(candidate.is_known || candidate.is_hopeless)
       continue;
     candidate.is_known = true;
+    fresh.push_back(&candidate);
     Cut_mesh chart = cut_mesh(state.graph, union_of(state, pair), candidate.opened);
     const auto known = m_known.find(chart.key);
     if(known != m_known.end())
@@ -352,8 +412,6 @@ inline void Chart_merger::try_all(const State& state, Candidates& candidates)
     m_known.emplace(item.chart.key, item.candidate->trial);
     m_work += item.chart.mesh.triangles.size();
   }
-  for(auto& [pair, candidate] : candidates)
-    candidate.is_hopeless = candidate.is_hopeless || is_far_beyond_bound(candidate.trial);
 }
 
 // What the union costs; it is not to be had if that is infinite.

@@ -27,6 +27,7 @@ struct Growth_surface
   std::vector<double> angle;         // across each halfedge between the normals, 0 on the border
   std::vector<double> area;          // of each triangle
   std::vector<Point> centre;         // of each triangle
+  std::vector<double> defect;        // of each vertex 2 pi less its angles, 0 on the border
   std::vector<std::uint32_t> component;
   std::size_t number_of_components = 0;
 
@@ -51,6 +52,7 @@ inline double round_to_unit(Indexed_triangle_mesh& mesh)
 inline Growth_surface::Growth_surface(const Indexed_triangle_mesh& input)
   : mesh(input), scale(round_to_unit(mesh)), adjacency(mesh.triangles)
   , length(3 * size()), angle(3 * size(), 0.), area(size()), centre(size())
+  , defect(mesh.points.size(), 2. * CGAL_PI)
 {
   std::vector<Simple_cartesian<double>::Vector_3> normal(size());
   for(std::uint32_t t = 0; t < size(); ++t) {
@@ -59,14 +61,20 @@ inline Growth_surface::Growth_surface(const Indexed_triangle_mesh& input)
     normal[t] = cross_product(q - p, r - p);
     area[t] = 0.5 * std::sqrt(normal[t] * normal[t]);
     centre[t] = centroid(p, q, r);
-    for(std::uint32_t c = 0; c < 3; ++c)
-      length[3 * t + c] = std::sqrt(squared_distance(mesh.points[mesh.triangles[t][c]],
-                                                     mesh.points[mesh.triangles[t][(c + 1) % 3]]));
+    for(std::uint32_t c = 0; c < 3; ++c) {
+      const Point &u = mesh.points[mesh.triangles[t][c]],
+                  &v = mesh.points[mesh.triangles[t][(c + 1) % 3]],
+                  &w = mesh.points[mesh.triangles[t][(c + 2) % 3]];
+      length[3 * t + c] = std::sqrt(squared_distance(u, v));
+      defect[mesh.triangles[t][c]] -= std::atan2(2. * area[t], (v - u) * (w - u));
+    }
   }
   for(std::uint32_t h = 0; h < angle.size(); ++h) {
     const std::uint32_t g = adjacency.opposite(h);
-    if(g == Surface_mesh_multiresolution::no_vertex)
+    if(g == Surface_mesh_multiresolution::no_vertex) {
+      defect[mesh.triangles[h / 3][h % 3]] = 0.;
       continue;
+    }
     const auto &m = normal[h / 3], &n = normal[g / 3];
     const auto x = cross_product(m, n);
     angle[h] = std::atan2(std::sqrt(x * x), m * n);
