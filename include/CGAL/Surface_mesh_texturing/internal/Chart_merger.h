@@ -84,8 +84,9 @@ public:
       m_area += a;
   }
 
-  // The charts with the given labels of triangles and seams.
-  State start(const Seam_graph& graph, const Indices& patch, std::size_t number);
+  // The charts with the given seams and labels of triangles, which are less than `number`; not all
+  // of these need have triangles.
+  State start(const Seam_graph& graph, const Indices& label, std::size_t number);
 
   // Merges while a union of two charts, one of which `is_active`, is within the bound.
   void merge(State& state, const std::vector<bool>& is_active, const Merge_weights& weights);
@@ -175,23 +176,26 @@ inline void Chart_merger::measure(const Seam_graph& graph, Piece& piece) const
   }
 }
 
-inline Chart_merger::State Chart_merger::start(const Seam_graph& graph, const Indices& patch,
+inline Chart_merger::State Chart_merger::start(const Seam_graph& graph, const Indices& label,
                                                std::size_t number)
 {
-  State state = {graph, patch, std::vector<Piece>(number), number,
+  State state = {graph, label, std::vector<Piece>(number), 0,
                  std::vector<std::size_t>(m_surface.number_of_components, 0)};
-  for(std::uint32_t t = 0; t < patch.size(); ++t)
-    state.pieces[patch[t]].triangles.push_back(t);
-  for(Piece& piece : state.pieces) {
-    measure(graph, piece);
-    ++state.charts_of_component[m_surface.component[piece.triangles[0]]];
-  }
+  for(std::uint32_t t = 0; t < label.size(); ++t)
+    state.pieces[label[t]].triangles.push_back(t);
   Candidates candidates;
-  for(std::uint32_t i = 0; i < number; ++i)
-    candidates[Pair(i, i)];
+  for(std::uint32_t c = 0; c < number; ++c) {
+    Piece& piece = state.pieces[c];
+    if(piece.triangles.empty())
+      continue;
+    measure(graph, piece);
+    ++state.number_of_charts;
+    ++state.charts_of_component[m_surface.component[piece.triangles[0]]];
+    candidates[Pair(c, c)];
+  }
   try_all(state, candidates);
-  for(std::uint32_t i = 0; i < number; ++i)
-    state.pieces[i].trial = candidates[Pair(i, i)].trial;
+  for(const auto& [pair, candidate] : candidates)
+    state.pieces[pair.first].trial = candidate.trial;
   return state;
 }
 
