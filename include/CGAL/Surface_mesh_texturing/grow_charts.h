@@ -38,12 +38,12 @@ struct Chart_growth_options
   double feature_angle = 30.;
   /// The part of its convex hull in the plane that a chart fills at least, so that charts can be
   /// packed: without, stars and spirals are possible.
-  double least_fill = 0.5;
+  double least_fill = 0.65;
   /// Triangles to one of the patches from which charts are merged.
   std::size_t patch_size = 25;
   /// How much is tried to get along with fewer charts: triangles that are mapped for each triangle
   /// of the mesh.
-  double effort = 100.;
+  double effort = 150.;
   /// Told the part done in [0, 1] from time to time; returning `false` cancels.
   std::function<bool(double)> progress;
 };

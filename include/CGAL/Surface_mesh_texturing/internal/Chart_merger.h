@@ -51,6 +51,7 @@ class Chart_merger
 {
   static constexpr std::uint32_t none = Surface_mesh_multiresolution::no_vertex;
   static constexpr double least_dart_defect = 0.3; // radians
+  static constexpr double least_neck = 0.12; // between two charts, to the smaller perimeter
 
 public:
   typedef std::vector<std::uint32_t> Indices;
@@ -142,6 +143,11 @@ private:
   {
     const Piece& piece = state.pieces[pair.first];
     return state.charts_of_component[m_surface.component[piece.triangles[0]]] > m_least;
+  }
+  bool has_thin_neck(const State& state, const Pair& pair, const Candidate& candidate) const
+  {
+    return candidate.removed < least_neck * (std::min)(state.pieces[pair.first].perimeter,
+                                                       state.pieces[pair.second].perimeter);
   }
   bool is_far_beyond_bound(const Trial_map& trial) const
   {
@@ -292,6 +298,11 @@ inline Chart_merger::Candidate Chart_merger::candidate(State& state, const Pair&
     graph.open(h);
   graph.zip(from, result.opened);
   graph.zip(to, result.opened);
+  if(graph.is_single_edge(from)) { // a sphere with a slit of one edge is none any more
+    graph.close(result.opened.front());
+    result.opened.erase(result.opened.begin());
+    result.arc = 0;
+  }
   for(const std::uint32_t h : result.opened) {
     graph.close(h);
     result.removed += m_surface.length[h];
@@ -480,7 +491,8 @@ inline void Chart_merger::merge(State& state, const std::vector<bool>& is_active
     const Pair* best = nullptr;
     double least = (std::numeric_limits<double>::max)();
     for(const auto& [pair, candidate] : candidates) {
-      if(!is_good(candidate.trial) || !may_merge(state, pair))
+      if(!is_good(candidate.trial) || !may_merge(state, pair)
+         || has_thin_neck(state, pair, candidate))
         continue;
       const double c = cost(state, pair, candidate, weights);
       if(c < least) {

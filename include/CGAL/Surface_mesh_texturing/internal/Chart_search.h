@@ -26,9 +26,9 @@ struct Search_options
   std::size_t least_charts = 1;
   std::size_t max_charts = 0;
   double feature_angle = 0.5; // radians
-  double least_fill = 0.5;
+  double least_fill = 0.65;
   std::size_t patch_size = 25;
-  double effort = 100.;
+  double effort = 150.;
   std::function<bool(double)> progress;
 };
 
@@ -38,6 +38,7 @@ class Chart_search
 {
   typedef Chart_merger::State State;
   static constexpr std::size_t most_neighbors = 4; // one more than are taken apart with a chart
+  static constexpr std::size_t small_size = 500;   // triangles; smaller meshes get more effort
   static constexpr std::size_t most_failures = 8;  // rounds without success in succession
 
 public:
@@ -45,7 +46,7 @@ public:
     : m_surface(surface), m_options(options)
     , m_is_feature(feature_edges(surface, options.feature_angle))
     , m_merger(surface, m_is_feature, options.bound, options.least_fill, options.least_charts)
-    , m_most_work(options.effort * double(surface.size()))
+    , m_most_work(options.effort * double(surface.size() + small_size))
   {
     m_merger.set_progress([this] { return tell_progress(); });
   }

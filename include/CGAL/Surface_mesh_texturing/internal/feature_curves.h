@@ -104,7 +104,8 @@ inline double Feature_curves::best_ahead(std::uint32_t h, int depth, std::uint32
     return best;
   const Vector along = step_of(h);
   for_each_after(h, [&](std::uint32_t g) {
-    if(m_graph.is_border(g) || is_taken(g) || !(step_of(g) * along > 0.))
+    if(m_graph.is_border(g) || m_surface.angle[g] < 0.5 * m_threshold || is_taken(g)
+       || !(step_of(g) * along > 0.))
       return;
     std::uint32_t unused = g;
     const double sum = m_surface.angle[g] + best_ahead(g, depth - 1, unused);
