@@ -81,7 +81,7 @@ namespace internal {
 
 // The same as `charts_between()`, with the neighbours of the triangles: a class with `opposite()`.
 template <class Adjacency>
-Face_charts charts_between(const Adjacency& adjacency, std::vector<std::uint8_t> seams)
+Face_charts label_charts(const Adjacency& adjacency, std::vector<std::uint8_t> seams)
 {
   const std::uint32_t n = std::uint32_t(seams.size());
   Disjoint_sets sets(n);
@@ -119,7 +119,7 @@ inline Face_charts charts_between(const std::vector<Triangle_indices>& triangles
                                   std::vector<std::uint8_t> seams)
 {
   CGAL_precondition(seams.size() == triangles.size());
-  return internal::charts_between(internal::Triangle_adjacency(triangles), std::move(seams));
+  return internal::label_charts(internal::Triangle_adjacency(triangles), std::move(seams));
 }
 
 /// \ingroup PkgHLSCMTexturing

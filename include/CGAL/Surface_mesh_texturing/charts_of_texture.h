@@ -33,7 +33,7 @@ inline Face_charts charts_of_texture(const Textured_triangle_mesh& mesh)
     if(opposite != no_vertex && (uv(h) != uv(next(opposite)) || uv(next(h)) != uv(opposite)))
       seams[h / 3] |= std::uint8_t(1 << h % 3);
   }
-  return internal::charts_between(adjacency, std::move(seams));
+  return internal::label_charts(adjacency, std::move(seams));
 }
 
 } // namespace Surface_mesh_texturing

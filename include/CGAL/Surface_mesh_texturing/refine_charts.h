@@ -93,7 +93,7 @@ inline Face_charts refine_charts(const Progressive_mesh& pm,
       graph.split(edges[i], pm.collapses[i].removed, pm.collapses[i].kept);
   }
   straightener.run(reach);
-  return internal::charts_between(graph.mesh(), graph.seams());
+  return internal::label_charts(graph.mesh(), graph.seams());
 }
 
 } // namespace Surface_mesh_texturing

@@ -85,7 +85,7 @@ inline Face_charts straighten_charts(const Indexed_triangle_mesh& mesh, const Fa
   internal::Seam_net graph(mesh.triangles, mesh.points, options.creases);
   graph.set_seams(charts.seams);
   internal::Seam_straightener(graph).run(internal::reach_of(options));
-  return internal::charts_between(graph.mesh(), graph.seams());
+  return internal::label_charts(graph.mesh(), graph.seams());
 }
 
 } // namespace Surface_mesh_texturing

@@ -52,11 +52,14 @@ public:
   // right.
   Length length(Vertex_index v, Vertex_index w, Vertex_index l, Vertex_index r) const
   {
-    const Vector e = vector(v, w), to_r = vector(v, r);
-    const Vector left = cross(e, vector(v, l)), right = cross(to_r, e);
+    const Vector e = vector(v, w), to_l = vector(v, l), to_r = vector(v, r);
+    const Vector left = cross(e, to_l), right = cross(to_r, e);
     const double dot = left[0] * right[0] + left[1] * right[1] + left[2] * right[2];
-    const double squares = squared(left) * squared(right), length = norm(e);
-    if(dot > 0. && dot * dot >= m_cos_flat * m_cos_flat * squares)
+    const double left_2 = squared(left), right_2 = squared(right), e_2 = squared(e);
+    const double squares = left_2 * right_2, length = std::sqrt(e_2);
+    if((dot > 0. && dot * dot >= m_cos_flat * m_cos_flat * squares)
+       || !(left_2 > least_sine_2 * e_2 * squared(to_l))
+       || !(right_2 > least_sine_2 * e_2 * squared(to_r)))
       return to_units(length);
     return to_units(length * factor(dot, squares, left, to_r));
   }
@@ -73,11 +76,12 @@ private:
   // coordinates reach half a unit once in 10^7 edges.
   static constexpr double units = double(1u << 28);
 
+  // Triangles with a smaller sine, squared, have no normal but that of their rounding errors.
+  static constexpr double least_sine_2 = 1e-12;
+
   // What a length is multiplied by across an edge between normals with this product.
   double factor(double dot, double squares, const Vector& left, const Vector& to_r) const
   {
-    if(!(squares > 0.))
-      return 1.;
     double sharpness = (m_cos_flat - dot / std::sqrt(squares)) / (m_cos_flat - m_cos_sharp);
     // The right triangle rises above the plane of the left one
     if(left[0] * to_r[0] + left[1] * to_r[1] + left[2] * to_r[2] > 0.)

@@ -40,7 +40,7 @@ public:
     , m_plain(mesh.points, plain_weights())
   {
     m_graph.set_seams(
-      charts_between(m_graph.mesh(), std::vector<std::uint8_t>(mesh.triangles.size())).seams);
+      label_charts(m_graph.mesh(), std::vector<std::uint8_t>(mesh.triangles.size())).seams);
     for(Vertex_index v = 0; v < mesh.points.size(); ++v)
       m_is_closed = m_is_closed && !m_graph.is_border(v);
   }
