@@ -228,6 +228,7 @@ TEST(Straighten_charts, makes_a_seam_of_the_plane_straight)
   ASSERT_EQ(error_in_disks(mesh, before), "") << seed_text;
   SMT::Straightening_options options;
   options.rounds = 8;
+  options.rings = 4;
   const Face_charts after = SMT::straighten_charts(mesh, before, options);
   EXPECT_GT(SMT::measure_seams(mesh, before).length, 1.6 * n);
   EXPECT_LT(SMT::measure_seams(mesh, after).length, 1.15 * shortest_way_across(mesh, n))
@@ -279,6 +280,8 @@ TEST(Straighten_charts, follows_the_creases_of_a_cube)
   ASSERT_EQ(error_in_disks(mesh, before), "");
   SMT::Straightening_options options;
   options.rounds = 4;
+  options.rings = 4;
+  options.pinned_defect = 200.;
   const Face_charts after = SMT::straighten_charts(mesh, before, options);
   EXPECT_EQ(SMT::measure_seams(mesh, after).edges, std::size_t(4 * n));
   for(std::size_t t = 0; t < mesh.triangles.size(); ++t)
