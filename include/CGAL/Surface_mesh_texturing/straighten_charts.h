@@ -20,8 +20,11 @@ namespace Surface_mesh_texturing {
 struct Straightening_options
 {
   int rounds = 2;          ///< over all seams; 0: seams stay where they are
-  int rings = 4;           ///< how far a seam may move in a round, in edges
+  int rings = 1;           ///< how far a seam may move in a round, in edges
   std::size_t window = 24; ///< the length of the pieces that are made shortest, in edges
+  /// Vertices on seams stay there if the angles around them differ from a full turn by that much, on
+  /// the coarse mesh if there is one; degrees. Seams must reach tips, or charts are much distorted.
+  double pinned_defect = 25.;
   Crease_weights creases;  ///< what is taken to be short
 };
 
@@ -29,7 +32,7 @@ namespace internal {
 
 inline Straightening_reach reach_of(const Straightening_options& options)
 {
-  return {options.rings, options.window, options.rounds};
+  return {options.rings, options.window, 0, options.rounds};
 }
 
 } // namespace internal
@@ -71,7 +74,7 @@ inline Seam_length measure_seams(const Indexed_triangle_mesh& mesh, const Face_c
 Returns charts with shorter seams: pieces of `window` edges are replaced by the shortest paths of
 edges in a band of `rings` edges around them, where creases count less, and junctions of seams move
 to where their seams are shortest, those on the border of the surface along it. The ends of seams
-within a chart stay. If all charts are disks, they still are, and their number does not change. The
+within a chart, and vertices of much curvature, stay. If all charts are disks, they still are, and their number does not change. The
 weighted length of the seams never grows.
 
 Time linear in the number of triangles, with a small constant, plus that of the seam edges times
@@ -84,6 +87,7 @@ inline Face_charts straighten_charts(const Indexed_triangle_mesh& mesh, const Fa
   CGAL_precondition(charts.seams.size() == mesh.triangles.size());
   internal::Seam_net graph(mesh.triangles, mesh.points, options.creases);
   graph.set_seams(charts.seams);
+  graph.pin_curved(options.pinned_defect);
   internal::Seam_straightener(graph).run(internal::reach_of(options));
   return internal::label_charts(graph.mesh(), graph.seams());
 }

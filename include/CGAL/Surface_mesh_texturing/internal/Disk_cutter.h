@@ -86,7 +86,7 @@ private:
   void add_generators();
   std::size_t add_path(const Forest& forest, Vertex_index v);
   void prune();
-  void shorten() { Seam_straightener(m_graph).run({8, 48, 4}); }
+  void shorten() { Seam_straightener(m_graph).run({8, 48, 0, 4}); }
   void add_extremities();
 
   Disk_cut m_options;

@@ -20,7 +20,7 @@ struct Straightening_reach
 {
   int rings;          // how far a piece of a seam may move, in edges
   std::size_t window; // the length of a piece, in edges
-  int rounds;
+  int first_round, end_round; // in odd ones pieces are shifted by half their length
 };
 
 // Makes the seams of a mesh shorter, piece by piece.
@@ -40,8 +40,10 @@ public:
   void run(const Straightening_reach& reach)
   {
     m_reach = reach;
+    if(reach.first_round == reach.end_round)
+      return;
     Seam_arcs arcs = find_seam_arcs(m_graph);
-    for(int round = 0; round < reach.rounds; ++round) {
+    for(int round = reach.first_round; round < reach.end_round; ++round) {
       for(Path& arc : arcs.arcs)
         straighten(arc, round);
       for(const Arc_end* first = arcs.ends.data(), *end = first + arcs.ends.size(); first != end;) {
@@ -151,6 +153,8 @@ inline void Seam_straightener::slide(const Arc_end* first, const Arc_end* last,
   const Path& arc = arcs[end.arc];
   const Vertex_index node = end.is_last ? target(arc.back()) : source(arc.front());
   const std::uint32_t degree = std::uint32_t(last - first);
+  if(m_graph.is_pinned(node))
+    return;
   if(m_graph.is_border(node)) {
     if(degree == 1 && m_graph.degree(node) == 3)
       slide_on_border(end, arcs[end.arc]);
