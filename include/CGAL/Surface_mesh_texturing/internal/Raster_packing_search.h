@@ -227,16 +227,18 @@ inline void Raster_packing_search::refine(const Plan& plan)
 
 inline void Raster_packing_search::maximize()
 {
-  constexpr double first_work = 6e8, work_per_second = 1e9;
+  constexpr double first_work = 4e8, work_per_second = 1e9;
+  constexpr std::size_t first_rounds = 6;
   Plan plan = first_plan();
   if(!plan.packing.is_complete)
     return;
   std::size_t round = 0;
-  for(; m_work < first_work && !m_is_cancelled; ++round)
+  for(; round < first_rounds && m_work < first_work && plan.level < 0 && !m_is_cancelled; ++round)
     improve(plan, round);
   refine(plan);
   m_work = 0.;
-  for(; m_work < work_per_second * m_options.time_budget && !m_is_cancelled; ++round)
+  for(; m_work < work_per_second * m_options.time_budget && plan.level < 0 && !m_is_cancelled;
+      ++round)
     if(improve(plan, round))
       refine(plan);
 }
