@@ -46,16 +46,15 @@ inline Packing_raster exact_raster(const Packing_options& options)
   return result;
 }
 
-// A raster of about `cells` cells along the longer side, or the same if it is not finer. Charts
-// that touch a cell in part grow by half a cell on each side on average, and by half the padding;
-// the padding is chosen such that both together are what they are on the exact raster, if possible.
-inline Packing_raster coarser_raster(const Packing_raster& exact, int cells)
+// A raster of about `cells` cells, or the same if it has not more. Charts that touch a cell in part
+// grow by half a cell on each side on average, and by half the padding; the padding is chosen such
+// that both together are what they are on the exact raster, if possible.
+inline Packing_raster coarser_raster(const Packing_raster& exact, double cells)
 {
-  const int side = (std::max)(exact.width, exact.height);
-  if(side <= cells)
+  const double ratio = std::sqrt(double(exact.width) * exact.height / cells);
+  if(!(ratio > 1.))
     return exact;
   Packing_raster result = exact;
-  const double ratio = double(side) / cells;
   result.cell = exact.cell * ratio;
   result.width = (std::max)(1, int(exact.width / ratio + 1e-6));
   result.height = (std::max)(1, int(exact.height / ratio + 1e-6));
