@@ -1,7 +1,8 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// How well and how fast charts are packed, by both packers on the same charts: a CSV file on stdout.
+// How well and how fast charts are packed, by both packers on the same charts: a CSV file on
+// stdout.
 //
 // Usage: packing [MESH...]
 //
@@ -38,7 +39,7 @@ namespace SMP = CGAL::Surface_mesh_parameterization;
 namespace SMT = CGAL::Surface_mesh_texturing;
 typedef std::vector<SMT::Chart_shape> Charts;
 
-// The labels of the faces nearest to each seed; distances from a seed count as divided by its reach.
+// The faces nearest to each seed; distances from a seed count as divided by its reach.
 class Nearest_seeds
 {
 public:

@@ -52,7 +52,8 @@ std::vector<Triangle> placed_triangles(const Chart_shape& chart, const Chart_pla
   return result;
 }
 
-// Whether a line with the given normal separates the triangle from the texel [x, x + 1] x [y, y + 1].
+// Whether a line with the given normal separates the triangle from the texel
+// [x, x + 1] x [y, y + 1].
 bool separates(double nx, double ny, const Triangle& t, int x, int y)
 {
   double lo = std::numeric_limits<double>::infinity(), hi = -lo, low = lo, high = hi;
@@ -481,7 +482,8 @@ TEST(Raster_packer_test, PutsAChartIntoTheHoleOfAnother)
   const Packing_options options = small_page(256, 256);
   const Packing_result result = pack_charts(charts, options);
   ASSERT_EQ(packing_error(charts, options, result), "");
-  const Point_2 p = result.placements[0](Point_2(0., 0.)), q = result.placements[1](Point_2(0., 0.));
+  const Point_2 p = result.placements[0](Point_2(0., 0.));
+  const Point_2 q = result.placements[1](Point_2(0., 0.));
   EXPECT_LT(std::sqrt(CGAL::squared_distance(p, q)), 0.1 * result.texels_per_unit);
 }
 

@@ -72,8 +72,8 @@ struct Chart_raster
   std::vector<int> rim;                // some cells around it, see `rim_of()`
 };
 
-// Cells just outside of the mask, and those two cells further, evenly chosen, as offsets in the rows
-// of a `Page_raster` from the mask's lower left corner.
+// Cells just outside of the mask, and those two cells further, evenly chosen, as offsets in the
+// rows of a `Page_raster` from the mask's lower left corner.
 inline std::vector<int> rim_of(const Texel_mask& mask, int stride)
 {
   constexpr std::size_t samples = 64; // of each rim
