@@ -198,8 +198,9 @@ std::vector<Texel_in_triangle> texels_in(const std::vector<std::array<Gltf_verte
         hi[c] = (std::max)(hi[c], v.uv[c]);
       }
     const double w = double(image.width), h = double(image.height);
-    for(double x = std::floor(lo[0] * w); x <= hi[0] * w && x < w; ++x)
-      for(double y = std::floor((1. - hi[1]) * h); y <= (1. - lo[1]) * h && y < h; ++y) {
+    for(double x = (std::max)(0., std::floor(lo[0] * w)); x <= hi[0] * w && x < w; ++x)
+      for(double y = (std::max)(0., std::floor((1. - hi[1]) * h));
+          y <= (1. - lo[1]) * h && y < h; ++y) {
         const std::size_t i = std::size_t(x), j = std::size_t(y);
         const auto weights = weights_in(triangles[t], centre_of(i, j, image));
         if(*std::min_element(weights.begin(), weights.end()) > 1e-6)
