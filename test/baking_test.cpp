@@ -666,6 +666,41 @@ TEST(Baked_map, beside_the_fine_surface_has_the_value_of_the_nearest_point)
   EXPECT_GT(beside, 100u);
 }
 
+TEST(Baked_map, has_nothing_of_the_chart_next_to_it)
+{
+  // The hole of the light ring is smaller than the fine one and reaches into the disk in its middle.
+  const auto with_disk = [](Vertex_index sectors) {
+    Textured_triangle_mesh mesh = ring(sectors);
+    const Vertex_index first = Vertex_index(mesh.points.size());
+    const Indexed_triangle_mesh disk = fan(60);
+    for(const Point_3& p : disk.points) {
+      mesh.points.emplace_back(0.5 + 0.19 * p.x(), 0.5 + 0.19 * p.y(), 0.);
+      mesh.uv.emplace_back(mesh.points.back().x(), mesh.points.back().y());
+    }
+    const Vertex_index shift = Vertex_index(mesh.uv.size() - mesh.points.size());
+    for(const Triangle_indices& t : disk.triangles) {
+      mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+      mesh.wedges.push_back({shift + first + t[0], shift + first + t[1], shift + first + t[2]});
+    }
+    return mesh;
+  };
+  const Textured_triangle_mesh fine = with_disk(96), light = with_disk(6);
+  std::vector<float> values(fine.points.size(), 1.f); // of the disk
+  std::fill_n(values.begin(), 2 * 96, 0.f);
+  const Baked_map map = bake_vertex_colors(fine, values, 1, light, options_of(200));
+  const SMT::Tangent_frames frames = tangent_frames(light, vertex_normals(light));
+  std::size_t beside = 0;
+  for(const Texel_in_triangle& p : texels_in(gltf_triangles(light, frames), map.image)) {
+    const Point_2 q = centre_of(p.x, p.y, map.image);
+    const bool is_ring = p.triangle < 2 * 6; // which comes first where both are
+    beside += is_ring && std::hypot(q.x() - 0.5, q.y() - 0.5) < 0.189 ? 1 : 0;
+    if(is_ring || std::hypot(q.x() - 0.5, q.y() - 0.5) < 0.17) {
+      ASSERT_EQ(*map.image.texel(p.x, p.y), is_ring ? 0.f : 1.f) << p.x << ", " << p.y;
+    }
+  }
+  EXPECT_GT(beside, 100u);
+}
+
 TEST(Baked_map, is_filled_as_far_as_wanted_from_the_nearest_texel)
 {
   const Textured_triangle_mesh mesh = ring(24);

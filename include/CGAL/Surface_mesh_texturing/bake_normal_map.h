@@ -137,7 +137,7 @@ inline Baked_map bake_normal_map(const Textured_triangle_mesh& fine,
   result.error = internal::baking_error(fine, light, options);
   if(!result.error.empty())
     return result;
-  return bake(light, Equal_uv(fine, options),
+  return bake(light, Equal_uv(fine, light, options),
               Normal_shader(fine.triangles, normals, light.triangles, frames, options.space),
               options);
 }
