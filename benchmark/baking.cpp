@@ -1,9 +1,9 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What it costs to bake normals into the texture of light models, and what is seen of it: a CSV file
-// on stdout. Angles are in degrees, between the normals of the original and those of the model with
-// an 8-bit map and without one, from twelve sides.
+// What it costs to bake normals into the texture of light models, and what is seen of it: a CSV
+// file on stdout. Angles are in degrees, between the normals of the original and those of the model
+// with an 8-bit map and without one, from twelve sides.
 //
 // Usage: baking CHART...
 

@@ -668,7 +668,7 @@ TEST(Baked_map, beside_the_fine_surface_has_the_value_of_the_nearest_point)
 
 TEST(Baked_map, has_nothing_of_the_chart_next_to_it)
 {
-  // The hole of the light ring is smaller than the fine one and reaches into the disk in its middle.
+  // The hole of the light ring is smaller than the fine one: the ring reaches into the disk in it.
   const auto with_disk = [](Vertex_index sectors) {
     Textured_triangle_mesh mesh = ring(sectors);
     const Vertex_index first = Vertex_index(mesh.points.size());

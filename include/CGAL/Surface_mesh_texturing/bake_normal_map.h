@@ -145,8 +145,8 @@ inline Baked_map bake_normal_map(const Textured_triangle_mesh& fine,
 /*!
 \ingroup PkgHLSCMTexturing
 
-Bakes the normals of `fine` into a texture of `light`, both with their `vertex_normals()` and `light`
-with its `tangent_frames()`; see the other overload.
+Bakes the normals of `fine` into a texture of `light`, both with their `vertex_normals()` and
+`light` with its `tangent_frames()`; see the other overload.
 */
 inline Baked_map bake_normal_map(const Textured_triangle_mesh& fine,
                                  const Textured_triangle_mesh& light,

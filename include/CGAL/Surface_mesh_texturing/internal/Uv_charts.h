@@ -14,8 +14,9 @@ namespace CGAL {
 namespace Surface_mesh_texturing {
 namespace internal {
 
-// The chart of each triangle of a textured mesh: triangles that share a vertex with the same texture
-// coordinate lie in the same one. That needs no adjacency, and joins charts that touch in a point.
+// The chart of each triangle of a textured mesh: triangles that share a vertex with the same
+// texture coordinate lie in the same one. That needs no adjacency, and joins charts that touch in a
+// point.
 class Uv_charts
 {
 public:
