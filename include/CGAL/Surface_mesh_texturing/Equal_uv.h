@@ -28,7 +28,7 @@ nearest sample of the image that lies in it. (Charts are triangles that share ve
 coordinates; one of the light model belongs to the fine one in which most of it lies. Own points are
 looked for up to 64 samples away, before the nearest one of any chart counts.)
 
-Memory: 8 bytes a sample, 16 bytes a texture coordinate, 8 bytes a triangle. Linear time.
+Memory: 6 bytes a sample, 16 bytes a texture coordinate, 8 bytes a triangle. Linear time.
 
 \cgalModels{SurfaceCorrespondence}
 */
