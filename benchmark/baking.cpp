@@ -28,10 +28,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
-#include <set>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -41,8 +39,6 @@ namespace SMM = CGAL::Surface_mesh_multiresolution;
 namespace SMP = CGAL::Surface_mesh_parameterization;
 namespace SMT = CGAL::Surface_mesh_texturing;
 using timing::median_seconds_of;
-
-constexpr int repetitions = 3;
 
 // The chart with its conformal map in the unit square.
 SMM::Textured_triangle_mesh read_textured(const std::string& path)
@@ -80,32 +76,32 @@ public:
     , m_frames(SMT::tangent_frames(light, SMT::vertex_normals(light)))
   {}
 
-  const SMT::Tangent_frames& frames() const { return m_frames; }
-
+  // A row: the time with one thread and with all, and what is seen of the map.
   template <class Bake>
-  void add(const char* method, const SMT::Baking_options& options, unsigned int threads,
+  void add(const char* method, const SMT::Baking_options& options, int repetitions,
            const Bake& bake) const
   {
+    const CGAL::Blocked_execution::Thread_scope all_threads(0);
     SMT::Baked_map map;
-    double seconds = 0.;
+    const double seconds = median_seconds_of(repetitions, [&] { map = bake(); });
+    double with_one_thread = 0.;
     {
-      const CGAL::Blocked_execution::Thread_scope scope(threads);
-      seconds = median_seconds_of(repetitions, [&] { map = bake(); });
+      const CGAL::Blocked_execution::Thread_scope one_thread(1);
+      with_one_thread = median_seconds_of(repetitions, [&] { map = bake(); });
     }
     if(!map.error.empty())
       throw std::runtime_error(m_chart + ": " + map.error);
-    const CGAL::Blocked_execution::Thread_scope scope(0);
     const SMT::Texture_image decoded = SMT::decode_values(
       SMT::encode_unit_vectors<std::uint8_t>(map.image), map.image, -1., 1.);
     const SMT::Rendering_error error
       = SMT::rendering_error(m_fine, m_light, m_frames, decoded, SMT::Normal_space::TANGENT);
+    const double texels = double(options.width * options.height);
     std::cout << m_chart << ',' << m_fine.triangles.size() << ',' << m_light.triangles.size() << ','
-              << method << ',' << options.width << ',' << options.samples << ',' << threads << ','
-              << seconds << ',' << double(options.width * options.height) / seconds << ','
-              << double(map.number_of_covered_texels) / double(options.width * options.height)
-              << ',' << error.mean_angle << ',' << error.angle_95 << ','
-              << error.mean_angle_without_map << ',' << error.angle_95_without_map << ','
-              << error.silhouette_difference << std::endl;
+              << method << ',' << options.width << ',' << options.samples << ','
+              << with_one_thread << ',' << seconds << ',' << texels / seconds << ','
+              << double(map.number_of_covered_texels) / texels << ',' << error.mean_angle << ','
+              << error.angle_95 << ',' << error.mean_angle_without_map << ','
+              << error.angle_95_without_map << ',' << error.silhouette_difference << std::endl;
   }
 
 private:
@@ -116,24 +112,26 @@ private:
 };
 
 // All that comes after the two models: their normals and frames, the map, its dilation.
-void measure(const std::string& chart, const SMM::Textured_triangle_mesh& fine,
-             const SMM::Textured_triangle_mesh& light)
+void measure_equal_uv(const Baking_table& table, const SMM::Textured_triangle_mesh& fine,
+                      const SMM::Textured_triangle_mesh& light, std::size_t size)
 {
-  const Baking_table table(chart, fine, light);
-  const unsigned int most = std::max(1u, std::thread::hardware_concurrency());
-  SMT::Baking_by_rays_options options;
-  for(const std::size_t size : {1024, 2048, 4096})
-    for(const unsigned int threads : std::set<unsigned int>{1, most}) {
-      options.width = options.height = size;
-      table.add("equal uv", options, threads,
-                [&] { return SMT::bake_normal_map(fine, light, options); });
-    }
+  SMT::Baking_options options;
+  options.width = options.height = size;
+  table.add("equal uv", options, 3, [&] { return SMT::bake_normal_map(fine, light, options); });
+}
+
+// The same with the hierarchy of the fine surface.
+void measure_rays([[maybe_unused]] const Baking_table& table,
+                  [[maybe_unused]] const SMM::Textured_triangle_mesh& fine,
+                  [[maybe_unused]] const SMM::Textured_triangle_mesh& light)
+{
 #ifndef HLSCM_WITHOUT_EMBREE
+  SMT::Baking_by_rays_options options;
   options.width = options.height = 2048;
   options.max_distance = 0.05;
-  table.add("rays (Embree)", options, most, [&] {
-    return SMT::bake_normal_map_by_rays<SMT::Embree_ray_caster>({fine.points, fine.triangles},
-                                                                light, options);
+  const SMM::Indexed_triangle_mesh surface = {fine.points, fine.triangles};
+  table.add("rays (Embree)", options, 1, [&] {
+    return SMT::bake_normal_map_by_rays<SMT::Embree_ray_caster>(surface, light, options);
   });
 #endif
 }
@@ -145,9 +143,17 @@ void print_rows(const std::string& path)
   if(!result.error.empty())
     throw std::runtime_error(path + ": " + result.error);
   const SMM::Level_extractor levels(result.mesh);
-  for(const std::size_t triangles : {2000, 8000})
-    measure(std::filesystem::path(path).stem().string(), fine,
-            SMM::textured_level(result.mesh, levels, levels.position_of_triangles(triangles)));
+  const std::string name = std::filesystem::path(path).stem().string();
+  for(const std::size_t triangles : {2000, 8000}) {
+    const SMM::Textured_triangle_mesh light
+      = SMM::textured_level(result.mesh, levels, levels.position_of_triangles(triangles));
+    const Baking_table table(name, fine, light);
+    for(const std::size_t size : {1024, 2048, 4096})
+      if(triangles == 8000 || size == 2048)
+        measure_equal_uv(table, fine, light, size);
+    if(triangles == 8000)
+      measure_rays(table, fine, light);
+  }
 }
 
 } // namespace
@@ -156,9 +162,9 @@ int main(int argc, char** argv)
 {
   try {
     std::cout << "# " << machine::description()
-              << "\nchart,faces,light_faces,method,size,samples,threads,seconds,texels_per_second,"
-                 "covered,mean_angle,angle_95,mean_angle_without_map,angle_95_without_map,"
-                 "silhouette_difference\n";
+              << "\nchart,faces,light_faces,method,size,samples,seconds_with_one_thread,seconds,"
+                 "texels_per_second,covered,mean_angle,angle_95,mean_angle_without_map,"
+                 "angle_95_without_map,silhouette_difference\n";
     for(int i = 1; i < argc; ++i)
       print_rows(argv[i]);
   } catch(const std::exception& e) {

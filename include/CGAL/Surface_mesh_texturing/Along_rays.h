@@ -9,7 +9,6 @@
 
 #include <CGAL/assertions.h>
 
-#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -67,28 +66,25 @@ public:
       const Point_3 p
         = origin + internal::position(m_light.points, t, sample.light.weights, origin);
       const Ray_hit above = cast(p, n, n), below = cast(p, -n, n);
-      sample.fine
-        = std::abs(below.distance) < std::abs(above.distance) ? below.point : above.point;
+      sample.fine = below.distance < above.distance ? below.point : above.point;
     }
   }
 
 private:
   // The first hit that looks along n. The ray begins a little behind p, where rounding may have
-  // put a surface that goes through p.
+  // put a surface that goes through p; its distance is that from there.
   Ray_hit cast(const Point_3& p, const Vector_3& direction, const Vector_3& n) const
   {
     const double behind = 1e-3 * m_max_distance, step = 1e-5 * m_max_distance;
     const int most_layers = 64; // of surfaces seen from behind: each takes one more ray
     double nearest = 0.;
     for(int i = 0; i < most_layers; ++i) {
-      Ray_hit hit = m_caster.cast(p - behind * direction, direction, nearest,
-                                  behind + m_max_distance);
+      const Ray_hit hit = m_caster.cast(p - behind * direction, direction, nearest,
+                                        behind + m_max_distance);
       if(!hit.point.exists())
         break;
-      if(normal(hit.point.triangle) * n > 0.) {
-        hit.distance -= behind;
+      if(normal(hit.point.triangle) * n > 0.)
         return hit;
-      }
       nearest = hit.distance + step;
     }
     return {};
