@@ -70,11 +70,12 @@ public:
   }
 
   // Not a finite number only if the code is not one of a writer.
+  template <Value_format format>
   double value_of(const Code& code, int c) const
   {
-    if(m_format == Value_format::QUANTIZED)
+    if(format == Value_format::QUANTIZED)
       return m_origin[c] + m_step[c] * code.high;
-    if(m_format == Value_format::FLOAT32)
+    if(format == Value_format::FLOAT32)
       return float_of(unordered(code.high));
     return double_of(std::uint64_t(unordered(code.high)) << 32 | code.low);
   }
