@@ -73,7 +73,10 @@ public:
   /// after `coarse` collapses: a geomorph (Hoppe 1996) between the two levels draws the triangles
   /// of the fine one with wedge \f$ w \f$ at \f$ (1 - \alpha) x_w + \alpha x_{a(w)} \f$, its
   /// texture coordinate likewise. Precondition: `fine <= coarse`.
-  std::vector<Vertex_index> ancestors(std::size_t fine, std::size_t coarse) const;
+  std::vector<Vertex_index> ancestors(std::size_t fine, std::size_t coarse) const
+  {
+    return internal::wedge_ancestors(m_mesh, fine, coarse);
+  }
 
 private:
   Vertex_index ancestor(Vertex_index w, Vertex_index end) const
@@ -123,17 +126,6 @@ inline void Level_extractor::extract(std::size_t k, std::vector<Triangle_indices
   for(std::size_t t = 0; t < number; ++t)
     for(int c = 0; c < 3; ++c)
       result[t][c] = ancestor((*source)[t][c], end);
-}
-
-inline std::vector<Vertex_index> Level_extractor::ancestors(std::size_t fine,
-                                                            std::size_t coarse) const
-{
-  CGAL_precondition(fine <= coarse);
-  const Vertex_index end = Vertex_index(m_mesh.number_of_wedges_after(coarse));
-  std::vector<Vertex_index> result(m_mesh.number_of_wedges_after(fine));
-  for(Vertex_index w = 0; w < result.size(); ++w)
-    result[w] = w < end ? w : result[m_parent[w]];
-  return result;
 }
 
 } // namespace Surface_mesh_multiresolution
