@@ -5,9 +5,9 @@
 //
 // Usage: swimming MESH...
 //
-// Each mesh, a disk, is mapped by several methods; build_textured_progressive_mesh() makes levels of
-// it under each map, with its default options. Beside them stand meshes that CGAL's quadrics make,
-// whose vertices get the texture coordinates of the nearest point of the fine surface.
+// Each mesh, a disk, is mapped by several methods. build_textured_progressive_mesh() makes its
+// levels under each map, with its default options. Beside them stand meshes that CGAL's quadrics
+// make, whose vertices get the texture coordinates of the nearest point of the fine surface.
 
 #include "charts/chart_io.h"
 #include "machine.h"

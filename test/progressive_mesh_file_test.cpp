@@ -95,7 +95,8 @@ std::string error_in_level(const SMM::Read_progressive_mesh& read,
   const auto is_near = [](double a, double b, double bound) {
     const double rounding = 4. * std::numeric_limits<double>::epsilon()
                           * (std::abs(a) + std::abs(b) + 65536. * bound);
-    return bound == 0. ? SMM::internal::bits_of(a) == SMM::internal::bits_of(b)
+    return bound == 0. ? SMM::internal::bit_cast<std::uint64_t>(a)
+                           == SMM::internal::bit_cast<std::uint64_t>(b)
                        : std::abs(a - b) <= bound + rounding;
   };
   for(std::size_t v = 0; v < read.mesh.points.size(); ++v)

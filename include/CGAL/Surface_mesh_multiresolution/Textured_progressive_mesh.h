@@ -106,8 +106,8 @@ namespace internal {
 // How a triangle of a mesh comes into being whose wedges are numbered coarse first.
 struct Triangle_birth
 {
-  std::uint32_t order; // 0: in the coarsest level. Then 1 and 2 for the triangles to the left and to
-                       // the right that the first split makes, 3 and 4 for those of the second ...
+  std::uint32_t order; // 0 in the coarsest level; 1 and 2 to the left and to the right of what the
+                       // first split adds, 3 and 4 of the second ...
   std::uint32_t place; // of the new wedge; 0 in the coarsest level
 };
 

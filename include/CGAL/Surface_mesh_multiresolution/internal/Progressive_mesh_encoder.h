@@ -146,7 +146,8 @@ inline void Progressive_mesh_encoder::set_values()
 }
 
 // Residuals are the shorter way round if values have fewer than 32 bits.
-inline void Progressive_mesh_encoder::put_values(Vertex_index w, const std::array<std::uint32_t, 5>& predicted)
+inline void Progressive_mesh_encoder::put_values(Vertex_index w,
+                                                 const std::array<std::uint32_t, 5>& predicted)
 {
   for(int c = is_second(w) ? 3 : 0; c < 5; ++c) {
     const std::uint32_t mask = m_codec.mask(c), sign = (mask >> 1) + 1;
