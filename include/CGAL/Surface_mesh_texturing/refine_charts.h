@@ -63,8 +63,8 @@ The collapses are undone one by one. Where a vertex on seams becomes two, each s
 triangles beside it, and the new edge becomes a seam if it must join the seams of both; so the graph
 of the seams keeps its homotopy type, and each chart its topology. Each time the mesh has four times
 the vertices the seams are made straight in one round, and at the end in all rounds (see
-`straighten_charts()`), which costs time in proportion to their length. In all, a seam moves by about
-two edges of the coarse mesh at most.
+`straighten_charts()`), which costs time in proportion to their length. In all, a seam moves by
+about two edges of the coarse mesh at most.
 
 \param pm whose collapses keep the mesh a manifold, of the same topology, and border vertices on the
 border, as those of `Flat_collapse_engine`
