@@ -37,8 +37,8 @@ Returns `charts` with seams added within those charts that are no disks, until a
 short and prefer creases, concave ones above all. A chart with several borders gets seams between
 them, a chart with handles seams along these, and a closed chart a tree of seams to its extremities.
 
-Any surface that `Face_charts` can describe will do. Time \f$ O(n \log n) \f$ for the charts that are
-no disks, linear for the others.
+Any surface that `Face_charts` can describe will do. Time \f$ O(n \log n) \f$ for the charts that
+are no disks, linear for the others.
 */
 inline Face_charts cut_to_disks(const Indexed_triangle_mesh& mesh, Face_charts charts,
                                 const Disk_cut_options& options = Disk_cut_options())

@@ -63,8 +63,8 @@ The collapses are undone one by one. Where a vertex on seams becomes two, each s
 triangles beside it, and the new edge becomes a seam if it must join the seams of both; so the graph
 of the seams keeps its homotopy type, and each chart its topology. Each time the mesh has four times
 the vertices the seams are made straight in one round, and at the end in all rounds (see
-`straighten_charts()`), which costs time in proportion to their length. In all, a seam moves by one
-or two edges of the coarse mesh at most.
+`straighten_charts()`), which costs time in proportion to their length. In all, a seam moves by
+about two edges of the coarse mesh at most.
 
 \param pm whose collapses keep the mesh a manifold, of the same topology, and border vertices on the
 border, as those of `Flat_collapse_engine`
@@ -91,12 +91,14 @@ inline Face_charts refine_charts(const Progressive_mesh& pm,
     if(edges[i] != internal::no_halfedge)
       graph.split(edges[i], pm.collapses[i].removed, pm.collapses[i].kept);
     if(options.rounds > 0 && i > 0 && pm.number_of_vertices_after(i) >= next_level) {
-      straightener.run({options.rings, options.window, level, level + 1});
+      straightener.run({options.rings + (std::min)(level, 2), options.window, level, level + 1});
       ++level;
       next_level *= 4;
     }
   }
-  straightener.run(internal::reach_of(options));
+  internal::Straightening_reach last = internal::reach_of(options);
+  last.rings += (std::min)(level, 2); // edges are short by now
+  straightener.run(last);
   return internal::label_charts(graph.mesh(), graph.seams());
 }
 

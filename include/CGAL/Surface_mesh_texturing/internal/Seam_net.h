@@ -55,9 +55,9 @@ public:
   // Whether seams that pass v are to stay there.
   bool is_pinned(Vertex_index v) const { return m_is_pinned[v] != 0; }
 
-  // Pins the vertices on seams inside the surface the angles around which differ from a full turn by
-  // at least `defect` degrees: tips and saddles, from which a chart would be much distorted if its
-  // border did not reach them.
+  // Pins the vertices on seams inside the surface the angles around which differ from a full turn
+  // by at least `defect` degrees: tips and saddles, around which a chart would be much distorted if
+  // its border did not reach them.
   void pin_curved(double defect);
 
   void add_seam(Halfedge h)

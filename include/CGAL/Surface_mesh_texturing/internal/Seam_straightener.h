@@ -27,10 +27,10 @@ struct Straightening_reach
 //
 // Why all charts stay disks: a piece has a chart on each side. Without the piece the two are one
 // disk, with the ends of the piece on its border; any other path between these ends, and through
-// the sectors that were open to the piece, cuts it into two disks again. If the same chart is on both
-// sides, the piece either joins the two borders of an annulus, as any other path would, or one of
-// its ends is the end of the seam. For a junction of several seams the same holds in a band without
-// holes.
+// the sectors that were open to the piece, cuts it into two disks again. If the same chart is on
+// both sides, the piece either joins the two borders of an annulus, as any other path would, or one
+// of its ends is the end of the seam. For a junction of several seams the same holds in a band
+// without holes.
 class Seam_straightener
 {
 public:
