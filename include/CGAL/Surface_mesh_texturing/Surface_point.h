@@ -1,0 +1,77 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_SURFACE_POINT_H
+#define CGAL_SURFACE_MESH_TEXTURING_SURFACE_POINT_H
+
+#include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+
+using Surface_mesh_multiresolution::Indexed_triangle_mesh;
+using Surface_mesh_multiresolution::Textured_triangle_mesh;
+using Surface_mesh_multiresolution::Triangle_indices;
+using Surface_mesh_multiresolution::Vertex_index;
+using Surface_mesh_multiresolution::no_vertex;
+
+/// \ingroup PkgHLSCMTexturing
+/// A vector in space.
+typedef Simple_cartesian<double>::Vector_3 Vector_3;
+
+/// \ingroup PkgHLSCMTexturing
+/// "No triangle".
+constexpr std::uint32_t no_triangle = std::uint32_t(-1);
+
+/// \ingroup PkgHLSCMTexturing
+/// A point of a triangle mesh: a triangle and the barycentric coordinates in it.
+struct Surface_point
+{
+  std::uint32_t triangle = no_triangle;      ///< or `no_triangle`
+  std::array<double, 3> weights = {0, 0, 0}; ///< of its corners
+
+  /// Returns whether there is a point.
+  bool exists() const { return triangle != no_triangle; }
+};
+
+/// \ingroup PkgHLSCMTexturing
+/// Returns the linear interpolation of the vectors that the corners `corners` of a triangle have.
+inline Vector_3 interpolate(const std::array<double, 3>& weights, const Triangle_indices& corners,
+                            const std::vector<Vector_3>& values)
+{
+  const Vector_3 &a = values[corners[0]], &b = values[corners[1]], &c = values[corners[2]];
+  return Vector_3(weights[0] * a.x() + weights[1] * b.x() + weights[2] * c.x(),
+                  weights[0] * a.y() + weights[1] * b.y() + weights[2] * c.y(),
+                  weights[0] * a.z() + weights[1] * b.z() + weights[2] * c.z());
+}
+
+namespace internal {
+
+// The unit vector, or the zero vector if there is none.
+inline Vector_3 normalized(const Vector_3& v)
+{
+  const double squared_length = v * v;
+  return squared_length > 0. ? v / std::sqrt(squared_length) : Vector_3(0., 0., 0.);
+}
+
+// The point of a surface, relative to `origin` so that its distance costs no digits.
+inline Vector_3 position(const Textured_triangle_mesh& mesh, const Surface_point& point,
+                         const Textured_triangle_mesh::Point_3& origin)
+{
+  const Triangle_indices& t = mesh.triangles[point.triangle];
+  return point.weights[0] * (mesh.points[t[0]] - origin)
+       + point.weights[1] * (mesh.points[t[1]] - origin)
+       + point.weights[2] * (mesh.points[t[2]] - origin);
+}
+
+} // namespace internal
+
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_SURFACE_POINT_H

@@ -1,0 +1,206 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_BAKE_H
+#define CGAL_SURFACE_MESH_TEXTURING_BAKE_H
+
+#include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Surface_mesh_texturing/Baking_options.h>
+#include <CGAL/Surface_mesh_texturing/Surface_point.h>
+#include <CGAL/Surface_mesh_texturing/internal/Nearest_covered.h>
+#include <CGAL/Surface_mesh_texturing/internal/Uv_rasterizer.h>
+#include <CGAL/Surface_mesh_texturing/internal/baking_errors.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+
+/// \ingroup PkgHLSCMTexturing
+/// A sample of a row of a texture that lies in a chart of a light model.
+struct Baking_sample
+{
+  std::uint32_t x = 0;    ///< its column
+  Surface_point light;    ///< where it lies on the light model
+  Surface_point fine;     ///< the point of the fine surface, if there is one
+  bool is_beside = false; ///< whether `fine` is only near, in the sense of what found it
+};
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+Fills the texels of `map` that are not covered and at most `dilation` texels from one that is (from
+centre to centre) with the value of the nearest one. Linear time.
+*/
+inline void dilate(Baked_map& map, std::size_t dilation = unlimited_dilation)
+{
+  Texture_image& image = map.image;
+  if(dilation == 0 || map.number_of_covered_texels == 0)
+    return;
+  const internal::Nearest_covered nearest(image.width, image.height, [&map](std::size_t i) {
+    return bool(map.is_covered[i]);
+  });
+  const double limit = double(dilation) * double(dilation);
+  Blocked_execution::blocked_for(image.height, 16, [&](std::size_t y, std::size_t end) {
+    std::vector<std::size_t> cells;
+    for(; y < end; ++y) {
+      nearest.row(y, cells);
+      for(std::size_t x = 0; x < image.width; ++x) {
+        const std::size_t from_x = cells[x] % image.width, from_y = cells[x] / image.width;
+        const double dx = double(from_x) - double(x), dy = double(from_y) - double(y);
+        if(!map.is_covered[y * image.width + x] && dx * dx + dy * dy <= limit)
+          std::copy_n(image.texel(from_x, from_y), image.channels, image.texel(x, y));
+      }
+    }
+  });
+}
+
+namespace internal {
+
+// As in Baked_map.
+struct Sample_counts
+{
+  std::size_t samples = 0, beside = 0, without = 0;
+
+  Sample_counts operator+(const Sample_counts& other) const
+  {
+    return {samples + other.samples, beside + other.beside, without + other.without};
+  }
+  void operator+=(const Sample_counts& other) { *this = *this + other; }
+};
+
+// Bakes the rows of texels of one band; see bake().
+template <class SurfaceCorrespondence, class BakingShader>
+class Band_baker
+{
+public:
+  Band_baker(const Uv_rasterizer& raster, const SurfaceCorrespondence& correspondence,
+             const BakingShader& shader, std::size_t samples, Baked_map& map)
+    : m_raster(raster), m_correspondence(correspondence), m_shader(shader), m_samples(samples)
+    , m_map(map), m_channels(map.image.channels)
+  {}
+
+  // Bits of std::vector<bool> are not written by bands at the same time: is_covered is of bytes.
+  Sample_counts run(std::size_t band, std::vector<std::uint8_t>& is_covered) const
+  {
+    const std::size_t columns = m_raster.columns(), first = m_raster.begin_row(band);
+    std::vector<std::uint32_t> triangles((m_raster.end_row(band) - first) * columns);
+    m_raster.first_triangles(band, triangles.data());
+    std::vector<double> sums(m_map.image.width * m_channels), value(m_channels);
+    std::vector<std::uint32_t> numbers(m_map.image.width);
+    std::vector<Baking_sample> samples;
+    Sample_counts counts;
+    for(std::size_t y = first; y < m_raster.end_row(band); ++y) {
+      samples.clear();
+      for(std::size_t x = 0; x < columns; ++x) {
+        const std::uint32_t t = triangles[(y - first) * columns + x];
+        if(t != no_triangle)
+          samples.push_back({std::uint32_t(x), m_raster.point(t, x, y), {}, false});
+      }
+      m_correspondence.find(y, samples);
+      counts.samples += samples.size();
+      for(const Baking_sample& sample : samples) {
+        counts.beside += sample.is_beside ? 1 : 0;
+        counts.without += sample.fine.exists() ? 0 : 1;
+        if(!sample.fine.exists())
+          continue;
+        m_shader.shade(sample.fine, sample.light, value.data());
+        const std::size_t x = sample.x / m_samples;
+        for(std::size_t c = 0; c < m_channels; ++c)
+          sums[x * m_channels + c] += value[c];
+        ++numbers[x];
+      }
+      if((y + 1) % m_samples == 0)
+        write_row(y / m_samples, sums, numbers, is_covered);
+    }
+    return counts;
+  }
+
+private:
+  void write_row(std::size_t y, std::vector<double>& sums, std::vector<std::uint32_t>& numbers,
+                 std::vector<std::uint8_t>& is_covered) const
+  {
+    for(std::size_t x = 0; x < numbers.size(); ++x) {
+      if(numbers[x] == 0)
+        continue;
+      double* mean = &sums[x * m_channels];
+      for(std::size_t c = 0; c < m_channels; ++c)
+        mean[c] /= numbers[x];
+      m_shader.finish(mean);
+      std::copy_n(mean, m_channels, m_map.image.texel(x, y));
+      is_covered[y * numbers.size() + x] = 1;
+    }
+    std::fill(sums.begin(), sums.end(), 0.);
+    std::fill(numbers.begin(), numbers.end(), 0u);
+  }
+
+  const Uv_rasterizer& m_raster;
+  const SurfaceCorrespondence& m_correspondence;
+  const BakingShader& m_shader;
+  std::size_t m_samples;
+  Baked_map& m_map;
+  std::size_t m_channels;
+};
+
+} // namespace internal
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+Bakes an image of a fine surface in the texture of the light model `light`: of each sample of the
+image that lies in a triangle of `light` (in the first one, if several overlap), `correspondence`
+says which point of the fine surface it shows, and `shader` what is to be seen there.
+
+\tparam SurfaceCorrespondence has `void find(std::size_t y, std::vector<Baking_sample>& samples)
+const`, which sets `fine` of the samples of row `y` (of samples, not of texels) or leaves it;
+models are `Equal_uv` and `Along_rays`.
+\tparam BakingShader has `std::size_t channels() const`, `void shade(const Surface_point& fine,
+const Surface_point& light, double* value) const`, which sets the channels of a sample, and
+`void finish(double* mean) const`, which may change the mean of a texel.
+
+The result does not depend on the number of threads. Linear time beside that of `correspondence`.
+
+\pre `light` and `options` have no error in the sense of `bake_normal_map()`.
+*/
+template <class SurfaceCorrespondence, class BakingShader>
+Baked_map bake(const Textured_triangle_mesh& light, const SurfaceCorrespondence& correspondence,
+               const BakingShader& shader, const Baking_options& options)
+{
+  typedef internal::Band_baker<SurfaceCorrespondence, BakingShader> Baker;
+  const std::size_t texel_rows = 8, bands_between_progress = 16;
+  Baked_map map;
+  map.image = {options.width, options.height, shader.channels(), {}};
+  map.image.texels.assign(options.width * options.height * shader.channels(), 0.f);
+  const internal::Uv_rasterizer raster(light.uv, light.wedges, options.width * options.samples,
+                                       options.height * options.samples,
+                                       texel_rows * options.samples);
+  std::vector<std::uint8_t> is_covered(options.width * options.height, 0);
+  const Baker baker(raster, correspondence, shader, options.samples, map);
+  internal::Sample_counts counts;
+  const std::size_t bands = raster.number_of_bands();
+  for(std::size_t first = 0; first < bands; first += bands_between_progress) {
+    if(options.progress && !options.progress(double(first) / double(bands))) {
+      map.error = "stopped on request";
+      map.image = Texture_image();
+      return map;
+    }
+    const std::size_t n = (std::min)(bands - first, bands_between_progress);
+    counts += Blocked_execution::blocked_sum<internal::Sample_counts>(
+      n, 1, [&](std::size_t band, std::size_t) { return baker.run(first + band, is_covered); });
+  }
+  map.is_covered.assign(is_covered.begin(), is_covered.end());
+  map.number_of_covered_texels
+    = std::size_t(std::count(is_covered.begin(), is_covered.end(), std::uint8_t(1)));
+  map.number_of_samples = counts.samples;
+  map.number_of_samples_beside = counts.beside;
+  map.number_of_samples_without = counts.without;
+  dilate(map, options.dilation);
+  return map;
+}
+
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_BAKE_H
