@@ -55,6 +55,25 @@ TEST(Wedges, are_the_corners_between_seams)
   EXPECT_EQ(SMM::with_wedges(with_slit(24)).uv.size(), 25u * 25u + 12u);
 }
 
+TEST(Level_extractor, returns_levels_as_meshes)
+{
+  for(const auto& [name, mesh] : textured_meshes(seed)) {
+    const Textured_progressive_mesh pm = built(mesh);
+    const SMM::Level_extractor levels(pm);
+    for(std::size_t k = 0; k <= pm.number_of_collapses(); k += pm.number_of_collapses() / 3 + 1) {
+      const std::size_t whole = pm.whole_position(k);
+      const Textured_triangle_mesh level = levels.mesh(whole);
+      const std::vector<Triangle_indices> triangles = levels.triangles(whole);
+      ASSERT_EQ(level.triangles.size(), triangles.size()) << name;
+      for(std::size_t t = 0; t < triangles.size(); ++t)
+        for(int c = 0; c < 3; ++c) {
+          ASSERT_EQ(level.points[level.triangles[t][c]], pm.points[pm.vertex[triangles[t][c]]]);
+          ASSERT_EQ(level.uv[level.wedges[t][c]], pm.uv[triangles[t][c]]) << name << seed_text;
+        }
+    }
+  }
+}
+
 TEST(Textured_progressive_mesh, has_levels_with_the_topology_and_texture_of_the_input)
 {
   for(const auto& [name, mesh] : textured_meshes(seed))

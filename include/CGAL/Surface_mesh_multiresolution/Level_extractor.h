@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_LEVEL_EXTRACTOR_H
 
 #include <CGAL/Surface_mesh_multiresolution/Textured_progressive_mesh.h>
+#include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/triangle_numbers.h>
 
 #include <CGAL/assertions.h>
@@ -69,6 +70,10 @@ public:
   /// Sets `result` to the triangles after `k` collapses, as indices of wedges.
   void extract(std::size_t k, std::vector<Triangle_indices>& result) const;
 
+  /// Returns the mesh after `k` collapses: its vertices and wedges are the first ones of the fine
+  /// mesh.
+  Textured_triangle_mesh mesh(std::size_t k) const;
+
   /// Returns for each wedge of the level after `fine` collapses the one into which it has collapsed
   /// after `coarse` collapses: a geomorph (Hoppe 1996) between the two levels draws the triangles
   /// of the fine one with wedge \f$ w \f$ at \f$ (1 - \alpha) x_w + \alpha x_{a(w)} \f$, its
@@ -123,6 +128,19 @@ inline void Level_extractor::extract(std::size_t k, std::vector<Triangle_indices
   for(std::size_t t = 0; t < number; ++t)
     for(int c = 0; c < 3; ++c)
       result[t][c] = ancestor((*source)[t][c], end);
+}
+
+inline Textured_triangle_mesh Level_extractor::mesh(std::size_t k) const
+{
+  Textured_triangle_mesh result;
+  extract(k, result.wedges);
+  result.points.assign(m_mesh.points.begin(),
+                       m_mesh.points.begin() + m_mesh.number_of_vertices_after(k));
+  result.uv.assign(m_mesh.uv.begin(), m_mesh.uv.begin() + m_mesh.number_of_wedges_after(k));
+  result.triangles.reserve(result.wedges.size());
+  for(const Triangle_indices& t : result.wedges)
+    result.triangles.push_back({m_mesh.vertex[t[0]], m_mesh.vertex[t[1]], m_mesh.vertex[t[2]]});
+  return result;
 }
 
 inline std::vector<Vertex_index> Level_extractor::ancestors(std::size_t fine,

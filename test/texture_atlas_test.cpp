@@ -1,0 +1,243 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Texture atlases: charts that are disks, maps that are one-to-one in each chart and between charts,
+// whatever the surface.
+
+#include <support/chart_generators.h>
+#include <support/texture_atlas_properties.h>
+
+#include <CGAL/Polyhedron_3.h>
+#include <CGAL/Surface_mesh_texturing/texture_atlas_of_mesh.h>
+#include <CGAL/boost/graph/copy_face_graph.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace texture_atlas_test {
+
+namespace SMT = CGAL::Surface_mesh_texturing;
+using namespace test_support;
+
+constexpr std::uint64_t seed = 51200;
+const std::string seed_text = ", seed " + std::to_string(seed);
+
+SMT::Texture_atlas_options small_texture()
+{
+  SMT::Texture_atlas_options options;
+  options.packing.width = options.packing.height = 256;
+  options.coarse_faces = 500;
+  return options;
+}
+
+bool are_equal(const SMT::Texture_atlas& a, const SMT::Texture_atlas& b)
+{
+  return a.mesh.wedges == b.mesh.wedges && a.charts.chart == b.charts.chart && a.page == b.page
+      && a.mesh.uv.size() == b.mesh.uv.size()
+      && std::memcmp(a.mesh.uv.data(), b.mesh.uv.data(), a.mesh.uv.size() * sizeof(a.mesh.uv[0]))
+           == 0;
+}
+
+Indexed_triangle_mesh joined(const Indexed_triangle_mesh& a, const Indexed_triangle_mesh& b)
+{
+  Indexed_triangle_mesh mesh = a;
+  const Vertex_index first = Vertex_index(a.points.size());
+  mesh.points.insert(mesh.points.end(), b.points.begin(), b.points.end());
+  for(const Triangle_indices& t : b.triangles)
+    mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  return mesh;
+}
+
+TEST(Texture_atlas, is_one_to_one_on_every_surface)
+{
+  std::vector<Named_mesh> meshes = generated_meshes(seed);
+  meshes.push_back({"sphere and torus", joined(sphere(3), torus(30, 15))});
+  meshes.push_back({"large torus", torus(60, 30)});
+  for(const auto& [name, mesh] : meshes) {
+    const SMT::Texture_atlas_result result = SMT::build_texture_atlas(mesh, small_texture());
+    ASSERT_EQ(result.error, "") << name;
+    EXPECT_EQ(error_in_atlas(mesh, result.atlas), "") << name << seed_text;
+    EXPECT_EQ(result.report.charts.size(), result.atlas.charts.number_of_charts) << name;
+    EXPECT_EQ(result.report.distortion.flipped_faces, 0u) << name;
+    for(const SMT::Chart_report& chart : result.report.charts) {
+      EXPECT_TRUE(chart.is_one_to_one) << name;
+      EXPECT_TRUE(chart.faces == 1 || chart.distortion.is_within(SMT::Distortion_bound()))
+        << name << ": " << chart.distortion.area_scale << ", " << chart.distortion.quasi_conformal;
+    }
+  }
+}
+
+TEST(Texture_atlas, has_charts_of_the_size_that_they_have_on_the_surface)
+{
+  const Indexed_triangle_mesh mesh = torus(60, 30);
+  const SMT::Texture_atlas_result result = SMT::build_texture_atlas(mesh, small_texture());
+  ASSERT_EQ(result.error, "");
+  ASSERT_GT(result.atlas.charts.number_of_charts, 1u);
+  std::vector<double> area(result.atlas.charts.number_of_charts), uv_area(area.size());
+  for(std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& v = mesh.triangles[t];
+    const std::uint32_t chart = result.atlas.charts.chart[t];
+    area[chart] += std::sqrt(
+      CGAL::squared_area(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]));
+    const Exact_triangle p = uv_triangle(result.atlas, t);
+    uv_area[chart] += 256. * 256. * CGAL::area(p[0], p[1], p[2]);
+  }
+  const double scale = result.report.texels_per_unit;
+  double all = 0.;
+  for(std::size_t i = 0; i < area.size(); ++i) {
+    EXPECT_NEAR(uv_area[i], scale * scale * area[i], 1e-6 * uv_area[i]);
+    all += uv_area[i];
+  }
+  EXPECT_NEAR(result.report.utilisation, all / (256. * 256.), 1e-6);
+}
+
+TEST(Texture_atlas, does_not_depend_on_the_unit_of_length)
+{
+  const Indexed_triangle_mesh mesh = with_noise(torus(40, 20), 0.02, seed);
+  const SMT::Texture_atlas_result result = SMT::build_texture_atlas(mesh, small_texture());
+  for(const double factor : {0x1p-20, 0x1p20}) { // exact
+    const SMT::Texture_atlas_result other
+      = SMT::build_texture_atlas(scaled(mesh, factor), small_texture());
+    EXPECT_TRUE(are_equal(result.atlas, other.atlas)) << factor << seed_text;
+    EXPECT_NEAR(other.report.texels_per_unit * factor, result.report.texels_per_unit,
+                1e-9 * result.report.texels_per_unit);
+  }
+  for(const double factor : {1e-6, 100.}) {
+    const SMT::Texture_atlas_result other
+      = SMT::build_texture_atlas(scaled(mesh, factor), small_texture());
+    EXPECT_EQ(result.atlas.charts.chart, other.atlas.charts.chart) << factor << seed_text;
+  }
+}
+
+TEST(Texture_atlas, does_not_depend_on_the_number_of_threads)
+{
+  const Indexed_triangle_mesh mesh = with_noise(torus(60, 30), 0.02, seed);
+  const SMT::Texture_atlas_result one = SMT::build_texture_atlas(mesh, small_texture());
+  for(const unsigned int threads : {2u, 3u, 8u}) {
+    const CGAL::Blocked_execution::Thread_scope scope(threads);
+    EXPECT_TRUE(are_equal(one.atlas, SMT::build_texture_atlas(mesh, small_texture()).atlas))
+      << threads;
+  }
+}
+
+TEST(Texture_atlas, keeps_the_charts_of_the_user)
+{
+  const Indexed_triangle_mesh mesh = grid(20, 20);
+  std::vector<std::uint32_t> label(mesh.triangles.size());
+  for(std::size_t t = 0; t < label.size(); ++t)
+    label[t] = mesh.points[mesh.triangles[t][0]].x() < 10. ? 7 : 3;
+  SMT::Texture_atlas_options options = small_texture();
+  options.charts = SMT::charts_of_labels(mesh.triangles, label);
+  const SMT::Texture_atlas_result result = SMT::build_texture_atlas(mesh, options);
+  ASSERT_EQ(result.error, "");
+  EXPECT_EQ(result.atlas.charts.chart, options.charts->chart);
+  EXPECT_EQ(result.atlas.charts.seams, options.charts->seams);
+  EXPECT_EQ(error_in_atlas(mesh, result.atlas), "");
+}
+
+TEST(Texture_atlas, cuts_charts_of_the_user_that_are_no_disks)
+{
+  for(const auto& [name, mesh] : {Named_mesh{"cylinder", cylinder(24, 12)},
+                                  Named_mesh{"sphere", sphere(3)},
+                                  Named_mesh{"torus", torus(24, 12)}}) {
+    SMT::Texture_atlas_options options = small_texture();
+    options.charts
+      = SMT::charts_of_labels(mesh.triangles, std::vector<std::uint32_t>(mesh.triangles.size(), 0));
+    const SMT::Texture_atlas_result result = SMT::build_texture_atlas(mesh, options);
+    ASSERT_EQ(result.error, "") << name;
+    EXPECT_EQ(error_in_atlas(mesh, result.atlas), "") << name;
+  }
+}
+
+TEST(Texture_atlas, gives_charts_the_density_that_is_asked_for)
+{
+  const Indexed_triangle_mesh mesh = joined(grid(10, 10), translated(grid(10, 10), 0., 0., 5.));
+  SMT::Texture_atlas_options options = small_texture();
+  options.density.assign(mesh.triangles.size(), 1.f);
+  std::fill(options.density.begin() + 200, options.density.end(), 3.f);
+  const SMT::Texture_atlas_result result = SMT::build_texture_atlas(mesh, options);
+  ASSERT_EQ(result.error, "");
+  double area[2] = {0., 0.};
+  for(std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Exact_triangle p = uv_triangle(result.atlas, t);
+    area[t / 200] += CGAL::area(p[0], p[1], p[2]);
+  }
+  EXPECT_NEAR(area[1] / area[0], 9., 1e-6);
+}
+
+// The texture coordinates of the corners and the charts of the faces, in the order of faces(mesh),
+// each face from its first halfedge.
+template <class Mesh>
+std::pair<std::vector<double>, std::vector<std::size_t>> atlas_of(const Mesh& mesh)
+{
+  typedef CGAL::Simple_cartesian<double>::Point_2 Point_2;
+  const auto uv = get(CGAL::dynamic_halfedge_property_t<Point_2>(), mesh);
+  const auto chart = get(CGAL::dynamic_face_property_t<std::size_t>(), mesh);
+  EXPECT_EQ(SMT::build_texture_atlas(mesh, uv, chart, small_texture()).error, "");
+  std::pair<std::vector<double>, std::vector<std::size_t>> result;
+  for(const auto f : faces(mesh)) {
+    result.second.push_back(get(chart, f));
+    for(const auto h : CGAL::halfedges_around_face(halfedge(f, mesh), mesh)) {
+      result.first.push_back(get(uv, h).x());
+      result.first.push_back(get(uv, h).y());
+    }
+  }
+  return result;
+}
+
+TEST(Texture_atlas, is_the_same_for_every_type_of_mesh)
+{
+  const Indexed_triangle_mesh arrays = torus(30, 15);
+  const Surface_mesh mesh = to_surface_mesh(arrays);
+  const auto expected = SMT::build_texture_atlas(arrays, small_texture()).atlas;
+  const auto [uv, chart] = atlas_of(mesh);
+  ASSERT_EQ(chart, std::vector<std::size_t>(expected.charts.chart.begin(),
+                                            expected.charts.chart.end()));
+  // The first halfedge of a face may point to any of its corners
+  for(std::size_t t = 0; t < arrays.triangles.size(); ++t)
+    for(int c = 0; c < 3; ++c) {
+      const auto& p = expected.mesh.uv[expected.mesh.wedges[t][c]];
+      bool is_found = false;
+      for(std::size_t i = 6 * t; i < 6 * t + 6; i += 2)
+        is_found = is_found || (uv[i] == p.x() && uv[i + 1] == p.y());
+      ASSERT_TRUE(is_found) << t;
+    }
+  CGAL::Polyhedron_3<CGAL::Simple_cartesian<double>> polyhedron;
+  CGAL::copy_face_graph(mesh, polyhedron);
+  EXPECT_EQ(atlas_of(polyhedron).second.size(), chart.size()); // of other first corners
+}
+
+TEST(Texture_atlas, says_what_is_wrong_with_a_mesh)
+{
+  Indexed_triangle_mesh empty;
+  EXPECT_NE(SMT::build_texture_atlas(empty).error.find("no faces"), std::string::npos);
+  Indexed_triangle_mesh isolated = grid(3, 3);
+  isolated.points.emplace_back(0., 0., 1.);
+  EXPECT_NE(SMT::build_texture_atlas(isolated).error.find("vertex 16"), std::string::npos);
+  Indexed_triangle_mesh infinite = grid(3, 3);
+  infinite.points[5] = Point_3(0., std::numeric_limits<double>::quiet_NaN(), 0.);
+  EXPECT_NE(SMT::build_texture_atlas(infinite).error.find("vertex 5"), std::string::npos);
+  Indexed_triangle_mesh fin = grid(1, 1);
+  fin.points.emplace_back(0.5, 0.5, 1.);
+  fin.triangles.push_back({0, 3, 4});
+  EXPECT_NE(SMT::build_texture_atlas(fin).error, "");
+}
+
+TEST(Texture_atlas, can_be_cancelled)
+{
+  for(const double limit : {0., 0.3, 0.5, 0.9}) {
+    SMT::Texture_atlas_options options = small_texture();
+    options.progress = [limit](double part) { return part < limit; };
+    const SMT::Texture_atlas_result result = SMT::build_texture_atlas(sphere(3), options);
+    EXPECT_TRUE(result.report.cancelled);
+    EXPECT_EQ(result.error, "cancelled");
+    EXPECT_TRUE(result.atlas.mesh.uv.empty());
+  }
+}
+
+} // namespace texture_atlas_test
