@@ -60,13 +60,12 @@ inline Vector_3 normalized(const Vector_3& v)
 }
 
 // The point of a surface, relative to `origin` so that its distance costs no digits.
-inline Vector_3 position(const Textured_triangle_mesh& mesh, const Surface_point& point,
-                         const Textured_triangle_mesh::Point_3& origin)
+inline Vector_3 position(const std::vector<Indexed_triangle_mesh::Point_3>& points,
+                         const Triangle_indices& triangle, const std::array<double, 3>& weights,
+                         const Indexed_triangle_mesh::Point_3& origin)
 {
-  const Triangle_indices& t = mesh.triangles[point.triangle];
-  return point.weights[0] * (mesh.points[t[0]] - origin)
-       + point.weights[1] * (mesh.points[t[1]] - origin)
-       + point.weights[2] * (mesh.points[t[2]] - origin);
+  return weights[0] * (points[triangle[0]] - origin) + weights[1] * (points[triangle[1]] - origin)
+       + weights[2] * (points[triangle[2]] - origin);
 }
 
 } // namespace internal

@@ -17,7 +17,8 @@ namespace Surface_mesh_texturing {
 namespace internal {
 
 // What is wrong with the triangles and points of a mesh, or nothing.
-inline std::string surface_error(const Textured_triangle_mesh& mesh, const std::string& name)
+template <class Mesh>
+std::string surface_error(const Mesh& mesh, const std::string& name)
 {
   if(mesh.triangles.empty())
     return name + " has no triangles";
@@ -33,27 +34,34 @@ inline std::string surface_error(const Textured_triangle_mesh& mesh, const std::
   return {};
 }
 
-// What is wrong with the texture coordinates of a mesh, or nothing. They may leave the texture by
-// its size, which is more than rounding or a chart at the border may need.
-inline std::string uv_error(const Textured_triangle_mesh& mesh, const std::string& name)
+// What is wrong with the texture coordinates of a mesh wherever they lie, or nothing.
+inline std::string wedge_error(const Textured_triangle_mesh& mesh, const std::string& name)
 {
   if(mesh.wedges.size() != mesh.triangles.size())
     return name + " has not as many triangles in the texture as on the surface";
   for(std::size_t w = 0; w < mesh.uv.size(); ++w)
-    for(int c = 0; c < 2; ++c) {
-      const double coordinate = mesh.uv[w][c];
-      if(!std::isfinite(coordinate))
-        return "texture coordinate " + std::to_string(w) + " of " + name
-             + " is not a finite number";
-      if(coordinate < -1. || coordinate > 2.)
-        return "texture coordinate " + std::to_string(w) + " of " + name
-             + " lies far beyond the texture [0, 1] x [0, 1]";
-    }
+    if(!std::isfinite(mesh.uv[w].x()) || !std::isfinite(mesh.uv[w].y()))
+      return "texture coordinate " + std::to_string(w) + " of " + name + " is not a finite number";
   for(std::size_t t = 0; t < mesh.wedges.size(); ++t)
     for(const Vertex_index w : mesh.wedges[t])
       if(w >= mesh.uv.size())
         return "triangle " + std::to_string(t) + " of " + name
              + " has a corner without texture coordinate";
+  return {};
+}
+
+// The same of coordinates in an atlas. They may leave the texture by its size, which is more than
+// rounding or a chart at the border may need.
+inline std::string uv_error(const Textured_triangle_mesh& mesh, const std::string& name)
+{
+  const std::string error = wedge_error(mesh, name);
+  if(!error.empty())
+    return error;
+  for(std::size_t w = 0; w < mesh.uv.size(); ++w)
+    for(int c = 0; c < 2; ++c)
+      if(mesh.uv[w][c] < -1. || mesh.uv[w][c] > 2.)
+        return "texture coordinate " + std::to_string(w) + " of " + name
+             + " lies far beyond the texture [0, 1] x [0, 1]";
   return {};
 }
 
@@ -81,6 +89,21 @@ inline std::string baking_error(const Textured_triangle_mesh& fine,
     if(error.empty())
       error = uv_error(*mesh, name);
   }
+  return error;
+}
+
+// What is wrong with the two meshes of a bake by rays, or nothing.
+inline std::string ray_baking_error(const Indexed_triangle_mesh& fine,
+                                    const Textured_triangle_mesh& light,
+                                    const Baking_options& options)
+{
+  std::string error = options_error(options);
+  if(error.empty())
+    error = surface_error(fine, "the fine mesh");
+  if(error.empty())
+    error = surface_error(light, "the light model");
+  if(error.empty())
+    error = uv_error(light, "the light model");
   return error;
 }
 

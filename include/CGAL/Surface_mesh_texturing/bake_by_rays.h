@@ -1,0 +1,87 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_BAKE_BY_RAYS_H
+#define CGAL_SURFACE_MESH_TEXTURING_BAKE_BY_RAYS_H
+
+#include <CGAL/Surface_mesh_texturing/Along_rays.h>
+#include <CGAL/Surface_mesh_texturing/bake_normal_map.h>
+#include <CGAL/Surface_mesh_texturing/internal/Bounding_ball.h>
+
+#include <CGAL/assertions.h>
+
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+
+/// \ingroup PkgHLSCMTexturing
+/// The options of `bake_normal_map_by_rays()`.
+struct Baking_by_rays_options : Baking_options
+{
+  /// How far in front of and behind the light model rays look for the fine surface, as a part of
+  /// the radius of the bounding ball of the light model.
+  double max_distance = 0.1;
+};
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+Bakes the normals of the fine surface, which needs no texture, into a texture of `light`, a model of
+any origin with texture coordinates of its own: a sample shows the interpolated `fine_normals` at the
+point that `Along_rays` finds, relative to the interpolated `frames` of `light`. Samples that find
+none count for nothing; `Baked_map::number_of_samples_without` tells how many.
+
+\tparam RayCaster is a model of the concept of `Along_rays`, constructible from the two arrays, that
+has `error()`.
+
+Errors are those of `bake_normal_map()` and of the ray caster. Linear time beside that of the rays.
+
+\pre there is a normal for each vertex of the fine surface; `frames` are those of `light`.
+*/
+template <class RayCaster>
+Baked_map bake_normal_map_by_rays(const Indexed_triangle_mesh& fine,
+                                  const std::vector<Vector_3>& fine_normals,
+                                  const Textured_triangle_mesh& light,
+                                  const Tangent_frames& frames,
+                                  const Baking_by_rays_options& options = Baking_by_rays_options())
+{
+  CGAL_precondition(fine_normals.size() == fine.points.size());
+  CGAL_precondition(frames.normals.size() == light.points.size());
+  Baked_map result;
+  result.error = internal::ray_baking_error(fine, light, options);
+  if(!result.error.empty())
+    return result;
+  const RayCaster caster(fine.points, fine.triangles);
+  result.error = caster.error();
+  if(!result.error.empty())
+    return result;
+  const double radius = internal::Bounding_ball({&light.points}).radius;
+  const Along_rays<RayCaster> correspondence(caster, fine.points, fine.triangles, light,
+                                             frames.normals, options.max_distance * radius);
+  return bake(light, correspondence,
+              Normal_shader(fine.triangles, fine_normals, light.triangles, frames, options.space),
+              options);
+}
+
+/// \ingroup PkgHLSCMTexturing
+/// Bakes the normals of the fine surface with the `vertex_normals()` of both and the
+/// `tangent_frames()` of `light`; see the other overload.
+template <class RayCaster>
+Baked_map bake_normal_map_by_rays(const Indexed_triangle_mesh& fine,
+                                  const Textured_triangle_mesh& light,
+                                  const Baking_by_rays_options& options = Baking_by_rays_options())
+{
+  Baked_map result;
+  result.error = internal::ray_baking_error(fine, light, options);
+  if(!result.error.empty())
+    return result;
+  return bake_normal_map_by_rays<RayCaster>(fine, vertex_normals(fine.points, fine.triangles),
+                                            light, tangent_frames(light, vertex_normals(light)),
+                                            options);
+}
+
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_BAKE_BY_RAYS_H

@@ -1,0 +1,139 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_BAKE_COLORS_H
+#define CGAL_SURFACE_MESH_TEXTURING_BAKE_COLORS_H
+
+#include <CGAL/Surface_mesh_texturing/Equal_uv.h>
+#include <CGAL/Surface_mesh_texturing/bake.h>
+#include <CGAL/Surface_mesh_texturing/sample_image.h>
+
+#include <CGAL/assertions.h>
+
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+
+/// \ingroup PkgHLSCMTexturing
+/// Sees values that the vertices of the fine surface have, interpolated.
+/// \cgalModels{BakingShader}
+class Vertex_value_shader
+{
+public:
+  /// `values` has `channels` entries for each vertex of the fine surface with these triangles; both
+  /// must live as long.
+  Vertex_value_shader(const std::vector<Triangle_indices>& fine, const std::vector<float>& values,
+                      std::size_t channels)
+    : m_fine(fine), m_values(values), m_channels(channels)
+  {}
+
+  /// Returns how many values a vertex has.
+  std::size_t channels() const { return m_channels; }
+
+  /// Sets `value` to those of the point.
+  void shade(const Surface_point& fine, const Surface_point&, double* value) const
+  {
+    const Triangle_indices& t = m_fine[fine.triangle];
+    for(std::size_t c = 0; c < m_channels; ++c)
+      value[c] = fine.weights[0] * m_values[t[0] * m_channels + c]
+               + fine.weights[1] * m_values[t[1] * m_channels + c]
+               + fine.weights[2] * m_values[t[2] * m_channels + c];
+  }
+
+  /// Leaves the mean.
+  void finish(double*) const {}
+
+private:
+  const std::vector<Triangle_indices>& m_fine;
+  const std::vector<float>& m_values;
+  std::size_t m_channels;
+};
+
+/// \ingroup PkgHLSCMTexturing
+/// Sees an image through texture coordinates that the fine surface has beside those of its atlas.
+/// \cgalModels{BakingShader}
+class Image_shader
+{
+public:
+  /// `fine` is the fine surface with its coordinates in `image`; both must live as long.
+  Image_shader(const Textured_triangle_mesh& fine, const Texture_image& image)
+    : m_fine(fine), m_image(image)
+  {}
+
+  /// Returns the channels of the image.
+  std::size_t channels() const { return m_image.channels; }
+
+  /// Sets `value` to the colour of the point; see `sample_bilinear()`.
+  void shade(const Surface_point& fine, const Surface_point&, double* value) const
+  {
+    double u = 0., v = 0.;
+    for(int c = 0; c < 3; ++c) {
+      const auto& p = m_fine.uv[m_fine.wedges[fine.triangle][c]];
+      u += fine.weights[c] * p.x();
+      v += fine.weights[c] * p.y();
+    }
+    sample_bilinear(m_image, u, v, value);
+  }
+
+  /// Leaves the mean.
+  void finish(double*) const {}
+
+private:
+  const Textured_triangle_mesh& m_fine;
+  const Texture_image& m_image;
+};
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+Bakes values of the vertices of `fine`, their colours for example, into a texture of `light`, which
+shares its atlas. Means are those of the numbers: colours in sRGB stay in sRGB. Errors and time are
+those of `bake_normal_map()`.
+
+\pre `values` has `channels` numbers for each vertex of `fine`.
+*/
+inline Baked_map bake_vertex_colors(const Textured_triangle_mesh& fine,
+                                    const std::vector<float>& values, std::size_t channels,
+                                    const Textured_triangle_mesh& light,
+                                    const Baking_options& options = Baking_options())
+{
+  CGAL_precondition(values.size() == channels * fine.points.size());
+  Baked_map result;
+  result.error = internal::baking_error(fine, light, options);
+  if(!result.error.empty())
+    return result;
+  return bake(light, Equal_uv(fine, options),
+              Vertex_value_shader(fine.triangles, values, channels), options);
+}
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+Bakes an image that `fine` has had before its atlas into a texture of `light`, which shares the
+atlas: `former` has the triangles of `fine` in the same order, with their coordinates in `image`.
+Errors and time are those of `bake_normal_map()`.
+
+\pre `former` has as many triangles as `fine`.
+*/
+inline Baked_map bake_image(const Textured_triangle_mesh& fine,
+                            const Textured_triangle_mesh& former, const Texture_image& image,
+                            const Textured_triangle_mesh& light,
+                            const Baking_options& options = Baking_options())
+{
+  CGAL_precondition(former.wedges.size() == fine.wedges.size());
+  Baked_map result;
+  result.error = internal::baking_error(fine, light, options);
+  if(result.error.empty() && (image.width == 0 || image.height == 0))
+    result.error = "the former image has no texels";
+  if(result.error.empty())
+    result.error = internal::wedge_error(former, "the former texture");
+  if(!result.error.empty())
+    return result;
+  return bake(light, Equal_uv(fine, options), Image_shader(former, image), options);
+}
+
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_BAKE_COLORS_H

@@ -1,0 +1,118 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_BAKE_DISPLACEMENT_H
+#define CGAL_SURFACE_MESH_TEXTURING_BAKE_DISPLACEMENT_H
+
+#include <CGAL/Surface_mesh_texturing/Equal_uv.h>
+#include <CGAL/Surface_mesh_texturing/bake.h>
+#include <CGAL/Surface_mesh_texturing/vertex_normals.h>
+
+#include <CGAL/assertions.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+The class `Displacement_shader` sees how far the point of the fine surface lies above that of the
+light model, in the direction of the interpolated normal of the latter, in units of length.
+
+\cgalModels{BakingShader}
+*/
+class Displacement_shader
+{
+public:
+  /// What is passed must live as long; `normals` are those of `light`.
+  Displacement_shader(const std::vector<Indexed_triangle_mesh::Point_3>& fine_points,
+                      const std::vector<Triangle_indices>& fine_triangles,
+                      const Textured_triangle_mesh& light, const std::vector<Vector_3>& normals)
+    : m_fine_points(fine_points), m_fine_triangles(fine_triangles), m_light(light)
+    , m_normals(normals)
+  {}
+
+  /// Returns 1.
+  std::size_t channels() const { return 1; }
+
+  /// Sets `value` to the distance, which is negative below the light model.
+  void shade(const Surface_point& fine, const Surface_point& light, double* value) const
+  {
+    const Triangle_indices& t = m_light.triangles[light.triangle];
+    const auto& origin = m_light.points[t[0]];
+    const Vector_3 n = internal::normalized(interpolate(light.weights, t, m_normals));
+    *value = n * (internal::position(m_fine_points, m_fine_triangles[fine.triangle], fine.weights,
+                                     origin)
+                  - internal::position(m_light.points, t, light.weights, origin));
+  }
+
+  /// Leaves the mean.
+  void finish(double*) const {}
+
+private:
+  const std::vector<Indexed_triangle_mesh::Point_3>& m_fine_points;
+  const std::vector<Triangle_indices>& m_fine_triangles;
+  const Textured_triangle_mesh& m_light;
+  const std::vector<Vector_3>& m_normals;
+};
+
+/// \ingroup PkgHLSCMTexturing
+/// What `bake_displacement()` returns: one channel, in units of length.
+struct Baked_displacement
+{
+  Baked_map map;      ///< the image and what is known of it
+  double lowest = 0.; ///< of all covered texels; `encode_values()` asks for it
+  double highest = 0.; ///< of all covered texels
+};
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+Bakes how far `fine` lies above `light`, which shares its atlas, at equal texture coordinates; see
+`Displacement_shader`. Errors and time are those of `bake_normal_map()`.
+
+\pre `normals` has a vector for each vertex of `light`.
+*/
+inline Baked_displacement bake_displacement(const Textured_triangle_mesh& fine,
+                                            const Textured_triangle_mesh& light,
+                                            const std::vector<Vector_3>& normals,
+                                            const Baking_options& options = Baking_options())
+{
+  CGAL_precondition(normals.size() == light.points.size());
+  Baked_displacement result;
+  result.map.error = internal::baking_error(fine, light, options);
+  if(!result.map.error.empty())
+    return result;
+  result.map = bake(light, Equal_uv(fine, options),
+                    Displacement_shader(fine.points, fine.triangles, light, normals), options);
+  bool is_first = true;
+  for(std::size_t i = 0; i < result.map.is_covered.size(); ++i)
+    if(result.map.is_covered[i]) {
+      const double value = result.map.image.texels[i];
+      result.lowest = is_first ? value : (std::min)(result.lowest, value);
+      result.highest = is_first ? value : (std::max)(result.highest, value);
+      is_first = false;
+    }
+  return result;
+}
+
+/// \ingroup PkgHLSCMTexturing
+/// Bakes how far `fine` lies above `light` along the `vertex_normals()` of `light`; see the other
+/// overload.
+inline Baked_displacement bake_displacement(const Textured_triangle_mesh& fine,
+                                            const Textured_triangle_mesh& light,
+                                            const Baking_options& options = Baking_options())
+{
+  Baked_displacement result;
+  result.map.error = internal::baking_error(fine, light, options);
+  return result.map.error.empty() ? bake_displacement(fine, light, vertex_normals(light), options)
+                                  : result;
+}
+
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_BAKE_DISPLACEMENT_H

@@ -1,0 +1,154 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_RENDERING_ERROR_H
+#define CGAL_SURFACE_MESH_TEXTURING_RENDERING_ERROR_H
+
+#include <CGAL/Surface_mesh_texturing/bake_normal_map.h>
+#include <CGAL/Surface_mesh_texturing/internal/Orthographic_view.h>
+#include <CGAL/Surface_mesh_texturing/sample_image.h>
+
+#include <CGAL/assertions.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+
+/// \ingroup PkgHLSCMTexturing
+/// How much a light model looks unlike the original; angles are in degrees.
+struct Rendering_error
+{
+  double mean_angle = 0.;                 ///< between the normals that are seen, with the map
+  double angle_95 = 0.;                   ///< that 95 % of the pixels do not exceed, with the map
+  double mean_angle_without_map = 0.;     ///< with the interpolated normals of the light model
+  double angle_95_without_map = 0.;       ///< with the interpolated normals of the light model
+  double silhouette_difference = 0.;      ///< pixels that show one model only, to those of any
+  std::size_t number_of_pixels = 0;       ///< that show both models, in all views together
+};
+
+namespace internal {
+
+// The angle between two directions, in degrees.
+inline float degrees_between(const Vector_3& a, const Vector_3& b)
+{
+  const Vector_3 c = cross_product(a, b);
+  return float(std::atan2(std::sqrt(c * c), a * b) * (180. / CGAL_PI));
+}
+
+// The value that 95 % do not exceed, and the mean. Reorders.
+inline std::array<double, 2> mean_and_quantile(std::vector<float>& angles)
+{
+  if(angles.empty())
+    return {0., 0.};
+  double sum = 0.;
+  for(const float a : angles)
+    sum += a;
+  const auto at = angles.begin() + std::ptrdiff_t(0.95 * double(angles.size() - 1));
+  std::nth_element(angles.begin(), at, angles.end());
+  return {sum / double(angles.size()), *at};
+}
+
+// What one view says.
+struct View_error
+{
+  std::vector<float> with_map, without_map;
+  std::size_t one = 0, any = 0; // pixels
+};
+
+// The normals that renderers see on a model.
+class Seen_normals
+{
+public:
+  Seen_normals(const Textured_triangle_mesh& mesh, const Tangent_frames& frames)
+    : m_mesh(mesh), m_frames(frames)
+  {}
+
+  Vector_3 smooth(const Surface_point& p) const
+  {
+    return interpolate(p.weights, m_mesh.triangles[p.triangle], m_frames.normals);
+  }
+
+  Vector_3 mapped(const Surface_point& p, const Texture_image& map, Normal_space space) const
+  {
+    double u = 0., v = 0., value[3];
+    for(int c = 0; c < 3; ++c) {
+      const auto& q = m_mesh.uv[m_mesh.wedges[p.triangle][c]];
+      u += p.weights[c] * q.x();
+      v += p.weights[c] * q.y();
+    }
+    sample_bilinear(map, u, v, value);
+    const Vector_3 n(value[0], value[1], value[2]);
+    return space == Normal_space::OBJECT
+           ? n
+           : interpolated_frame(m_mesh.triangles, m_frames, p).to_object_space(n);
+  }
+
+private:
+  const Textured_triangle_mesh& m_mesh;
+  const Tangent_frames& m_frames;
+};
+
+} // namespace internal
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+Compares the normals that are seen on `original`, its interpolated `vertex_normals()`, to those on
+the light model: orthographic views from the twelve directions of an icosahedron's vertices, each of
+`size` times `size` pixels that show the sphere around both models. A light model's normal is that of
+the bilinear interpolation of `map` between texels in the interpolated frames, as renderers do it.
+
+The result does not depend on the unit of length, nor on the number of threads. Linear time in the
+numbers of triangles and of pixels.
+
+\pre the meshes have triangles and finite coordinates; `frames` are those of `light`, `map` has three
+channels.
+*/
+inline Rendering_error rendering_error(const Textured_triangle_mesh& original,
+                                       const Textured_triangle_mesh& light,
+                                       const Tangent_frames& frames, const Texture_image& map,
+                                       Normal_space space, std::size_t size = 512)
+{
+  CGAL_precondition(map.channels == 3 && size > 0);
+  const std::vector<Vector_3> normals = vertex_normals(original);
+  const internal::Seen_normals seen(light, frames);
+  const internal::Bounding_ball ball({&original.points, &light.points});
+  const std::array<Vector_3, 12> directions = internal::icosahedron_directions();
+  std::array<internal::View_error, 12> views;
+  Blocked_execution::blocked_for(12, 1, [&](std::size_t i, std::size_t) {
+    const internal::Orthographic_view view(directions[i], ball, size);
+    const auto fine_pixels = view.visible_points(original.points, original.triangles);
+    const auto light_pixels = view.visible_points(light.points, light.triangles);
+    for(std::size_t p = 0; p < fine_pixels.size(); ++p) {
+      const Surface_point &f = fine_pixels[p], &l = light_pixels[p];
+      views[i].any += f.exists() || l.exists() ? 1 : 0;
+      views[i].one += f.exists() != l.exists() ? 1 : 0;
+      if(!f.exists() || !l.exists())
+        continue;
+      const Vector_3 n = interpolate(f.weights, original.triangles[f.triangle], normals);
+      views[i].with_map.push_back(internal::degrees_between(n, seen.mapped(l, map, space)));
+      views[i].without_map.push_back(internal::degrees_between(n, seen.smooth(l)));
+    }
+  });
+  internal::View_error all;
+  for(const internal::View_error& view : views) {
+    all.with_map.insert(all.with_map.end(), view.with_map.begin(), view.with_map.end());
+    all.without_map.insert(all.without_map.end(), view.without_map.begin(),
+                           view.without_map.end());
+    all.one += view.one;
+    all.any += view.any;
+  }
+  const auto with = internal::mean_and_quantile(all.with_map);
+  const auto without = internal::mean_and_quantile(all.without_map);
+  return {with[0], with[1], without[0], without[1],
+          all.any > 0 ? double(all.one) / double(all.any) : 0., all.with_map.size()};
+}
+
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_RENDERING_ERROR_H
