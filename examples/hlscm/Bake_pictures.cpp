@@ -7,6 +7,7 @@
 #include "Picture_strip.h"
 #include "Unit_cube.h"
 
+#include <CGAL/Surface_mesh_texturing/bake_normal_map.h>
 #include <CGAL/Surface_mesh_texturing/sample_image.h>
 
 #include <algorithm>
