@@ -77,6 +77,37 @@ private:
 
 } // namespace internal
 
+namespace internal {
+
+// The same as `charts_between()`, with the neighbours of the triangles: a class with `opposite()`.
+template <class Adjacency>
+Face_charts label_charts(const Adjacency& adjacency, std::vector<std::uint8_t> seams)
+{
+  const std::uint32_t n = std::uint32_t(seams.size());
+  Disjoint_sets sets(n);
+  for(std::uint32_t h = 0; h < 3 * n; ++h) {
+    const std::uint32_t opposite = adjacency.opposite(h);
+    if(opposite == no_vertex)
+      seams[h / 3] |= std::uint8_t(1 << h % 3);
+    else if(seams[h / 3] >> h % 3 & 1)
+      seams[opposite / 3] |= std::uint8_t(1 << opposite % 3);
+  }
+  for(std::uint32_t t = 0; t < n; ++t)
+    for(std::uint32_t c = 0; c < 3; ++c)
+      if(!(seams[t] >> c & 1))
+        sets.join(t, adjacency.opposite(3 * t + c) / 3);
+  Face_charts result;
+  result.chart.resize(n);
+  for(std::uint32_t t = 0; t < n; ++t) {
+    const std::uint32_t first = sets.find(t);
+    result.chart[t] = first == t ? std::uint32_t(result.number_of_charts++) : result.chart[first];
+  }
+  result.seams = std::move(seams);
+  return result;
+}
+
+} // namespace internal
+
 /*!
 \ingroup PkgHLSCMTexturing
 
@@ -88,28 +119,7 @@ inline Face_charts charts_between(const std::vector<Triangle_indices>& triangles
                                   std::vector<std::uint8_t> seams)
 {
   CGAL_precondition(seams.size() == triangles.size());
-  const internal::Triangle_adjacency adjacency(triangles);
-  internal::Disjoint_sets sets(triangles.size());
-  for(std::uint32_t t = 0; t < triangles.size(); ++t)
-    for(int c = 0; c < 3; ++c) {
-      const std::uint32_t opposite = adjacency.opposite(t, c);
-      if(opposite == no_vertex)
-        seams[t] |= 1 << c;
-      else if(seams[t] >> c & 1)
-        seams[opposite / 3] |= 1 << opposite % 3;
-    }
-  for(std::uint32_t t = 0; t < triangles.size(); ++t)
-    for(int c = 0; c < 3; ++c)
-      if(!(seams[t] >> c & 1))
-        sets.join(t, adjacency.opposite(t, c) / 3);
-  Face_charts result;
-  result.chart.resize(triangles.size());
-  for(std::uint32_t t = 0; t < triangles.size(); ++t) {
-    const std::uint32_t first = sets.find(t);
-    result.chart[t] = first == t ? std::uint32_t(result.number_of_charts++) : result.chart[first];
-  }
-  result.seams = std::move(seams);
-  return result;
+  return internal::label_charts(internal::Triangle_adjacency(triangles), std::move(seams));
 }
 
 /// \ingroup PkgHLSCMTexturing

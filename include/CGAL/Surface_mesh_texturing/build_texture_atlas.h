@@ -192,14 +192,13 @@ inline bool Texture_atlas_builder::segment()
 {
   const Surface_mesh_parameterization::internal::Stopwatch watch;
   if(m_options.charts) {
-    m_charts = *m_options.charts;
+    m_charts = cut_to_disks(m_mesh, *m_options.charts);
   } else {
-    Segmentation_options segmentation;
-    segmentation.bound = m_options.bound;
-    segmentation.max_charts = m_options.max_charts;
-    segmentation.coarse_faces = m_options.coarse_faces;
-    segmentation.progress = [this](double part) { return proceed(0., 0.4, part); };
-    Segmentation_result result = segment_into_charts(m_mesh, segmentation);
+    Chart_growth_options growth;
+    growth.bound = m_options.bound;
+    growth.max_charts = m_options.max_charts;
+    growth.progress = [this](double part) { return proceed(0., 0.4, part); };
+    Segmentation_result result = find_charts(m_mesh, growth, m_options.coarse_faces);
     m_charts = std::move(result.charts);
     if(m_result.error.empty())
       m_result.error = std::move(result.error);

@@ -6,6 +6,8 @@
 
 #include <CGAL/Surface_mesh_multiresolution/Indexed_triangle_mesh.h>
 
+#include <array>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -58,6 +60,9 @@ public:
   /// The halfedge on the other side of that from corner c of t, or `no_vertex` on the border.
   std::uint32_t opposite(std::uint32_t t, int c) const { return m_opposite[3 * t + c]; }
   std::uint32_t opposite(std::uint32_t halfedge) const { return m_opposite[halfedge]; }
+
+  /// Gives the array of opposite halfedges away.
+  std::vector<std::uint32_t> take() { return std::move(m_opposite); }
 
 private:
   std::vector<std::uint32_t> m_opposite;

@@ -4,9 +4,9 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_MAP_CHARTS_H
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_MAP_CHARTS_H
 
+#include <CGAL/Surface_mesh_texturing/internal/find_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/halve_chart.h>
 #include <CGAL/Surface_mesh_texturing/internal/map_chart.h>
-#include <CGAL/Surface_mesh_texturing/segment_into_charts.h>
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 
@@ -49,12 +49,11 @@ inline std::vector<Chart_mesh> cut_again(const Mapped_chart& mapped,
 {
   constexpr double margin = 0.9; // below the bound, which the chart just missed
   const Chart_mesh& chart = mapped.chart;
-  Segmentation_options segmentation;
-  segmentation.bound = options.bound;
-  segmentation.bound.area_scale = (std::max)(1.1, margin * options.bound.area_scale);
-  segmentation.least_charts = 2;
-  segmentation.coarse_faces = options.coarse_faces;
-  Segmentation_result cut = segment_into_charts(chart.mesh, segmentation);
+  Chart_growth_options growth;
+  growth.bound = options.bound;
+  growth.bound.area_scale = (std::max)(1.1, margin * options.bound.area_scale);
+  growth.least_charts = 2;
+  Segmentation_result cut = find_charts(chart.mesh, growth, options.coarse_faces);
   if(!cut.error.empty() || cut.charts.number_of_charts < 2)
     cut.charts = halve_chart(chart.mesh);
   std::vector<Chart_mesh> parts = chart_meshes(chart.mesh, cut.charts);

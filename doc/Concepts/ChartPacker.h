@@ -1,0 +1,33 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+/*!
+\ingroup PkgHLSCMConcepts
+\cgalConcept
+
+The concept `ChartPacker` describes a function object that lays charts side by side on pages, for
+`CGAL::Surface_mesh_texturing::pack_charts()`, which checks what it gives to it and measures what
+it gets from it.
+
+\cgalRefines{DefaultConstructible}
+
+\cgalHasModel{CGAL::Surface_mesh_texturing::Raster_packer}
+\cgalHasModel{CGAL::Surface_mesh_texturing::Horizon_packer}
+*/
+class ChartPacker
+{
+public:
+  /// Returns a packing as `options` asks for, or the reason why there is none as its `error`; sets
+  /// `placements`, `pages` and `texels_per_unit`.
+  ///
+  /// The packing must not depend on the number of threads; nor, but for the scale, on the unit of
+  /// length.
+  ///
+  /// \pre there is at least one chart; the coordinates and sizes of all are finite; the entries of
+  /// `triangles` are smaller than `uv.size()`; the options are those of a packing: the padding
+  /// leaves at least one texel of a page, `rotations` is positive, and `max_pages` or
+  /// `texels_per_unit` is.
+  CGAL::Surface_mesh_texturing::Packing_result
+  operator()(const std::vector<CGAL::Surface_mesh_texturing::Chart_shape>& charts,
+             const CGAL::Surface_mesh_texturing::Packing_options& options) const;
+};

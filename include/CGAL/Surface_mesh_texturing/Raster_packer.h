@@ -1,0 +1,50 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_RASTER_PACKER_H
+#define CGAL_SURFACE_MESH_TEXTURING_RASTER_PACKER_H
+
+#include <CGAL/Surface_mesh_texturing/internal/Raster_packing_search.h>
+
+#include <string>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+The class `Raster_packer` packs the true shapes of charts, so that charts may lie in the notches and
+holes of others.
+
+Charts are sets of texels, bits of 64-bit words. They are placed one after the other, about the
+largest first, each in that direction and at that place, of all in which it touches no other, where
+the most of its rim meets other charts or the border of the page. Many orders are tried on a raster
+that is so coarse that one takes some milliseconds; what was found is refined on the raster of
+texels, where each chart is placed again among the places near to that on the coarse raster.
+
+Models `ChartPacker`. The charts of one page take about
+\f$ O(r \, h \, (h + \sum_c h_c)) \f$ words' operations an order, with \f$ r \f$ rotations, pages of
+\f$ h \f$ rows and charts of \f$ h_c \f$ rows.
+
+\cgalModels{ChartPacker}
+*/
+class Raster_packer
+{
+public:
+  /// Packs charts; see `ChartPacker`.
+  Packing_result operator()(const std::vector<Chart_shape>& charts,
+                            const Packing_options& options) const
+  {
+    double unit = 1.;
+    const std::vector<internal::Chart_outline> outlines = internal::chart_outlines(charts, unit);
+    internal::Raster_packing_search search(outlines, unit, options);
+    return search.run();
+  }
+};
+
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_RASTER_PACKER_H

@@ -1,0 +1,42 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_CHARTS_OF_TEXTURE_H
+#define CGAL_SURFACE_MESH_TEXTURING_CHARTS_OF_TEXTURE_H
+
+#include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
+#include <CGAL/Surface_mesh_texturing/Face_charts.h>
+
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+
+using Surface_mesh_multiresolution::Textured_triangle_mesh;
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+Returns the charts of a texture: an edge is a seam unless the texture coordinates of both its ends
+are equal on both sides, whatever their indices. Charts need not be disks; see `cut_to_disks()`.
+Linear time.
+*/
+inline Face_charts charts_of_texture(const Textured_triangle_mesh& mesh)
+{
+  const internal::Triangle_adjacency adjacency(mesh.triangles);
+  std::vector<std::uint8_t> seams(mesh.triangles.size(), 0);
+  const auto uv = [&mesh](std::uint32_t h) { return mesh.uv[mesh.wedges[h / 3][h % 3]]; };
+  const auto next = [](std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; };
+  for(std::uint32_t h = 0; h < 3 * mesh.triangles.size(); ++h) {
+    const std::uint32_t opposite = adjacency.opposite(h);
+    if(opposite != no_vertex && (uv(h) != uv(next(opposite)) || uv(next(h)) != uv(opposite)))
+      seams[h / 3] |= std::uint8_t(1 << h % 3);
+  }
+  return internal::label_charts(adjacency, std::move(seams));
+}
+
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_CHARTS_OF_TEXTURE_H

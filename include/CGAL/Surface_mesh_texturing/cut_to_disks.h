@@ -1,0 +1,83 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_CUT_TO_DISKS_H
+#define CGAL_SURFACE_MESH_TEXTURING_CUT_TO_DISKS_H
+
+#include <CGAL/Surface_mesh_texturing/Face_charts.h>
+#include <CGAL/Surface_mesh_texturing/chart_topology.h>
+#include <CGAL/Surface_mesh_texturing/internal/Disk_cutter.h>
+
+#include <CGAL/assertions.h>
+
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+
+/// \ingroup PkgHLSCMTexturing
+/// The options of `cut_to_disks()`.
+struct Disk_cut_options
+{
+  /// The number of extremities, vertices far from each other, that the cut of a closed chart goes
+  /// to at most: the tips of limbs, which would be tiny in the plane otherwise.
+  std::size_t extremities = 8;
+  /// The distance of an extremity from the cut, as a part of that of the first, below which no more
+  /// are added.
+  double least_distance = 0.3;
+  /// What is taken to be short.
+  Crease_weights creases;
+};
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+Returns `charts` with seams added within those charts that are no disks, until all are. Seams are
+short and prefer creases, concave ones above all. A chart with several borders gets seams between
+them, a chart with handles seams along these, and a closed chart a tree of seams to its extremities.
+
+Any surface that `Face_charts` can describe will do. Time \f$ O(n \log n) \f$ for the charts that are
+no disks, linear for the others.
+*/
+inline Face_charts cut_to_disks(const Indexed_triangle_mesh& mesh, Face_charts charts,
+                                const Disk_cut_options& options = Disk_cut_options())
+{
+  CGAL_precondition(charts.seams.size() == mesh.triangles.size());
+  const internal::Triangle_adjacency adjacency(mesh.triangles);
+  charts.seams
+    = internal::without_lonely_seams(mesh.triangles, adjacency, std::move(charts.seams));
+  const std::vector<Chart_topology> topologies = chart_topologies(mesh.triangles, charts);
+  if(error_of_charts(topologies).empty())
+    return charts;
+  const internal::Disk_cut cut
+    = {options.extremities, options.least_distance, options.creases};
+  const std::vector<Chart_mesh> meshes = chart_meshes(mesh, charts);
+  for(std::size_t c = 0; c < meshes.size(); ++c) {
+    if(topologies[c].is_disk())
+      continue;
+    const std::vector<std::uint8_t> seams = internal::Disk_cutter(meshes[c].mesh, cut).cut();
+    for(std::size_t t = 0; t < seams.size(); ++t)
+      charts.seams[meshes[c].triangles[t]] |= seams[t];
+  }
+  return charts;
+}
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+Returns the connected components of `mesh` as charts, each cut to one disk. On a mesh of many
+triangles it is faster to cut a coarse one and to refine the cut; see `segment_into_charts()`.
+*/
+inline Face_charts one_disk_per_component(const Indexed_triangle_mesh& mesh,
+                                          const Disk_cut_options& options = Disk_cut_options())
+{
+  return cut_to_disks(
+    mesh, charts_between(mesh.triangles, std::vector<std::uint8_t>(mesh.triangles.size())),
+    options);
+}
+
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_CUT_TO_DISKS_H

@@ -1,0 +1,168 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_GROW_CHARTS_H
+#define CGAL_SURFACE_MESH_TEXTURING_GROW_CHARTS_H
+
+#include <CGAL/Surface_mesh_texturing/Chart_distortion.h>
+#include <CGAL/Surface_mesh_texturing/Face_charts.h>
+#include <CGAL/Surface_mesh_texturing/internal/Chart_search.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+The options of `grow_charts()`.
+*/
+struct Chart_growth_options
+{
+  /// How far the trial map of a chart may be distorted.
+  Distortion_bound bound;
+  /// The part of the bound, as logarithms, that is used: what remains is for the finer mesh, which
+  /// has a little more distortion than the coarse one.
+  double bound_part = 0.92;
+  /// The largest number of charts, which has precedence over the bound; 0 for no limit. There are
+  /// never less than `least_charts` in each component.
+  std::size_t max_charts = 0;
+  /// The smallest number of charts in each connected component, as far as it has triangles: 2 for
+  /// a chart that has turned out to need a cut.
+  std::size_t least_charts = 1;
+  /// Edges with a smaller angle between the normals are no features, in degrees.
+  double feature_angle = 30.;
+  /// The part of its convex hull in the plane that a chart fills at least, so that charts can be
+  /// packed: without, stars and spirals are possible.
+  double least_fill = 0.5;
+  /// Triangles to one of the patches from which charts are merged.
+  std::size_t patch_size = 25;
+  /// How much is tried to get along with fewer charts: triangles that are mapped for each triangle
+  /// of the mesh.
+  double effort = 100.;
+  /// Told the part done in [0, 1] from time to time; returning `false` cancels.
+  std::function<bool(double)> progress;
+};
+
+/// \ingroup PkgHLSCMTexturing
+/// What `grow_charts()` returns.
+struct Chart_growth_result
+{
+  Face_charts charts;                       ///< the charts; empty if there is an error
+  std::vector<Chart_distortion> distortion; ///< of the trial map of each chart
+  /// Charts whose trial map is beyond the bound, flips a triangle or overlaps itself: because of
+  /// `max_charts`, or single patches that cannot be mapped any better.
+  std::size_t number_of_bad_charts = 0;
+  std::vector<bool> is_bad; ///< for each chart whether it is among them
+  std::string error;        ///< why there are no charts, as a sentence; empty if all is well
+};
+
+namespace internal {
+
+inline std::string growth_error(const Indexed_triangle_mesh& mesh,
+                                const Chart_growth_options& options)
+{
+  if(mesh.triangles.empty())
+    return "the mesh has no triangles";
+  for(std::size_t v = 0; v < mesh.points.size(); ++v)
+    for(int c = 0; c < 3; ++c)
+      if(!std::isfinite(mesh.points[v][c]))
+        return "vertex " + std::to_string(v) + " has a coordinate that is not a finite number";
+  if(!(options.bound.area_scale > 1.) || !(options.bound.quasi_conformal > 1.))
+    return "a distortion bound is not larger than 1";
+  return {};
+}
+
+inline Distortion_bound part_of(const Distortion_bound& bound, double part)
+{
+  Distortion_bound result;
+  result.area_scale = std::pow(bound.area_scale, part);
+  result.quasi_conformal = std::pow(bound.quasi_conformal, part);
+  return result;
+}
+
+// The charts of a state, numbered as in `Face_charts`, and the distortion of their trial maps.
+inline Chart_growth_result growth_result(const Growth_surface& surface,
+                                         const Chart_merger::State& state,
+                                         const Distortion_bound& bound)
+{
+  Chart_growth_result result;
+  std::vector<std::uint8_t> seams(surface.size(), 0);
+  for(std::uint32_t h = 0; h < 3 * seams.size(); ++h)
+    if(state.graph.is_seam(h))
+      seams[h / 3] |= 1 << h % 3;
+  result.charts = charts_between(surface.mesh.triangles, std::move(seams));
+  result.distortion.resize(result.charts.number_of_charts);
+  result.is_bad.resize(result.charts.number_of_charts);
+  const double unit = 1. / (surface.scale * surface.scale);
+  for(const Chart_merger::Piece& piece : state.pieces) {
+    if(piece.triangles.empty())
+      continue;
+    const std::uint32_t c = result.charts.chart[piece.triangles[0]];
+    Chart_distortion& distortion = result.distortion[c] = piece.trial.distortion;
+    distortion.area *= unit;
+    distortion.uv_area *= unit;
+    result.is_bad[c] = !piece.trial.is_one_to_one || !distortion.is_within(bound);
+    result.number_of_bad_charts += result.is_bad[c] ? 1 : 0;
+  }
+  return result;
+}
+
+} // namespace internal
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+Cuts `mesh`, an oriented manifold of any topology, into few charts which are disks and whose least
+squares conformal maps are one-to-one and within a bound on their distortion.
+
+The method is in the spirit of Lévy, Petitjean, Ray and Maillot, *Least Squares Conformal Maps for
+Automatic Texture Atlas Generation*, SIGGRAPH 2002, section 3: small patches are grown between the
+sharp features of the surface. Other than there, they are then merged across the seams between them
+as long as the map of the union, which is computed, is within the bound; a search takes small charts
+and their neighbours apart and merges them in other ways to get along with fewer.
+
+Errors: a mesh without triangles or extent, a coordinate that is not finite, a bound not larger than
+1, and "cancelled".
+
+Meant for coarse meshes of 1K to 10K triangles. Time about linear, in proportion to
+`Chart_growth_options::effort`. Trial maps are computed in parallel; the result does not depend on
+the number of threads.
+*/
+inline Chart_growth_result grow_charts(const Indexed_triangle_mesh& mesh,
+                                       const Chart_growth_options& options = Chart_growth_options())
+{
+  Chart_growth_result result;
+  result.error = internal::growth_error(mesh, options);
+  if(!result.error.empty())
+    return result;
+  const internal::Growth_surface surface(mesh);
+  if(!(surface.scale > 0.)) {
+    result.error = "all vertices lie in one point";
+    return result;
+  }
+  internal::Search_options search;
+  search.bound = internal::part_of(options.bound, options.bound_part);
+  search.least_charts = (std::max)(options.least_charts, std::size_t(1));
+  search.max_charts = options.max_charts;
+  search.feature_angle = options.feature_angle * CGAL_PI / 180.;
+  search.least_fill = options.least_fill;
+  search.patch_size = (std::max)(options.patch_size, std::size_t(1));
+  search.effort = options.effort;
+  search.progress = options.progress;
+  internal::Chart_search growth(surface, search);
+  const bool is_done = growth.run();
+  if(is_done)
+    return internal::growth_result(surface, growth.best(), options.bound);
+  result.error = "cancelled";
+  return result;
+}
+
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_GROW_CHARTS_H

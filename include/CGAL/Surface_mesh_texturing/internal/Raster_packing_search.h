@@ -1,0 +1,286 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_RASTER_PACKING_SEARCH_H
+#define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_RASTER_PACKING_SEARCH_H
+
+#include <CGAL/Surface_mesh_texturing/internal/Density_search.h>
+#include <CGAL/Surface_mesh_texturing/internal/Greedy_packing.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+namespace internal {
+
+// The search for the packing with the highest density, or for one with a given density.
+class Raster_packing_search
+{
+public:
+  // `unit` is that of the outlines.
+  Raster_packing_search(const std::vector<Chart_outline>& outlines, double unit,
+                        const Packing_options& options)
+    : m_outlines(outlines), m_unit(unit), m_options(options), m_exact(exact_raster(options)),
+      m_coarse(coarser_raster(m_exact, coarse_cells())),
+      m_ladder(outlines, m_exact, (std::max)(std::size_t(1), options.max_pages))
+  {}
+
+  Packing_result run()
+  {
+    if(m_options.texels_per_unit > 0.)
+      return with_density(m_options.texels_per_unit * m_unit);
+    Packing_result result;
+    maximize();
+    if(m_is_cancelled)
+      result.error = "cancelled";
+    else if(!m_best.is_complete)
+      result.error = misfit_message(0, false, m_options);
+    else
+      result = packing_result(m_best, *m_best_charts, m_ladder.density(m_best_level));
+    return result;
+  }
+
+private:
+  typedef std::vector<double> Keys; // of the charts; the largest is placed first
+
+  // An order that succeeded on the coarse raster.
+  struct Plan
+  {
+    Keys keys;
+    int level = 0;
+    Raster_packing packing;
+  };
+
+  static constexpr int tries = 8; // orders at a time
+
+  // Enough for charts of equal sizes to have 16 cells a side.
+  int coarse_cells() const
+  {
+    return int((std::max)(128., std::ceil(16. * std::sqrt(double(m_outlines.size())))));
+  }
+
+  Packing_result with_density(double density);
+  void maximize();
+  Plan first_plan();
+  bool improve(Plan& plan, std::size_t round);
+  void refine(const Plan& plan);
+
+  Packing_result packing_result(const Raster_packing& packing, const Chart_rasters& charts,
+                                double density) const;
+
+  // The largest first, ties by index.
+  static std::vector<std::uint32_t> order_of(const Keys& keys)
+  {
+    std::vector<std::uint32_t> order(keys.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return keys[a] > keys[b]; });
+    return order;
+  }
+
+  Keys keys_by_area() const;
+  Keys perturbed(const Keys& keys, std::size_t seed) const;
+
+  // The charts on the coarse raster.
+  Chart_rasters& coarse_charts(int level)
+  {
+    std::unique_ptr<Chart_rasters>& charts = m_coarse_charts[level];
+    if(!charts) {
+      charts.reset(new Chart_rasters(m_outlines, m_options.rotations, m_ladder.density(level),
+                                     m_coarse));
+      charts->make_all();
+    }
+    return *charts;
+  }
+
+  Raster_packing pack_coarse(const Keys& keys, int level)
+  {
+    return Greedy_packing(m_coarse, m_options.max_pages)
+      .pack(*m_coarse_charts.at(level), order_of(keys), Place_criterion::SNUG);
+  }
+
+  // Returns whether to go on.
+  bool report()
+  {
+    m_is_cancelled = m_is_cancelled || (m_options.progress && !m_options.progress(0.5));
+    return !m_is_cancelled;
+  }
+
+  void count_work(const Packing_raster& raster, std::size_t orders)
+  {
+    m_work += double(orders) * m_outlines.size() * m_options.rotations * raster.width
+              * raster.height;
+  }
+
+  const std::vector<Chart_outline>& m_outlines;
+  double m_unit;
+  const Packing_options& m_options;
+  Packing_raster m_exact, m_coarse;
+  Density_ladder m_ladder;
+  std::map<int, std::unique_ptr<Chart_rasters>> m_coarse_charts; // by level
+
+  Raster_packing m_best; // on the exact raster
+  int m_best_level = 0;
+  std::unique_ptr<Chart_rasters> m_best_charts;
+  double m_work = 0.; // positions compared
+  bool m_is_cancelled = false;
+};
+
+// Logarithms, rounded so that equal charts are equal.
+inline Raster_packing_search::Keys Raster_packing_search::keys_by_area() const
+{
+  Keys keys;
+  for(const Chart_outline& o : m_outlines) {
+    const double thickened = o.area + 1e-3 * o.diameter * o.diameter;
+    keys.push_back(thickened > 0. ? std::round(1e6 * std::log(thickened)) / 1e6 : -1e3);
+  }
+  return keys;
+}
+
+inline Raster_packing_search::Keys Raster_packing_search::perturbed(const Keys& keys,
+                                                                    std::size_t seed) const
+{
+  constexpr double range = 0.5; // of the logarithm of the area
+  Keys result = keys;
+  std::uint64_t state = seed * 0x9E3779B97F4A7C15u + 1;
+  for(double& key : result) { // xorshift64* (Vigna 2016)
+    state ^= state >> 12;
+    state ^= state << 25;
+    state ^= state >> 27;
+    key += range * (2. * double(state * 0x2545F4914F6CDD1Du >> 11) * 0x1p-53 - 1.);
+  }
+  return result;
+}
+
+inline Raster_packing_search::Plan Raster_packing_search::first_plan()
+{
+  Plan plan;
+  plan.keys = keys_by_area();
+  plan.level = highest_level(m_ladder.lowest(), -62, 16, [&](int level) {
+    coarse_charts(level);
+    count_work(m_coarse, 1);
+    Raster_packing packing = pack_coarse(plan.keys, level);
+    const bool is_complete = packing.is_complete;
+    if(is_complete)
+      plan.packing = std::move(packing);
+    return is_complete && report();
+  });
+  m_coarse_charts.erase(m_coarse_charts.begin(), m_coarse_charts.lower_bound(plan.level));
+  return plan;
+}
+
+// Tries other orders near that of the plan at higher levels; returns whether one of them succeeds,
+// which the plan then is.
+inline bool Raster_packing_search::improve(Plan& plan, std::size_t round)
+{
+  std::vector<Plan> plans(tries);
+  for(std::size_t i = 0; i < tries; ++i)
+    plans[i].keys = perturbed(plan.keys, round * tries + i + 1);
+  bool is_better = false;
+  for(int level = plan.level + 1; level <= 0 && !plans.empty(); ++level) {
+    coarse_charts(level);
+    count_work(m_coarse, plans.size());
+    Blocked_execution::blocked_for(plans.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for(std::size_t i = begin; i < end; ++i)
+        plans[i].packing = pack_coarse(plans[i].keys, level);
+    });
+    const auto fails = [](const Plan& p) { return !p.packing.is_complete; };
+    plans.erase(std::remove_if(plans.begin(), plans.end(), fails), plans.end());
+    if(plans.empty())
+      break;
+    is_better = true;
+    plan = plans[0];
+    plan.level = level;
+  }
+  return is_better;
+}
+
+// Refines a plan at the highest density possible; keeps the packing if it is denser than the best.
+inline void Raster_packing_search::refine(const Plan& plan)
+{
+  const auto succeeds = [&](int level) {
+    std::unique_ptr<Chart_rasters> charts(
+      new Chart_rasters(m_outlines, m_options.rotations, m_ladder.density(level), m_exact));
+    count_work(m_exact, 1);
+    Raster_packing packing = Greedy_packing(m_exact, m_options.max_pages)
+                               .refine(*charts, plan.packing, *m_coarse_charts.at(plan.level));
+    const bool is_complete = packing.is_complete;
+    if(is_complete) {
+      m_best = std::move(packing);
+      m_best_level = level;
+      m_best_charts = std::move(charts);
+    }
+    return report() && is_complete;
+  };
+  if(m_best.is_complete)
+    highest_level(m_best_level + 1, m_best_level + 1, 1, succeeds);
+  else
+    highest_level(m_ladder.lowest(), plan.level, 4, succeeds);
+}
+
+inline void Raster_packing_search::maximize()
+{
+  constexpr double first_work = 6e8, work_per_second = 1e9;
+  Plan plan = first_plan();
+  if(!plan.packing.is_complete)
+    return;
+  std::size_t round = 0;
+  for(; m_work < first_work && !m_is_cancelled; ++round)
+    improve(plan, round);
+  refine(plan);
+  m_work = 0.;
+  for(; m_work < work_per_second * m_options.time_budget && !m_is_cancelled; ++round)
+    if(improve(plan, round))
+      refine(plan);
+}
+
+inline Packing_result Raster_packing_search::with_density(double density)
+{
+  Packing_result result;
+  Chart_rasters charts(m_outlines, m_options.rotations, density, m_exact);
+  charts.make_all();
+  const Raster_packing packing = Greedy_packing(m_exact, m_options.max_pages)
+                                   .pack(charts, order_of(keys_by_area()), Place_criterion::SNUG);
+  if(packing.is_complete)
+    return packing_result(packing, charts, density);
+  std::size_t misfit = 0;
+  bool fits = true;
+  for(std::size_t i = 0; i < m_outlines.size() && fits; misfit = i++) {
+    fits = false;
+    for(int r = 0; r < m_options.rotations; ++r)
+      fits = fits || charts.made(i, r).width > 0;
+  }
+  result.error = misfit_message(misfit, !fits, m_options);
+  return result;
+}
+
+inline Packing_result Raster_packing_search::packing_result(const Raster_packing& packing,
+                                                            const Chart_rasters& charts,
+                                                            double density) const
+{
+  Packing_result result;
+  result.pages = packing.pages;
+  result.texels_per_unit = density / m_unit;
+  for(std::size_t i = 0; i < m_outlines.size(); ++i) {
+    const Raster_place& place = packing.places[i];
+    const Vector_2d& centre = charts.made(i, place.rotation).centre;
+    result.placements.push_back(chart_placement(m_outlines[i], m_exact, place.page,
+                                                charts.angle(i, place.rotation),
+                                                result.texels_per_unit,
+                                                {place.x + centre[0], place.y + centre[1]}));
+  }
+  return result;
+}
+
+} // namespace internal
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_INTERNAL_RASTER_PACKING_SEARCH_H

@@ -1,0 +1,127 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_TRIAL_MAP_H
+#define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_TRIAL_MAP_H
+
+#include <CGAL/Surface_mesh_parameterization/conformal_map.h>
+#include <CGAL/Surface_mesh_texturing/Chart_distortion.h>
+#include <CGAL/Surface_mesh_texturing/internal/Triangle_adjacency.h>
+
+#include <CGAL/ch_graham_andrew.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+namespace internal {
+
+typedef Simple_cartesian<double>::Point_2 Trial_uv;
+
+// What the map of a possible chart is like.
+struct Trial_map
+{
+  Chart_distortion distortion;
+  bool is_disk = false;       // and has been mapped
+  bool is_one_to_one = false; // no flipped triangle, and the border does not meet itself
+  double fill = 0.;           // the part of its convex hull that the chart fills in the plane
+};
+
+// Whether the segments pq and rs have a point in common.
+inline bool segments_meet(const Trial_uv& p, const Trial_uv& q, const Trial_uv& r,
+                          const Trial_uv& s)
+{
+  const auto side = [](const Trial_uv& a, const Trial_uv& b, const Trial_uv& c) {
+    const double d = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+    return (d > 0.) - (d < 0.);
+  };
+  return side(p, q, r) * side(p, q, s) <= 0 && side(r, s, p) * side(r, s, q) <= 0
+      && (std::max)(p.x(), q.x()) >= (std::min)(r.x(), s.x())
+      && (std::max)(r.x(), s.x()) >= (std::min)(p.x(), q.x())
+      && (std::max)(p.y(), q.y()) >= (std::min)(r.y(), s.y())
+      && (std::max)(r.y(), s.y()) >= (std::min)(p.y(), q.y());
+}
+
+typedef std::array<Surface_mesh_multiresolution::Vertex_index, 2> Border_edge;
+
+// Whether two edges that share no vertex meet in the plane, found by a sweep.
+inline bool border_meets_itself(std::vector<Border_edge> edges, const std::vector<Trial_uv>& uv)
+{
+  for(Border_edge& e : edges)
+    if(uv[e[1]].x() < uv[e[0]].x())
+      std::swap(e[0], e[1]);
+  std::sort(edges.begin(), edges.end(), [&uv](const Border_edge& e, const Border_edge& f) {
+    return uv[e[0]].x() < uv[f[0]].x();
+  });
+  std::vector<Border_edge> active;
+  for(const Border_edge& e : edges) {
+    std::size_t kept = 0;
+    for(const Border_edge& f : active) {
+      if(uv[f[1]].x() < uv[e[0]].x())
+        continue;
+      active[kept++] = f;
+      if(e[0] != f[0] && e[0] != f[1] && e[1] != f[0] && e[1] != f[1]
+         && segments_meet(uv[e[0]], uv[e[1]], uv[f[0]], uv[f[1]]))
+        return true;
+    }
+    active.resize(kept);
+    active.push_back(e);
+  }
+  return false;
+}
+
+inline double hull_area(const std::vector<Border_edge>& border, const std::vector<Trial_uv>& uv)
+{
+  std::vector<Trial_uv> points, hull;
+  for(const Border_edge& e : border)
+    points.push_back(uv[e[0]]);
+  ch_graham_andrew(points.begin(), points.end(), std::back_inserter(hull));
+  double twice = 0.;
+  for(std::size_t i = 0; i < hull.size(); ++i) {
+    const Trial_uv &p = hull[i], &q = hull[(i + 1) % hull.size()];
+    twice += p.x() * q.y() - p.y() * q.x();
+  }
+  return 0.5 * twice;
+}
+
+// Maps the mesh with the given border, if it is a disk, as the whole chart will be mapped later.
+inline Trial_map try_map(const Indexed_triangle_mesh& mesh, const std::vector<Border_edge>& border)
+{
+  namespace SMP = Surface_mesh_parameterization;
+  Trial_map result;
+  SMP::HLSCM_options options;
+  options.method = SMP::Conformal_method::DIRECT;
+  const SMP::Conformal_map map = SMP::conformal_map(mesh, options);
+  result.is_disk = map.error == SMP::OK && map.report.borders == 1;
+  if(!result.is_disk)
+    return result;
+  result.distortion = measure_chart_distortion(mesh, map.uv);
+  result.is_one_to_one
+    = result.distortion.flipped_faces == 0 && !border_meets_itself(border, map.uv);
+  const double hull = hull_area(border, map.uv);
+  result.fill = hull > 0. ? result.distortion.uv_area / hull : 0.;
+  return result;
+}
+
+// The edges of the mesh that have one triangle.
+inline std::vector<Border_edge> border_edges(const Indexed_triangle_mesh& mesh)
+{
+  const Triangle_adjacency adjacency(mesh.triangles);
+  std::vector<Border_edge> result;
+  for(std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    for(int c = 0; c < 3; ++c)
+      if(adjacency.opposite(t, c) == Surface_mesh_multiresolution::no_vertex)
+        result.push_back({mesh.triangles[t][c], mesh.triangles[t][(c + 1) % 3]});
+  return result;
+}
+
+} // namespace internal
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_INTERNAL_TRIAL_MAP_H

@@ -1,0 +1,102 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_REFINE_CHARTS_H
+#define CGAL_SURFACE_MESH_TEXTURING_REFINE_CHARTS_H
+
+#include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
+#include <CGAL/Surface_mesh_texturing/straighten_charts.h>
+
+#include <CGAL/assertions.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+
+using Surface_mesh_multiresolution::Progressive_mesh;
+
+namespace internal {
+
+// Collapses as far as k; returns the halfedge of each collapse.
+inline std::vector<Halfedge> collapse_all(const Progressive_mesh& pm, std::size_t k,
+                                          Linked_triangles& mesh)
+{
+  std::vector<Halfedge> edges(k);
+  for(std::size_t i = 0; i < k; ++i)
+    edges[i] = mesh.collapse(pm.collapses[i].removed, pm.collapses[i].kept);
+  return edges;
+}
+
+// The seams of the coarse triangles at the fine ones that survive.
+inline std::vector<std::uint8_t> seams_of_survivors(const Progressive_mesh& pm,
+                                                    const Linked_triangles& mesh,
+                                                    const std::vector<Halfedge>& edges,
+                                                    const Face_charts& coarse)
+{
+  std::vector<std::uint8_t> seams(pm.triangles.size(), 1);
+  for(const Halfedge e : edges)
+    if(e != no_halfedge) {
+      seams[e / 3] = 0;
+      if(mesh.opposite(e) != no_halfedge)
+        seams[mesh.opposite(e) / 3] = 0;
+    }
+  CGAL_precondition(std::size_t(std::count(seams.begin(), seams.end(), 1)) == coarse.seams.size());
+  std::size_t i = 0;
+  for(std::uint8_t& s : seams)
+    if(s != 0)
+      s = coarse.seams[i++];
+  return seams;
+}
+
+} // namespace internal
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+Returns the charts of the fine mesh of `pm` that come of the charts `coarse` of its mesh after `k`
+collapses, whose triangles are those of `triangles_after(pm, k)`.
+
+The collapses are undone one by one. Where a vertex on seams becomes two, each seam goes with the
+triangles beside it, and the new edge becomes a seam if it must join the seams of both; so the graph
+of the seams keeps its homotopy type, and each chart its topology. Each time the mesh has four times
+the vertices, and at the end, the seams are made straight (see `straighten_charts()`), which costs
+time in proportion to their length.
+
+\param pm whose collapses keep the mesh a manifold, of the same topology, and border vertices on the
+border, as those of `Flat_collapse_engine`
+\param points of the fine mesh
+\param options of the straightening; with `rounds` 0 the seams are only carried along
+
+Time linear in the number of triangles of `pm`.
+*/
+inline Face_charts refine_charts(const Progressive_mesh& pm,
+                                 const std::vector<Indexed_triangle_mesh::Point_3>& points,
+                                 std::size_t k, const Face_charts& coarse,
+                                 const Straightening_options& options = Straightening_options())
+{
+  CGAL_precondition(k <= pm.collapses.size() && points.size() == pm.number_of_vertices);
+  internal::Seam_net graph(pm.triangles, points, options.creases);
+  const std::vector<internal::Halfedge> edges = internal::collapse_all(pm, k, graph.mesh());
+  graph.set_seams(internal::seams_of_survivors(pm, graph.mesh(), edges, coarse));
+  internal::Seam_straightener straightener(graph);
+  const internal::Straightening_reach reach = internal::reach_of(options);
+  std::size_t next_level = pm.number_of_vertices_after(k);
+  for(std::size_t i = k; i-- > 0;) {
+    if(pm.number_of_vertices_after(i + 1) >= next_level) {
+      straightener.run(reach);
+      next_level *= 4;
+    }
+    if(edges[i] != internal::no_halfedge)
+      graph.split(edges[i], pm.collapses[i].removed, pm.collapses[i].kept);
+  }
+  straightener.run(reach);
+  return internal::label_charts(graph.mesh(), graph.seams());
+}
+
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_REFINE_CHARTS_H

@@ -1,0 +1,94 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_STRAIGHTEN_CHARTS_H
+#define CGAL_SURFACE_MESH_TEXTURING_STRAIGHTEN_CHARTS_H
+
+#include <CGAL/Surface_mesh_texturing/Face_charts.h>
+#include <CGAL/Surface_mesh_texturing/internal/Seam_straightener.h>
+
+#include <CGAL/assertions.h>
+
+#include <cmath>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+
+/// \ingroup PkgHLSCMTexturing
+/// The options of `straighten_charts()` and `refine_charts()`.
+struct Straightening_options
+{
+  int rounds = 2;          ///< over all seams; 0: seams stay where they are
+  int rings = 4;           ///< how far a seam may move in a round, in edges
+  std::size_t window = 24; ///< the length of the pieces that are made shortest, in edges
+  Crease_weights creases;  ///< what is taken to be short
+};
+
+namespace internal {
+
+inline Straightening_reach reach_of(const Straightening_options& options)
+{
+  return {options.rings, options.window, options.rounds};
+}
+
+} // namespace internal
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+Returns the lengths of the seams of `mesh` inside the surface, each counted once: on the surface,
+and with creases as short as `creases` says. Linear time.
+*/
+struct Seam_length
+{
+  double length = 0.;  ///< in the unit of the mesh
+  double weighted = 0.; ///< in the unit of the mesh
+  std::size_t edges = 0; ///< their number
+};
+
+inline Seam_length measure_seams(const Indexed_triangle_mesh& mesh, const Face_charts& charts,
+                                 const Crease_weights& creases = Crease_weights())
+{
+  internal::Seam_net graph(mesh.triangles, mesh.points, creases);
+  graph.set_seams(charts.seams);
+  Seam_length result;
+  for(internal::Halfedge h = 0; h < 3 * mesh.triangles.size(); ++h) {
+    if(!graph.is_seam(h) || graph.mesh().opposite(h) == internal::no_halfedge
+       || graph.mesh().opposite(h) < h)
+      continue;
+    ++result.edges;
+    result.weighted += graph.metric().to_length(graph.length(h));
+    result.length += std::sqrt(squared_distance(mesh.points[graph.mesh().source(h)],
+                                                mesh.points[graph.mesh().target(h)]));
+  }
+  return result;
+}
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+Returns charts with shorter seams: pieces of `window` edges are replaced by the shortest paths of
+edges in a band of `rings` edges around them, where creases count less, and junctions of seams move
+to where their seams are shortest, those on the border of the surface along it. The ends of seams
+within a chart stay. If all charts are disks, they still are, and their number does not change. The
+weighted length of the seams never grows.
+
+Time linear in the number of triangles, with a small constant, plus that of the seam edges times
+`rounds * rings`.
+*/
+inline Face_charts straighten_charts(const Indexed_triangle_mesh& mesh, const Face_charts& charts,
+                                     const Straightening_options& options
+                                       = Straightening_options())
+{
+  CGAL_precondition(charts.seams.size() == mesh.triangles.size());
+  internal::Seam_net graph(mesh.triangles, mesh.points, options.creases);
+  graph.set_seams(charts.seams);
+  internal::Seam_straightener(graph).run(internal::reach_of(options));
+  return internal::label_charts(graph.mesh(), graph.seams());
+}
+
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_STRAIGHTEN_CHARTS_H
