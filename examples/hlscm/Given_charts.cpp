@@ -6,6 +6,8 @@
 #include "Program_error.h"
 #include "Surface_reading.h"
 
+#include <CGAL/Surface_mesh_texturing/charts_of_texture.h>
+
 #include <algorithm>
 #include <charconv>
 #include <fstream>
@@ -72,9 +74,8 @@ std::optional<SMT::Face_charts> given_charts(const Polygon_soup& surface,
 {
   const std::string& charts = options.atlas.charts;
   const auto triangles = to_indexed(surface).triangles;
-  const std::vector<std::uint8_t> no_seams(triangles.size(), 0);
   if(options.atlas.is_one_disk) {
-    return SMT::charts_between(triangles, no_seams);
+    return SMT::charts_between(triangles, std::vector<std::uint8_t>(triangles.size(), 0));
   }
   if(charts.empty()) {
     return std::nullopt;
@@ -86,10 +87,7 @@ std::optional<SMT::Face_charts> given_charts(const Polygon_soup& surface,
     throw Program_error(options.input, "it has no texture coordinates at all its corners whose "
                                        "seams --charts uv could take, leave that out");
   }
-  // In the mesh of the wedges the seams are borders
-  const auto textured
-      = CGAL::Surface_mesh_multiresolution::with_wedges(to_textured(surface));
-  return SMT::charts_between(textured.wedges, no_seams);
+  return SMT::charts_of_texture(to_textured(surface));
 }
 
 } // namespace hlscm
