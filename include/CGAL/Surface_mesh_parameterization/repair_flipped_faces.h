@@ -123,12 +123,14 @@ repair_flipped_faces(const Surface_mesh_multiresolution::Indexed_triangle_mesh& 
 {
   CGAL_precondition(uv.size() == mesh.points.size());
   const auto start = std::chrono::steady_clock::now();
-  const internal::Flip_repair::Shape_of_face shape_of_face = internal::shapes_of_triangles(mesh, options.weights);
+  const internal::Flip_repair::Shape_of_face shape_of_face
+    = internal::shapes_of_triangles(mesh, options.weights);
   std::vector<std::complex<double>> z;
   for(const auto& p : uv)
     z.push_back({p.x(), p.y()});
   const std::vector<std::complex<double>> before = z;
-  internal::Flip_repair repair(mesh.triangles, std::vector<bool>(z.size(), false), shape_of_face, z);
+  const std::vector<bool> is_fixed(z.size(), false); // must live as long
+  internal::Flip_repair repair(mesh.triangles, is_fixed, shape_of_face, z);
   Flip_repair_report report = repair.run(options);
   report.energy_before = internal::energy_of_map(mesh.triangles, shape_of_face, before);
   report.energy_after += report.energy_before;

@@ -38,12 +38,12 @@ struct Chart_growth_options
   double feature_angle = 30.;
   /// The part of its convex hull in the plane that a chart fills at least, so that charts can be
   /// packed: without, stars and spirals are possible.
-  double least_fill = 0.5;
+  double least_fill = 0.65;
   /// Triangles to one of the patches from which charts are merged.
   std::size_t patch_size = 25;
   /// How much is tried to get along with fewer charts: triangles that are mapped for each triangle
   /// of the mesh.
-  double effort = 100.;
+  double effort = 150.;
   /// Told the part done in [0, 1] from time to time; returning `false` cancels.
   std::function<bool(double)> progress;
 };
@@ -85,29 +85,27 @@ inline Distortion_bound part_of(const Distortion_bound& bound, double part)
   return result;
 }
 
-// The charts of a state, numbered as in `Face_charts`, and the distortion of their trial maps.
-inline Chart_growth_result growth_result(const Growth_surface& surface,
-                                         const Chart_merger::State& state,
-                                         const Distortion_bound& bound)
+// The charts of a state, numbered as in `Face_charts`, and the distortion of their trial maps,
+// measured on the mesh as it was given.
+inline Chart_growth_result growth_result(const Indexed_triangle_mesh& mesh,
+                                         const Seam_graph& graph, const Distortion_bound& bound)
 {
   Chart_growth_result result;
-  std::vector<std::uint8_t> seams(surface.size(), 0);
+  std::vector<std::uint8_t> seams(mesh.triangles.size(), 0);
   for(std::uint32_t h = 0; h < 3 * seams.size(); ++h)
-    if(state.graph.is_seam(h))
+    if(graph.is_seam(h))
       seams[h / 3] |= 1 << h % 3;
-  result.charts = charts_between(surface.mesh.triangles, std::move(seams));
-  result.distortion.resize(result.charts.number_of_charts);
-  result.is_bad.resize(result.charts.number_of_charts);
-  const double unit = 1. / (surface.scale * surface.scale);
-  for(const Chart_merger::Piece& piece : state.pieces) {
-    if(piece.triangles.empty())
-      continue;
-    const std::uint32_t c = result.charts.chart[piece.triangles[0]];
-    Chart_distortion& distortion = result.distortion[c] = piece.trial.distortion;
-    distortion.area *= unit;
-    distortion.uv_area *= unit;
-    result.is_bad[c] = !piece.trial.is_one_to_one || !distortion.is_within(bound);
-    result.number_of_bad_charts += result.is_bad[c] ? 1 : 0;
+  result.charts = charts_between(mesh.triangles, std::move(seams));
+  const std::vector<Chart_mesh> charts = chart_meshes(mesh, result.charts);
+  std::vector<Trial_map> trial(charts.size());
+  Blocked_execution::blocked_for(charts.size(), 1, [&](std::size_t c, std::size_t) {
+    trial[c] = try_map(charts[c].mesh, border_edges(charts[c].mesh));
+  });
+  for(const Trial_map& map : trial) {
+    const bool is_bad = !map.is_one_to_one || !map.distortion.is_within(bound);
+    result.distortion.push_back(map.distortion);
+    result.is_bad.push_back(is_bad);
+    result.number_of_bad_charts += is_bad ? 1 : 0;
   }
   return result;
 }
@@ -157,7 +155,7 @@ inline Chart_growth_result grow_charts(const Indexed_triangle_mesh& mesh,
   internal::Chart_search growth(surface, search);
   const bool is_done = growth.run();
   if(is_done)
-    return internal::growth_result(surface, growth.best(), options.bound);
+    return internal::growth_result(mesh, growth.best().graph, options.bound);
   result.error = "cancelled";
   return result;
 }

@@ -51,6 +51,7 @@ class Chart_merger
 {
   static constexpr std::uint32_t none = Surface_mesh_multiresolution::no_vertex;
   static constexpr double least_dart_defect = 0.3; // radians
+  static constexpr double least_neck = 0.12; // between two charts, to the smaller perimeter
 
 public:
   typedef std::vector<std::uint32_t> Indices;
@@ -84,8 +85,9 @@ public:
       m_area += a;
   }
 
-  // The charts with the given labels of triangles and seams.
-  State start(const Seam_graph& graph, const Indices& patch, std::size_t number);
+  // The charts with the given seams and labels of triangles, which are less than `number`; not all
+  // of these need have triangles.
+  State start(const Seam_graph& graph, const Indices& label, std::size_t number);
 
   // Merges while a union of two charts, one of which `is_active`, is within the bound.
   void merge(State& state, const std::vector<bool>& is_active, const Merge_weights& weights);
@@ -142,6 +144,11 @@ private:
     const Piece& piece = state.pieces[pair.first];
     return state.charts_of_component[m_surface.component[piece.triangles[0]]] > m_least;
   }
+  bool has_thin_neck(const State& state, const Pair& pair, const Candidate& candidate) const
+  {
+    return candidate.removed < least_neck * (std::min)(state.pieces[pair.first].perimeter,
+                                                       state.pieces[pair.second].perimeter);
+  }
   bool is_far_beyond_bound(const Trial_map& trial) const
   {
     constexpr double much = 1.3; // the power of the bound
@@ -175,23 +182,26 @@ inline void Chart_merger::measure(const Seam_graph& graph, Piece& piece) const
   }
 }
 
-inline Chart_merger::State Chart_merger::start(const Seam_graph& graph, const Indices& patch,
+inline Chart_merger::State Chart_merger::start(const Seam_graph& graph, const Indices& label,
                                                std::size_t number)
 {
-  State state = {graph, patch, std::vector<Piece>(number), number,
+  State state = {graph, label, std::vector<Piece>(number), 0,
                  std::vector<std::size_t>(m_surface.number_of_components, 0)};
-  for(std::uint32_t t = 0; t < patch.size(); ++t)
-    state.pieces[patch[t]].triangles.push_back(t);
-  for(Piece& piece : state.pieces) {
-    measure(graph, piece);
-    ++state.charts_of_component[m_surface.component[piece.triangles[0]]];
-  }
+  for(std::uint32_t t = 0; t < label.size(); ++t)
+    state.pieces[label[t]].triangles.push_back(t);
   Candidates candidates;
-  for(std::uint32_t i = 0; i < number; ++i)
-    candidates[Pair(i, i)];
+  for(std::uint32_t c = 0; c < number; ++c) {
+    Piece& piece = state.pieces[c];
+    if(piece.triangles.empty())
+      continue;
+    measure(graph, piece);
+    ++state.number_of_charts;
+    ++state.charts_of_component[m_surface.component[piece.triangles[0]]];
+    candidates[Pair(c, c)];
+  }
   try_all(state, candidates);
-  for(std::uint32_t i = 0; i < number; ++i)
-    state.pieces[i].trial = candidates[Pair(i, i)].trial;
+  for(const auto& [pair, candidate] : candidates)
+    state.pieces[pair.first].trial = candidate.trial;
   return state;
 }
 
@@ -288,6 +298,11 @@ inline Chart_merger::Candidate Chart_merger::candidate(State& state, const Pair&
     graph.open(h);
   graph.zip(from, result.opened);
   graph.zip(to, result.opened);
+  if(graph.is_single_edge(from)) { // a sphere with a slit of one edge is none any more
+    graph.close(result.opened.front());
+    result.opened.erase(result.opened.begin());
+    result.arc = 0;
+  }
   for(const std::uint32_t h : result.opened) {
     graph.close(h);
     result.removed += m_surface.length[h];
@@ -476,7 +491,8 @@ inline void Chart_merger::merge(State& state, const std::vector<bool>& is_active
     const Pair* best = nullptr;
     double least = (std::numeric_limits<double>::max)();
     for(const auto& [pair, candidate] : candidates) {
-      if(!is_good(candidate.trial) || !may_merge(state, pair))
+      if(!is_good(candidate.trial) || !may_merge(state, pair)
+         || has_thin_neck(state, pair, candidate))
         continue;
       const double c = cost(state, pair, candidate, weights);
       if(c < least) {

@@ -26,9 +26,9 @@ struct Search_options
   std::size_t least_charts = 1;
   std::size_t max_charts = 0;
   double feature_angle = 0.5; // radians
-  double least_fill = 0.5;
+  double least_fill = 0.65;
   std::size_t patch_size = 25;
-  double effort = 100.;
+  double effort = 150.;
   std::function<bool(double)> progress;
 };
 
@@ -37,13 +37,16 @@ struct Search_options
 class Chart_search
 {
   typedef Chart_merger::State State;
+  static constexpr std::size_t most_neighbors = 4; // one more than are taken apart with a chart
+  static constexpr std::size_t small_size = 500;   // triangles; smaller meshes get more effort
+  static constexpr std::size_t most_failures = 8;  // rounds without success in succession
 
 public:
   Chart_search(const Growth_surface& surface, const Search_options& options)
     : m_surface(surface), m_options(options)
     , m_is_feature(feature_edges(surface, options.feature_angle))
     , m_merger(surface, m_is_feature, options.bound, options.least_fill, options.least_charts)
-    , m_most_work(options.effort * double(surface.size()))
+    , m_most_work(options.effort * double(surface.size() + small_size))
   {
     m_merger.set_progress([this] { return tell_progress(); });
   }
@@ -57,6 +60,8 @@ private:
   State start();
   void improve();
   bool improve_around(std::uint32_t c, std::size_t round);
+  void straighten();
+  State straightened(const std::vector<bool>& is_fixed);
   std::vector<std::uint32_t> charts_by_area() const;
   bool tell_progress();
   bool is_better(const State& a, const State& b) const
@@ -114,6 +119,7 @@ inline bool Chart_search::run()
   improve();
   if(m_options.max_charts > 0)
     m_merger.merge_down_to(*m_best, m_options.max_charts);
+  straighten();
   return tell_progress();
 }
 
@@ -129,7 +135,8 @@ inline std::vector<std::uint32_t> Chart_search::charts_by_area() const
   return result;
 }
 
-// Merges chart c and its neighbours anew; returns whether that was better.
+// Merges chart c and its smallest neighbours anew, or the patches of c alone; returns whether that
+// was better. The weights change from round to round.
 inline bool Chart_search::improve_around(std::uint32_t c, std::size_t round)
 {
   static constexpr std::array<Merge_weights, 4> weights = {{
@@ -137,6 +144,10 @@ inline bool Chart_search::improve_around(std::uint32_t c, std::size_t round)
     {0.3, 0.3, 0.2, 0.6, 0.3}}};
   State state = *m_best;
   std::vector<std::uint32_t> charts = m_merger.neighbors(state, c);
+  std::stable_sort(charts.begin(), charts.end(), [&state](std::uint32_t a, std::uint32_t b) {
+    return state.pieces[a].area < state.pieces[b].area;
+  });
+  charts.resize((std::min)(charts.size(), round % most_neighbors));
   charts.push_back(c);
   const std::vector<bool> is_active = m_merger.take_apart(state, *m_atoms, charts);
   m_merger.merge(state, is_active, weights[round % weights.size()]);
@@ -149,7 +160,7 @@ inline bool Chart_search::improve_around(std::uint32_t c, std::size_t round)
 inline void Chart_search::improve()
 {
   std::size_t failures = 0;
-  for(std::size_t round = 0; failures < 4 && !is_worn() && !m_is_cancelled; ++round) {
+  for(std::size_t round = 0; failures < most_failures && !is_worn() && !m_is_cancelled; ++round) {
     bool is_improved = false;
     for(const std::uint32_t c : charts_by_area()) {
       if(is_worn() || m_is_cancelled)
@@ -158,6 +169,43 @@ inline void Chart_search::improve()
         is_improved = improve_around(c, round) || is_improved;
     }
     failures = is_improved ? 0 : failures + 1;
+  }
+}
+
+// The best charts with straight seams, but for those around the charts that are fixed.
+inline Chart_search::State Chart_search::straightened(const std::vector<bool>& is_fixed)
+{
+  Seam_graph graph = m_best->graph;
+  std::vector<std::uint32_t> label = m_best->label;
+  Seam_straightening(m_surface, m_is_feature).run(graph, label, [&](std::uint32_t t) {
+    bool may_change = !is_fixed[label[t]];
+    for(int c = 0; c < 3; ++c) {
+      const std::uint32_t h = m_surface.adjacency.opposite(t, c);
+      may_change = may_change && (h == Surface_mesh_multiresolution::no_vertex
+                                  || !is_fixed[label[h / 3]]);
+    }
+    return may_change;
+  });
+  return m_merger.start(graph, label, m_best->pieces.size());
+}
+
+// Straightens the seams of the best charts where their maps stay good.
+inline void Chart_search::straighten()
+{
+  std::vector<bool> is_fixed(m_best->pieces.size(), false);
+  const auto is_good = [this](const State& state, std::size_t c) {
+    return state.pieces[c].triangles.empty() || m_merger.is_good(state.pieces[c].trial);
+  };
+  for(std::size_t c = 0; c < is_fixed.size(); ++c)
+    is_fixed[c] = !is_good(*m_best, c);
+  for(bool is_changed = true; is_changed && !m_is_cancelled; ) {
+    State state = straightened(is_fixed);
+    is_changed = false;
+    for(std::size_t c = 0; c < is_fixed.size(); ++c)
+      if(!is_fixed[c] && !is_good(state, c))
+        is_fixed[c] = is_changed = true;
+    if(!is_changed)
+      m_best = std::move(state);
   }
 }
 

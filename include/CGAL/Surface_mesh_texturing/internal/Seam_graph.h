@@ -66,10 +66,7 @@ public:
   {
     if(m_degree[v] != 1)
       return;
-    std::uint32_t h = m_first[v];
-    while(!is_seam(h))
-      h = next_halfedge(opposite(h));
-    std::vector<std::uint32_t> path(1, h);
+    std::vector<std::uint32_t> path(1, last_seam(v));
     while(m_degree[target(path.back())] == 2)
       path.push_back(next_seam(path.back()));
     if(m_degree[target(path.back())] == 1)
@@ -80,7 +77,22 @@ public:
     }
   }
 
+  // Whether the seam at v ends with its first edge at both sides.
+  bool is_single_edge(std::uint32_t v) const
+  {
+    return m_degree[v] == 1 && m_degree[target(last_seam(v))] == 1;
+  }
+
 private:
+  // The seam at v, where there is one only.
+  std::uint32_t last_seam(std::uint32_t v) const
+  {
+    std::uint32_t h = m_first[v];
+    while(!is_seam(h))
+      h = next_halfedge(opposite(h));
+    return h;
+  }
+
   void set(std::uint32_t h, bool is_seam)
   {
     if((m_is_seam[h] != 0) == is_seam || is_border(h))

@@ -29,7 +29,7 @@ public:
     , m_graph(surface.mesh.triangles, surface.adjacency, surface.mesh.points.size())
     , m_is_feature(3 * surface.size(), 0)
     , m_near(surface.mesh.points.size(), Vector(0., 0., 0.))
-    , m_threshold((std::max)(least_angle, sharpest_angle()))
+    , m_threshold((std::max)(least_angle, (std::min)(sharpest_angle(), surely_sharp)))
   {
     find();
   }
@@ -39,6 +39,7 @@ public:
 
 private:
   static constexpr double sharp_part = 0.05;  // of the edges, from which curves start
+  static constexpr double surely_sharp = 0.8; // radians; enough, whatever the others are
   static constexpr int search_depth = 4;      // edges that are looked ahead
   static constexpr double least_length = 0.1; // of a curve, to the diameter of a disk of equal area
 
@@ -65,18 +66,16 @@ private:
                                && is_parallel(m_near[m_graph.target(h)]));
   }
 
-  // Calls f for the halfedges from the target of h but the one that leads back.
+  // Calls f for the halfedges from the target of h, clockwise from the one that leads back,
+  // as far as the border.
   template <class F>
   void for_each_after(std::uint32_t h, const F& f) const
   {
-    const std::uint32_t none = Surface_mesh_multiresolution::no_vertex;
-    std::uint32_t g = next_halfedge(h);
-    for(; g != none && g != m_graph.opposite(h); ) {
+    const std::uint32_t back = m_graph.opposite(h);
+    for(std::uint32_t g = next_halfedge(h); g != back; g = next_halfedge(m_graph.opposite(g))) {
       f(g);
-      const std::uint32_t across = m_graph.opposite(previous_halfedge(g));
-      if(across == none || across == h)
-        break;
-      g = across;
+      if(m_graph.is_border(g))
+        return;
     }
   }
 
@@ -105,7 +104,8 @@ inline double Feature_curves::best_ahead(std::uint32_t h, int depth, std::uint32
     return best;
   const Vector along = step_of(h);
   for_each_after(h, [&](std::uint32_t g) {
-    if(is_taken(g) || !(step_of(g) * along > 0.))
+    if(m_graph.is_border(g) || m_surface.angle[g] < 0.5 * m_threshold || is_taken(g)
+       || !(step_of(g) * along > 0.))
       return;
     std::uint32_t unused = g;
     const double sum = m_surface.angle[g] + best_ahead(g, depth - 1, unused);
@@ -117,12 +117,14 @@ inline double Feature_curves::best_ahead(std::uint32_t h, int depth, std::uint32
   return best;
 }
 
-// Goes on from the last halfedge of the path while the mean angle ahead is sharp.
+// Goes on from the last halfedge of the path while the next edge, or their mean, is sharp.
 inline void Feature_curves::extend(std::vector<std::uint32_t>& path) const
 {
   while(path.size() < m_surface.size()) {
     std::uint32_t first = path.back();
-    if(!(best_ahead(path.back(), search_depth, first) >= search_depth * m_threshold))
+    const double ahead = best_ahead(path.back(), search_depth, first);
+    if(first == path.back()
+       || !(ahead >= search_depth * m_threshold || m_surface.angle[first] >= m_threshold))
       return;
     const std::uint32_t end = m_graph.target(first);
     const bool closes = std::any_of(path.begin(), path.end(),

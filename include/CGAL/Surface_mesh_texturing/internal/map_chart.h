@@ -116,7 +116,7 @@ inline Mapped_chart map_chart(Chart_mesh chart, const Texture_atlas_options& opt
   solver.method = mesh.triangles.size() < options.direct_faces ? SMP::Conformal_method::DIRECT
                                                                : options.method;
   solver.tolerance = options.tolerance;
-  SMP::Conformal_map map = SMP::conformal_map(mesh, solver);
+  SMP::Conformal_map map = SMP::flatten_border_first(mesh);
   result.report.is_one_to_one = false;
   if(map.error != SMP::OK)
     return result;

@@ -96,7 +96,7 @@ inline Trial_map try_map(const Indexed_triangle_mesh& mesh, const std::vector<Bo
   Trial_map result;
   SMP::HLSCM_options options;
   options.method = SMP::Conformal_method::DIRECT;
-  const SMP::Conformal_map map = SMP::conformal_map(mesh, options);
+  const SMP::Conformal_map map = SMP::flatten_border_first(mesh);
   result.is_disk = map.error == SMP::OK && map.report.borders == 1;
   if(!result.is_disk)
     return result;
