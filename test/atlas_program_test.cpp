@@ -288,6 +288,73 @@ std::string error_in_glb(const std::string& glb, std::size_t faces, bool has_tan
   return triangles == faces ? "" : std::to_string(triangles) + " triangles";
 }
 
+// The picture of a texture of a GLB file.
+Picture picture_of(const std::string& glb, const Json& gltf, const Json& texture)
+{
+  const Json& image = gltf["images"][gltf["textures"][texture["index"].get<std::size_t>()]["source"]
+                                         .get<std::size_t>()];
+  const Json& view = gltf["bufferViews"][image["bufferView"].get<std::size_t>()];
+  std::uint32_t json_size;
+  std::memcpy(&json_size, glb.data() + 12, 4);
+  return read_picture(glb.substr(28 + json_size + view["byteOffset"].get<std::size_t>(),
+                                 view["byteLength"].get<std::size_t>()));
+}
+
+double degrees_between(const Point& a, const Point& b)
+{
+  const double cosine = (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) / (length(a) * length(b));
+  return 57.29577951308232 * std::acos(std::clamp(cosine, -1., 1.));
+}
+
+// The mean angles, with and without the normal map, between the normals of a torus and those that
+// glTF's rules give in the middles of the triangles of a light model of it.
+std::array<double, 2> normal_errors(const std::string& glb)
+{
+  const Json gltf = json_of_glb(glb);
+  std::array<double, 2> sums{};
+  std::size_t number = 0;
+  for(const Json& primitive : gltf["meshes"][0]["primitives"]) {
+    const Json& attributes = primitive["attributes"];
+    const auto indices = numbers_of<std::uint32_t>(glb, gltf, primitive["indices"]);
+    const auto points = numbers_of<float>(glb, gltf, attributes["POSITION"]);
+    const auto normals = numbers_of<float>(glb, gltf, attributes["NORMAL"]);
+    const auto tangents = numbers_of<float>(glb, gltf, attributes["TANGENT"]);
+    const auto uv = numbers_of<float>(glb, gltf, attributes["TEXCOORD_0"]);
+    const Json& material = gltf["materials"][primitive["material"].get<std::size_t>()];
+    const Picture map = picture_of(glb, gltf, material["normalTexture"]);
+    for(std::size_t i = 0; i < indices.size(); i += 3) {
+      const auto mean = [&](const std::vector<float>& values, std::size_t each, std::size_t k) {
+        return (values[indices[i] * each + k] + values[indices[i + 1] * each + k]
+                + values[indices[i + 2] * each + k])
+               / 3.;
+      };
+      Point p, n, t, sample;
+      for(std::size_t k = 0; k < 3; ++k) {
+        p[k] = mean(points, 3, k);
+        n[k] = mean(normals, 3, k);
+        t[k] = mean(tangents, 4, k);
+      }
+      const double w = mean(tangents, 4, 3), ring = std::hypot(p[0], p[1]);
+      const Point b{w * (n[1] * t[2] - n[2] * t[1]), w * (n[2] * t[0] - n[0] * t[2]),
+                    w * (n[0] * t[1] - n[1] * t[0])};
+      const std::size_t x = std::size_t(mean(uv, 2, 0) * map.width),
+                        y = std::size_t(mean(uv, 2, 1) * map.height); // from the top
+      for(std::size_t k = 0; k < 3; ++k) {
+        sample[k] = 2 * map.samples[3 * (y * std::size_t(map.width) + x) + k] / 65535. - 1;
+      }
+      Point mapped;
+      for(std::size_t k = 0; k < 3; ++k) {
+        mapped[k] = sample[0] * t[k] + sample[1] * b[k] + sample[2] * n[k];
+      }
+      const Point exact{p[0] - 2 * p[0] / ring, p[1] - 2 * p[1] / ring, p[2]};
+      sums[0] += degrees_between(mapped, exact);
+      sums[1] += degrees_between(n, exact);
+      ++number;
+    }
+  }
+  return {sums[0] / double(number), sums[1] / double(number)};
+}
+
 class Atlas : public Program
 {
 protected:
@@ -520,6 +587,43 @@ TEST_F(Atlas, of_a_light_model_shows_the_detail_in_its_normal_map)
             0.5 * angles["without_map"]["mean"].get<double>());
   EXPECT_LT(angles["with_map"]["quantile_95"], angles["without_map"]["quantile_95"]);
   EXPECT_GE(light["distance"]["max"], light["distance"]["mean"]);
+}
+
+// A viewer sees the torus itself where the light model has edges.
+TEST_F(Atlas, of_a_light_model_is_lit_by_the_rules_of_gltf)
+{
+  const Soup surface = torus(90, false);
+  for(const char* pages : {"1", "2"}) {
+    const Json report = call_well("bake", write("in.off", off(surface)), "out",
+                                  {"--faces", "300", "--texture", "512", "--pages", pages});
+    ASSERT_TRUE(report.is_object());
+    const std::string glb = read_file(folder / "out/light.glb");
+    const auto [mapped, plain] = normal_errors(glb);
+    EXPECT_LT(mapped, 0.4 * plain) << pages;
+    EXPECT_LT(mapped, 3) << pages;
+    // The same model in both formats; v goes down in glTF
+    const Obj_model model = read_model(folder / "out/light.obj");
+    EXPECT_EQ(error_in_texture(model, 512), "");
+    std::set<std::array<float, 5>> in_obj, in_glb;
+    for(std::size_t f = 0; f < model.soup.uv_faces.size(); ++f) {
+      for(std::size_t c = 0; c < 3; ++c) {
+        const Point& p = model.soup.surface.points[model.soup.surface.faces[f][c]];
+        const auto& uv = model.soup.uv[model.soup.uv_faces[f][c]];
+        in_obj.insert({float(p[0]), float(p[1]), float(p[2]), float(uv[0]), float(1 - uv[1])});
+      }
+    }
+    const Json gltf = json_of_glb(glb);
+    const Json& attributes = gltf["meshes"][0]["primitives"][0]["attributes"];
+    const auto points = numbers_of<float>(glb, gltf, attributes["POSITION"]);
+    const auto uv = numbers_of<float>(glb, gltf, attributes["TEXCOORD_0"]);
+    for(std::size_t v = 0; 2 * v < uv.size(); ++v) {
+      in_glb.insert({points[3 * v], points[3 * v + 1], points[3 * v + 2], uv[2 * v], uv[2 * v + 1]});
+    }
+    EXPECT_TRUE(in_obj == in_glb) << pages;
+    const std::size_t number = report["pages"];
+    EXPECT_EQ(gltf["materials"].size(), number);
+    EXPECT_EQ(fs::exists(folder / "out/normal_2.png"), number == 2);
+  }
 }
 
 TEST_F(Atlas, is_the_same_for_any_number_of_threads)
