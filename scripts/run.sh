@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # Installs what is missing, builds the program hlscm, parameterizes MESH with it and makes levels of
-# detail of the result; without MESH, a real one of 25,888 triangles from Debian's package
-# libcgal-demo.
+# detail of the result, then a texture atlas of MESH and a light model with a normal map, one tenth
+# as large; without MESH, a real one of 25,888 triangles from Debian's package libcgal-demo.
 #
 # Usage: scripts/run.sh [MESH]
 
@@ -35,17 +35,24 @@ output="$build/output/$name"
 rm -rf "$output"
 mkdir -p "$output"
 
+hlscm="$build/bin/hlscm"
 say "parameterizing $mesh"
-"$build/bin/hlscm" parameterize "$mesh" -o "$output/$name.obj" \
+"$hlscm" parameterize "$mesh" -o "$output/$name.obj" \
   --report "$output/$name.json" --pictures "$output"
 
 say "making levels of detail"
-"$build/bin/hlscm" levels "$output/$name.obj" -o "$output/levels" --pictures "$output/levels"
+"$hlscm" levels "$output/$name.obj" -o "$output/levels" --pictures "$output/levels"
+
+say "making a texture atlas, a light model and its normal map"
+faces="$("$hlscm" info --json "$mesh" | python3 -c 'import json, sys; print(json.load(sys.stdin)["faces"])')"
+"$hlscm" bake "$mesh" -o "$output/light" --faces "$((faces / 10 + 1))" --pictures "$output/light"
 
 cat <<END
 
 Mesh with texture coordinates: $output/$name.obj
 Report:                        $output/$name.json
 Levels of detail:              $output/levels/level_*.obj, levels.glb, mesh.pm
-Pictures:                      $output/*.png, $output/levels/*.png
+Texture atlas:                 $output/light/atlas.obj, atlas.glb
+Light model with a normal map: $output/light/light.obj, light.glb, normal.png, report.json
+Pictures:                      $output/*.png, $output/levels/*.png, $output/light/*.png
 END

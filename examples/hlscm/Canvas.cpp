@@ -3,14 +3,9 @@
 
 #include "Canvas.h"
 
-#include <limits>
+#include "Png_file.h"
 
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#define STBI_WRITE_NO_STDIO
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
-#include <stb/stb_image_write.h>
-#pragma GCC diagnostic pop
+#include <limits>
 
 namespace hlscm {
 
@@ -18,20 +13,7 @@ namespace {
 
 constexpr double gamma = 2.2; // samples are averaged as light, not as screen values
 
-void append_bytes(void* text, void* bytes, int size)
-{
-  static_cast<std::string*>(text)->append(static_cast<const char*>(bytes), std::size_t(size));
-}
-
 } // namespace
-
-std::string encode_png(const std::vector<std::uint8_t>& rgb, std::size_t width)
-{
-  std::string text;
-  const int height = int(rgb.size() / (3 * width));
-  stbi_write_png_to_func(append_bytes, &text, int(width), height, 3, rgb.data(), int(3 * width));
-  return text;
-}
 
 void write_png(const std::vector<std::uint8_t>& rgb, std::size_t width, Output_file& file)
 {

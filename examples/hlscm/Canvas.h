@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 namespace hlscm {
@@ -25,9 +24,6 @@ inline Colour mix(const Colour& a, const Colour& b, double t)
 
 /// Writes the red, green and blue of pixels, row by row, as a PNG file.
 void write_png(const std::vector<std::uint8_t>& rgb, std::size_t width, Output_file& file);
-
-/// The same as a string.
-std::string encode_png(const std::vector<std::uint8_t>& rgb, std::size_t width);
 
 /// A picture with a depth buffer and several samples a pixel, white at first.
 class Canvas

@@ -60,11 +60,7 @@ Mesh read_chart(const std::string& input, Progress_bar& progress,
 {
   const Read_mesh read = read_mesh(input, progress);
   warnings = read.warnings;
-  const Diagnosis diagnosis = diagnose(read.soup, progress);
-  const std::vector<Obstacle> all = obstacles(diagnosis);
-  if(!all.empty()) {
-    throw Program_error(input, all.front().what + ", " + all.front().remedy);
-  }
+  refuse_obstacles(input, obstacles(diagnose(read.soup, progress)));
   return build_mesh(read.soup);
 }
 

@@ -12,6 +12,8 @@ namespace hlscm {
 int run_info(const Program_options& options);
 int run_parameterize(const Program_options& options);
 int run_levels(const Program_options& options);
+int run_atlas(const Program_options& options);
+int run_bake(const Program_options& options);
 
 } // namespace hlscm
 

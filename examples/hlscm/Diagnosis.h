@@ -71,6 +71,9 @@ std::vector<Obstacle> surface_obstacles(const Diagnosis& diagnosis);
 /// All obstacles; empty for a chart.
 std::vector<Obstacle> obstacles(const Diagnosis& diagnosis);
 
+/// Throws `Program_error` for the first obstacle, if there is one.
+void refuse_obstacles(const std::string& file, const std::vector<Obstacle>& obstacles);
+
 } // namespace hlscm
 
 #endif // HLSCM_PROGRAM_DIAGNOSIS_H

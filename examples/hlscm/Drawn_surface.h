@@ -20,6 +20,7 @@ struct Drawn_surface
   std::vector<Vector_2> uv;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::array<std::uint32_t, 2>> border; ///< the edges of one triangle only
+  std::vector<Vector_3> normals; ///< of the points; empty: those of the triangles there
 };
 
 /// Finds the border from the triangles.

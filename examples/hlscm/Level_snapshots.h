@@ -6,11 +6,9 @@
 
 #include "Drawn_surface.h"
 #include "Mesh.h"
+#include "Unit_cube.h"
 
-#include <CGAL/Bbox_3.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
-
-#include <algorithm>
 
 namespace hlscm {
 
@@ -32,16 +30,7 @@ class Level_snapshots
 public:
   using Level_view = CGAL::Surface_mesh_parameterization::Level_view;
 
-  explicit Level_snapshots(const Mesh& mesh) : m_mesh(mesh)
-  {
-    CGAL::Bbox_3 box;
-    for(const auto& p : mesh.points()) {
-      box += p.bbox();
-    }
-    m_centre = {0.5 * box.xmin() + 0.5 * box.xmax(), 0.5 * box.ymin() + 0.5 * box.ymax(),
-                0.5 * box.zmin() + 0.5 * box.zmax()};
-    m_size = std::max({box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin()});
-  }
+  explicit Level_snapshots(const Mesh& mesh) : m_mesh(mesh), m_cube(mesh.points()) {}
 
   /// To be called with each level, from coarse to fine.
   void observe(const Level_view& view)
@@ -54,7 +43,7 @@ public:
     Drawn_surface level;
     level.triangles = *view.faces;
     for(std::size_t i = 0; i < view.vertices->size(); ++i) {
-      level.points.push_back(scaled(Mesh::Vertex_index((*view.vertices)[i])));
+      level.points.push_back(m_cube(m_mesh.point(Mesh::Vertex_index((*view.vertices)[i]))));
       level.uv.push_back({(*view.uv)[i].real(), (*view.uv)[i].imag()});
     }
     m_levels.push_back(std::move(level));
@@ -70,7 +59,7 @@ public:
     }
     Drawn_surface whole;
     for(const auto v : m_mesh.vertices()) {
-      whole.points.push_back(scaled(v));
+      whole.points.push_back(m_cube(m_mesh.point(v)));
       whole.uv.push_back({uv[v].x(), uv[v].y()});
     }
     for(const auto f : m_mesh.faces()) {
@@ -84,18 +73,8 @@ public:
   }
 
 private:
-  // Into [-1, 1]^3.
-  Vector_3 scaled(Mesh::Vertex_index v) const
-  {
-    const auto& p = m_mesh.point(v);
-    const double half = m_size > 0 ? m_size / 2 : 1;
-    return {(p.x() - m_centre[0]) / half, (p.y() - m_centre[1]) / half,
-            (p.z() - m_centre[2]) / half};
-  }
-
   const Mesh& m_mesh;
-  Vector_3 m_centre;
-  double m_size;
+  Unit_cube m_cube;
   std::vector<Drawn_surface> m_levels;
 };
 

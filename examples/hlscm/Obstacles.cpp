@@ -3,6 +3,8 @@
 
 #include "Diagnosis.h"
 
+#include "Program_error.h"
+
 namespace hlscm {
 
 namespace {
@@ -95,6 +97,13 @@ std::vector<Obstacle> obstacles(const Diagnosis& d)
          {"the surface has " + text(std::size_t(d.genus)) + (d.genus == 1 ? " handle" : " handles"),
           "cut it along the handles to a disk first"});
   return all;
+}
+
+void refuse_obstacles(const std::string& file, const std::vector<Obstacle>& obstacles)
+{
+  if(!obstacles.empty()) {
+    throw Program_error(file, obstacles.front().what + ", " + obstacles.front().remedy);
+  }
 }
 
 } // namespace hlscm

@@ -3,10 +3,9 @@
 
 #include "Program_options.h"
 
-#include <CLI/CLI.hpp>
+#include "Option_parts.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -18,49 +17,6 @@ namespace SMP = CGAL::Surface_mesh_parameterization;
 namespace {
 
 constexpr int usage_error = 2;
-
-template <typename Value>
-using Names = std::vector<std::pair<std::string, Value>>;
-
-template <typename Value>
-void add_choice(CLI::App& app, const std::string& name, const Names<Value>& names, Value& value,
-                const std::string& help)
-{
-  std::string all;
-  for(const auto& entry : names) {
-    all += (all.empty() ? "" : "|") + entry.first;
-  }
-  const auto choose = [names, all, &value](const std::string& text) {
-    for(const auto& entry : names) {
-      if(text == entry.first) {
-        value = entry.second;
-        return;
-      }
-    }
-    throw CLI::ValidationError("\"" + text + "\" is none of " + all);
-  };
-  app.add_option_function<std::string>(name, choose, help)->type_name(all);
-}
-
-// Reads "a,b,c" as numbers; empty if it is anything else.
-std::vector<double> numbers(const std::string& text)
-{
-  std::vector<double> values;
-  const char* end = text.data() + text.size();
-  for(const char* p = text.data(); p <= end; ++p) {
-    double value = 0;
-    const std::from_chars_result result = std::from_chars(p, end, value);
-    if(result.ec != std::errc() || !std::isfinite(value)
-       || (result.ptr != end && *result.ptr != ',')) {
-      return {};
-    }
-    values.push_back(value);
-    p = result.ptr;
-  }
-  return values;
-}
-
-bool is_count(double value) { return value >= 0 && value <= 1e9 && value == std::floor(value); }
 
 Pin to_pin(const std::string& text)
 {
@@ -93,33 +49,9 @@ void set_schedule(const std::string& text, SMP::HLSCM_options& options)
   options.schedule = schedule;
 }
 
-CLI::Option* add_number(CLI::App& app, const std::string& name, double low, double high,
-                        double& value, const std::string& help)
-{
-  const auto check = [low, high](const std::string& text) -> std::string {
-    const auto number = numbers(text);
-    return number.size() == 1 && number[0] > low && number[0] <= high
-               ? ""
-               : "\"" + text + "\" is not a number above " + CLI::detail::to_string(low)
-                     + " and at most " + CLI::detail::to_string(high);
-  };
-  return app.add_option(name, value, help)->check(CLI::Validator(check, ""))->type_name("NUMBER");
-}
-
 void add_solver_options(CLI::App& app, SMP::HLSCM_options& o)
 {
-  add_choice<SMP::Conformal_method>(
-      app, "--method",
-      {{"hlscm", SMP::Conformal_method::HLSCM},
-       {"spectral", SMP::Conformal_method::SPECTRAL},
-       {"cascadic", SMP::Conformal_method::CASCADIC},
-       {"lscm", SMP::Conformal_method::LSCM},
-       {"direct", SMP::Conformal_method::DIRECT}},
-      o.method,
-      "hlscm: multigrid (default); spectral: the same without pins, by the eigenvalue problem of "
-      "Mullen et al.; cascadic: coarse to fine once, as in the paper of "
-      "Ray and Levy; lscm: conjugate gradient on the finest level alone; direct: sparse "
-      "Cholesky of the whole");
+  add_method(app, o.method, "hlscm");
   add_choice<SMP::Conformal_weights>(
       app, "--weights",
       {{"exact", SMP::Conformal_weights::EXACT}, {"cgal", SMP::Conformal_weights::CGAL_LSCM}},
@@ -160,10 +92,7 @@ void add_solver_options(CLI::App& app, SMP::HLSCM_options& o)
       o.prolongation,
       "from level to level: a walk to the nearest triangle (default), or one "
       "vertex split at a time as in the paper");
-  app.add_option("--threads", o.threads,
-                 "threads of the hierarchical methods; 0, the default, for all processors. The "
-                 "result does not depend on it")
-      ->check(CLI::Range(0u, 1024u, "N"));
+  add_threads(app, o.threads);
 }
 
 void add_info(CLI::App& app, Program_options& o)
@@ -196,12 +125,10 @@ void add_parameterize(CLI::App& app, Program_options& o)
       ->type_name("INDEX=U,V")
       ->allow_extra_args(false);
   add_solver_options(*run, o.library);
-  run->add_option("--report", o.report, "what was done and measured, as JSON")
-      ->type_name("FILE.json");
   run->add_option("--pictures", o.pictures,
                   "a folder for domain.png, isolines.png, checker.png and levels.png")
       ->type_name("DIR");
-  run->add_flag("--quiet", o.is_quiet, "print errors only");
+  add_report_and_quiet(*run, o);
   run->callback([&o] { o.command = Command::PARAMETERIZE; });
 }
 
@@ -219,16 +146,6 @@ std::vector<std::size_t> to_faces(const std::string& text)
     throw CLI::ValidationError("--faces", "\"" + text + "\" is not N,N,...");
   }
   return faces;
-}
-
-Length to_length(const std::string& text)
-{
-  const bool is_relative = !text.empty() && text.back() == '%';
-  const auto number = numbers(text.substr(0, text.size() - (is_relative ? 1 : 0)));
-  if(number.size() != 1 || !(number[0] >= 0)) {
-    throw CLI::ValidationError("\"" + text + "\" is neither a length nor a number of %");
-  }
-  return {is_relative ? number[0] / 100 : number[0], is_relative};
 }
 
 std::vector<Level_format> to_formats(const std::string& text)
@@ -281,11 +198,9 @@ void add_levels(CLI::App& app, Program_options& o)
   run->add_flag("--lossless", o.is_lossless,
                 "write mesh.pm with all bits instead of 16 for each coordinate");
   add_solver_options(*run, o.library);
-  run->add_option("--report", o.report, "what was done and measured, as JSON")
-      ->type_name("FILE.json");
   run->add_option("--pictures", o.pictures, "a folder for levels.png and swimming.png")
       ->type_name("DIR");
-  run->add_flag("--quiet", o.is_quiet, "print errors only");
+  add_report_and_quiet(*run, o);
   run->callback([&o] { o.command = Command::LEVELS; });
 }
 
@@ -296,6 +211,13 @@ std::string extension_of(const std::string& file)
 
 void check(const Program_options& o)
 {
+  if(o.command == Command::BAKE) {
+    check_bake(o);
+  }
+  if((o.command == Command::ATLAS || o.command == Command::BAKE) && o.atlas.is_one_disk
+     && !o.atlas.charts.empty()) {
+    throw CLI::ValidationError("--one-disk", "it makes charts of its own, leave --charts out");
+  }
   if(o.command != Command::PARAMETERIZE) {
     return;
   }
@@ -323,6 +245,7 @@ Parsed_command_line parse_command_line(int argc, char** argv)
   add_info(app, options);
   add_parameterize(app, options);
   add_levels(app, options);
+  add_atlas_commands(app, options);
   try {
     app.parse(argc, argv);
     check(options);

@@ -5,6 +5,7 @@
 #define HLSCM_PROGRAM_PROGRAM_OPTIONS_H
 
 #include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
+#include <CGAL/Surface_mesh_texturing/Chart_distortion.h>
 
 #include <cstddef>
 #include <optional>
@@ -13,7 +14,7 @@
 
 namespace hlscm {
 
-enum class Command { INFO, PARAMETERIZE, LEVELS };
+enum class Command { INFO, PARAMETERIZE, LEVELS, ATLAS, BAKE };
 
 /// What `levels` writes: a file for each level, one with all levels, or the progressive mesh.
 enum class Level_format { OBJ, PLY, GLB, PM };
@@ -32,6 +33,33 @@ struct Length
   bool is_relative;
 };
 
+/// Of `atlas` and `bake`.
+struct Atlas_settings
+{
+  std::size_t texture = 1024; ///< texels of a side
+  std::size_t padding = 2;    ///< texels around each chart
+  unsigned int mip_levels = 0;
+  CGAL::Surface_mesh_texturing::Distortion_bound bound;
+  std::size_t max_charts = 0; ///< 0: as many as the bound needs
+  std::string charts;         ///< a file, or "uv"; empty: they are to be found
+  bool is_one_disk = false;   ///< one chart for each connected component
+  std::size_t pages = 1;      ///< at most
+  CGAL::Surface_mesh_parameterization::Conformal_method method
+      = CGAL::Surface_mesh_parameterization::Conformal_method::SPECTRAL;
+  bool writes_ply = false;
+};
+
+/// Of `bake`.
+struct Bake_settings
+{
+  std::string target;           ///< a mesh; empty: a level of the input
+  std::size_t samples = 2;      ///< of a texel, each way
+  bool is_object_space = false; ///< instead of tangent space
+  int bits = 8;                 ///< of a channel: 8 or 16
+  bool has_displacement = false;
+  std::string colours;          ///< a picture; empty: none
+};
+
 struct Program_options
 {
   Command command = Command::PARAMETERIZE;
@@ -39,17 +67,20 @@ struct Program_options
   bool is_quiet = false;
   bool prints_json = false; ///< of `info`
 
-  std::string output;    ///< .obj or .ply; of `levels` a folder
+  std::string output;    ///< .obj or .ply; else a folder
   std::string report;    ///< empty: none
   std::string pictures;  ///< a folder; empty: none
   std::vector<Pin> pins; ///< none, or two and more
   CGAL::Surface_mesh_parameterization::HLSCM_options library;
 
   std::vector<std::size_t> faces;          ///< of the levels; empty: parts of all
-  std::optional<Length> error;             ///< of the surface of one level more
+  std::optional<Length> error;             ///< of the surface of one level more, of the light model
   std::optional<Length> texture_error;     ///< of the texture of one level more
   std::vector<Level_format> formats;       ///< of the levels
   bool is_lossless = false;                ///< the progressive mesh
+
+  Atlas_settings atlas;
+  Bake_settings bake;
 };
 
 /// The options, or the exit code if there is nothing (more) to do: help was printed, or the usage

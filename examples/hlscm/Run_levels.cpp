@@ -4,6 +4,7 @@
 #include "Chart_solving.h"
 #include "Commands.h"
 #include "Diagnosis.h"
+#include "Folder_outputs.h"
 #include "Glb_file.h"
 #include "Interruption.h"
 #include "Level_files.h"
@@ -11,17 +12,16 @@
 #include "Levels_report.h"
 #include "Mesh_reading.h"
 #include "Program_error.h"
+#include "Progressive_building.h"
 #include "Run_report.h"
 #include "Stopwatch.h"
+#include "Surface_reading.h"
 
 #include <CGAL/Surface_mesh_multiresolution/Level_extractor.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh_file.h>
-#include <CGAL/Surface_mesh_multiresolution/build_textured_progressive_mesh.h>
-#include <CGAL/Surface_mesh_multiresolution/coarsest_level.h>
 #include <CGAL/Surface_mesh_parameterization/build_textured_progressive_mesh.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -67,43 +67,6 @@ Progressive_model read_progressive(const std::string& name, std::vector<std::str
   return std::move(read.mesh);
 }
 
-Progressive_model checked(SMM::Textured_progressive_mesh_result result, const std::string& name)
-{
-  if(!result.error.empty()) {
-    throw Program_error(name, result.error + ", repair the mesh first");
-  }
-  return std::move(result.mesh);
-}
-
-SMM::Textured_triangle_mesh to_textured(const Polygon_soup& soup)
-{
-  SMM::Textured_triangle_mesh mesh;
-  for(const auto& p : soup.points) {
-    mesh.points.emplace_back(p[0], p[1], p[2]);
-  }
-  for(const auto& p : soup.uv) {
-    mesh.uv.emplace_back(p[0], p[1]);
-  }
-  for(std::size_t c = 0; c < soup.corners.size(); c += 3) {
-    mesh.triangles.push_back({soup.corners[c], soup.corners[c + 1], soup.corners[c + 2]});
-    mesh.wedges.push_back({soup.uv_corners[c], soup.uv_corners[c + 1], soup.uv_corners[c + 2]});
-  }
-  return mesh;
-}
-
-Progressive_model build_from_texture(const Polygon_soup& soup, const Program_options& options,
-                                     Progress_bar& progress)
-{
-  SMM::Textured_progressive_mesh_options build;
-  build.progress = [&progress](double part) { return progress.try_advance(part); };
-  progress.start_stage("decimating");
-  const CGAL::Blocked_execution::Thread_scope threads(options.library.threads);
-  Progressive_model model
-      = checked(SMM::build_textured_progressive_mesh(to_textured(soup), build), options.input);
-  Interruption::check();
-  return model;
-}
-
 Progressive_model build_from_chart(const Polygon_soup& soup, const Program_options& options,
                                    Progress_bar& progress, Levels_report& report)
 {
@@ -120,17 +83,13 @@ Progressive_model build_from_chart(const Polygon_soup& soup, const Program_optio
   report.seconds_parameterize = solving.seconds();
   const Stopwatch building;
   SMM::Textured_progressive_mesh_options build;
-  Progressive_model model = checked(
-      SMP::build_textured_progressive_mesh(mesh, uv, chart.progressive_mesh, build), options.input);
-  report.seconds_build = building.seconds();
-  return model;
-}
-
-void check_obstacles(const std::string& name, const std::vector<Obstacle>& all)
-{
-  if(!all.empty()) {
-    throw Program_error(name, all.front().what + ", " + all.front().remedy);
+  SMM::Textured_progressive_mesh_result result
+      = SMP::build_textured_progressive_mesh(mesh, uv, chart.progressive_mesh, build);
+  if(!result.error.empty()) {
+    throw Program_error(options.input, result.error + ", repair the mesh first");
   }
+  report.seconds_build = building.seconds();
+  return std::move(result.mesh);
 }
 
 Progressive_model make_model(const Program_options& options, Progress_bar& progress,
@@ -146,14 +105,14 @@ Progressive_model make_model(const Program_options& options, Progress_bar& progr
   const Read_mesh read = read_mesh(options.input, progress);
   report.warnings = read.warnings;
   const Diagnosis diagnosis = diagnose(read.soup, progress);
-  check_obstacles(options.input, read.soup.has_uv() ? surface_obstacles(diagnosis)
-                                                    : obstacles(diagnosis));
+  refuse_obstacles(options.input, read.soup.has_uv() ? surface_obstacles(diagnosis)
+                                                     : obstacles(diagnosis));
   report.seconds_read = reading.seconds();
   if(!read.soup.has_uv()) {
     return build_from_chart(read.soup, options, progress, report);
   }
   const Stopwatch building;
-  Progressive_model model = build_from_texture(read.soup, options, progress);
+  Progressive_model model = build_progressive(to_textured(read.soup), options, progress);
   report.seconds_build = building.seconds();
   return model;
 }
@@ -173,21 +132,13 @@ std::vector<std::size_t> positions(const Progressive_model& model,
   for(const std::size_t n : faces) {
     result.push_back(levels.position_of_triangles(n));
   }
-  const auto add_within = [&](const std::optional<Length>& length, SMM::Level_error kind) {
-    if(!length) {
-      return;
-    }
-    CGAL::Bbox_3 box;
-    for(const auto& p : model.points) {
-      box += p.bbox();
-    }
-    const double diagonal
-        = std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
-    const double bound = length->value * (length->is_relative ? diagonal : 1);
-    result.push_back(SMM::coarsest_level_within(model, kind, bound));
-  };
-  add_within(options.error, SMM::Level_error::DISTANCE);
-  add_within(options.texture_error, SMM::Level_error::TEXTURE_DEVIATION);
+  if(options.error) {
+    result.push_back(position_within(model, SMM::Level_error::DISTANCE, *options.error));
+  }
+  if(options.texture_error) {
+    result.push_back(
+        position_within(model, SMM::Level_error::TEXTURE_DEVIATION, *options.texture_error));
+  }
   std::sort(result.begin(), result.end());
   result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
@@ -223,21 +174,19 @@ class Level_outputs
 {
 public:
   explicit Level_outputs(const Program_options& options)
-    : m_options(options), m_folder(options.output)
+    : m_options(options), m_folder(options.output, {options.input})
   {
-    m_files.create_folder(m_folder);
     if(wants(options, Level_format::GLB)) {
-      m_glb = &create("levels.glb");
+      m_glb = &m_folder.create("levels.glb");
     }
     if(wants(options, Level_format::PM)) {
-      m_pm = &create("mesh.pm");
+      m_pm = &m_folder.create("mesh.pm");
     }
     if(!options.report.empty()) {
-      refuse_to_overwrite(options.input, options.report);
-      m_report = &m_files.create(options.report);
+      m_report = &m_folder.create_anywhere(options.report);
     }
     if(!options.pictures.empty()) {
-      m_pictures.emplace(m_files, options.pictures);
+      m_pictures.emplace(m_folder.files(), options.pictures);
     }
   }
 
@@ -248,10 +197,10 @@ public:
     for(const Level_of_detail& level : levels) {
       const std::string name = "level_" + std::to_string(level.triangles.size());
       if(wants(m_options, Level_format::OBJ)) {
-        write_level_obj(model, level, create(name + ".obj"));
+        write_level_obj(model, level, m_folder.create(name + ".obj"));
       }
       if(wants(m_options, Level_format::PLY)) {
-        write_level_ply(model, level, create(name + ".ply"));
+        write_level_ply(model, level, m_folder.create(name + ".ply"));
       }
     }
     if(m_glb != nullptr) {
@@ -272,9 +221,7 @@ public:
   void finish(const Progressive_model& model, const std::vector<Level_of_detail>& levels,
               Levels_report& report, Progress_bar& progress)
   {
-    for(const auto& [name, file] : m_named) {
-      report.files.emplace_back(name, file->size());
-    }
+    report.files = m_folder.sizes();
     if(m_report != nullptr) {
       m_report->put(to_json(report, levels, m_options));
     }
@@ -282,22 +229,12 @@ public:
       m_pictures->draw(model, levels, progress);
     }
     Interruption::finish();
-    m_files.commit();
+    m_folder.files().commit();
   }
 
 private:
-  Output_file& create(const std::string& name)
-  {
-    refuse_to_overwrite(m_options.input, m_folder / name);
-    Output_file& file = m_files.create(m_folder / name);
-    m_named.emplace_back((m_folder / name).string(), &file);
-    return file;
-  }
-
   const Program_options& m_options;
-  fs::path m_folder;
-  Output_files m_files;
-  std::vector<std::pair<std::string, Output_file*>> m_named;
+  Folder_outputs m_folder;
   Output_file* m_glb = nullptr;
   Output_file* m_pm = nullptr;
   Output_file* m_report = nullptr;

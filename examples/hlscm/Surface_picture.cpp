@@ -30,8 +30,11 @@ double uv_area(const Drawn_surface& surface, const std::array<std::uint32_t, 3>&
   return std::abs((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])) / 2;
 }
 
-std::vector<Vector_3> vertex_normals(const Drawn_surface& surface)
+std::vector<Vector_3> point_normals(const Drawn_surface& surface)
 {
+  if(!surface.normals.empty()) {
+    return surface.normals;
+  }
   std::vector<Vector_3> normals(surface.points.size(), Vector_3{});
   for(const auto& t : surface.triangles) {
     const Vector_3 n = cross(surface.points[t[1]] - surface.points[t[0]],
@@ -92,7 +95,7 @@ public:
   /// `square` is the side of the squares in parameter space, if there are any.
   Surface_drawing(Canvas& canvas, const View& view, const Drawn_surface& surface, Pattern pattern,
                   double square)
-    : m_canvas(canvas), m_view(view), m_surface(surface), m_normals(vertex_normals(surface)),
+    : m_canvas(canvas), m_view(view), m_surface(surface), m_normals(point_normals(surface)),
       m_pattern(pattern), m_square(square)
   {
     if(pattern == Pattern::ISOLINES) {

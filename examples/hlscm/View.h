@@ -29,6 +29,14 @@ public:
   /// Scales and moves so that the surface fills the panel.
   void fit_to(const Panel& panel);
 
+  /// Enlarges the picture so that what was at a place of the canvas comes to another one.
+  void magnify(double factor, double from_x, double from_y, double to_x, double to_y)
+  {
+    m_scale *= factor;
+    m_centre_x = to_x + factor * (m_centre_x - from_x);
+    m_centre_y = to_y + factor * (m_centre_y - from_y);
+  }
+
   Canvas::Point operator()(const Vector_3& p) const
   {
     return {m_centre_x + m_scale * (dot(m_right, p) - m_x),

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // The command-line program: `hlscm info IN` says what a mesh is, `hlscm parameterize IN -o OUT`
-// maps it to the plane, `hlscm levels IN -o DIR` makes lighter models of it under one texture.
+// maps it to the plane, `hlscm levels IN -o DIR` makes lighter models of it under one texture,
+// `hlscm atlas IN -o DIR` gives any surface texture coordinates, and `hlscm bake IN -o DIR` makes a
+// light model with a normal map.
 
 #include "Commands.h"
 #include "Interruption.h"
@@ -20,6 +22,10 @@ int run(const hlscm::Program_options& options)
     return hlscm::run_info(options);
   case hlscm::Command::LEVELS:
     return hlscm::run_levels(options);
+  case hlscm::Command::ATLAS:
+    return hlscm::run_atlas(options);
+  case hlscm::Command::BAKE:
+    return hlscm::run_bake(options);
   case hlscm::Command::PARAMETERIZE:
     break;
   }
