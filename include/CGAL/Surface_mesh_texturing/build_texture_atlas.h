@@ -197,8 +197,10 @@ inline bool Texture_atlas_builder::segment()
     Chart_growth_options growth;
     growth.bound = m_options.bound;
     growth.max_charts = m_options.max_charts;
-    growth.progress = [this](double part) { return proceed(0., 0.4, part); };
-    Segmentation_result result = find_charts(m_mesh, growth, m_options.coarse_faces);
+    Segmentation_options segmentation;
+    segmentation.coarse_faces = m_options.coarse_faces;
+    segmentation.progress = [this](double part) { return proceed(0., 0.4, part); };
+    Segmentation_result result = segment_into_charts(m_mesh, segmentation, growth);
     m_charts = std::move(result.charts);
     if(m_result.error.empty())
       m_result.error = std::move(result.error);

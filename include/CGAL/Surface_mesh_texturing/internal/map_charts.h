@@ -4,11 +4,11 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_MAP_CHARTS_H
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_MAP_CHARTS_H
 
-#include <CGAL/Surface_mesh_texturing/internal/find_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/halve_chart.h>
 #include <CGAL/Surface_mesh_texturing/internal/map_chart.h>
 
 #include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Surface_mesh_texturing/segment_into_charts.h>
 
 #include <algorithm>
 #include <functional>
@@ -53,7 +53,9 @@ inline std::vector<Chart_mesh> cut_again(const Mapped_chart& mapped,
   growth.bound = options.bound;
   growth.bound.area_scale = (std::max)(1.1, margin * options.bound.area_scale);
   growth.least_charts = 2;
-  Segmentation_result cut = find_charts(chart.mesh, growth, options.coarse_faces);
+  Segmentation_options segmentation;
+  segmentation.coarse_faces = options.coarse_faces;
+  Segmentation_result cut = segment_into_charts(chart.mesh, segmentation, growth);
   if(!cut.error.empty() || cut.charts.number_of_charts < 2)
     cut.charts = halve_chart(chart.mesh);
   std::vector<Chart_mesh> parts = chart_meshes(chart.mesh, cut.charts);
