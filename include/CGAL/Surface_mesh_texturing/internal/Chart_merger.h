@@ -27,9 +27,9 @@ namespace internal {
 struct Merge_weights
 {
   double distortion = 1.; // of the union, 1 at the bound
-  double seam = 0.6;      // times the seam removed, to the shorter one of the two perimeters
-  double crease = 0.4;    // times the part of the seam removed that lies on features
-  double size = 0.15;     // times the logarithm of the union's share of the area
+  double seam = 1.;       // times the seam removed, to the shorter one of the two perimeters
+  double crease = 0.3;    // times the part of the seam removed that lies on features
+  double size = 0.05;     // times the logarithm of the union's share of the area
   double fill = 0.5;      // times the part of its convex hull that the union leaves empty
 };
 

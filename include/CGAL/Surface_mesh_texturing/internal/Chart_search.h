@@ -141,7 +141,7 @@ inline std::vector<std::uint32_t> Chart_search::charts_by_area() const
 inline bool Chart_search::improve_around(std::uint32_t c, std::size_t round)
 {
   static constexpr std::array<Merge_weights, 4> weights = {{
-    {1., 0.6, 0.4, 0.15, 0.5}, {1., 0.2, 0.2, 0.3, 0.5}, {0.5, 1., 0.3, 0.05, 1.},
+    Merge_weights(), {1., 0.2, 0.2, 0.3, 0.5}, {0.5, 1., 0.3, 0.05, 1.},
     {0.3, 0.3, 0.2, 0.6, 0.3}}};
   State state = *m_best;
   std::vector<std::uint32_t> charts = state.neighbors(c);
