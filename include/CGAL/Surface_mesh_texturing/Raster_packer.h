@@ -27,7 +27,7 @@ texels, where each chart is placed again among the places near to that on the co
 With a given density there is one order, the largest chart first, on the raster of texels.
 
 Time is proportional to the number of charts, of rotations and of cells of the coarse raster, which
-has 16384 cells or 64 a chart, and of the orders tried, about 70 for up to a hundred charts. Memory
+has 16384 cells or 64 a chart, and of the orders tried, about 60 for 60 charts. Memory
 is about three bytes for each texel of each page.
 
 \cgalModels{ChartPacker}

@@ -59,7 +59,7 @@ private:
   };
 
   static constexpr std::size_t tries = 8;         // orders at a time
-  static constexpr double first_work = 6e8;       // positions compared before those of the budget
+  static constexpr double first_work = 4e8;       // positions compared before those of the budget
   static constexpr double work_per_second = 1e9;  // see `Packing_options::time_budget`
 
   // Enough for charts of equal sizes on one page to have 8 cells a side.
