@@ -3,7 +3,6 @@
 
 #include "Baking.h"
 
-#include "Image_reading.h"
 #include "Interruption.h"
 #include "Program_error.h"
 #include "Stopwatch.h"
@@ -69,10 +68,9 @@ public:
       set_displacement(map, images);
     }
     if(m_input.coloured) {
-      const SMT::Texture_image image = read_image(m_options.bake.colours);
       m_progress.start_stage("colours");
-      images.colours
-          = checked(bake_with(SMT::Image_shader(*m_input.coloured, image), images.frames)).image;
+      const SMT::Image_shader shader(*m_input.coloured, m_input.colours);
+      images.colours = checked(bake_with(shader, images.frames)).image;
     }
     return images;
   }
