@@ -140,6 +140,7 @@ compare decimation --decimation
 mapfile -t large < <(find "$charts" -maxdepth 1 -name '*_1[0-9][0-9][0-9]k.ply' | sort)
 "$HLSCM_BIN/live_map" "${large[@]}" > "$out/live_map.csv"
 "$HLSCM_BIN/levels" "${large[@]}" > "$out/levels.csv"
+"$HLSCM_BIN/baking" "${large[@]}" > "$out/baking.csv"
 "$HLSCM_BIN/stages" "${large[@]}" > "$out/stages.csv"
 "$HLSCM_BIN/parameters" --repeat "$repeat" "$charts/camel_313k.ply" \
   "$charts/scaling/bunny00_302k.ply" > "$out/parameters.csv"

@@ -5,14 +5,16 @@
 //
 // Usage: swimming MESH...
 //
-// Each mesh, a disk, is mapped by several methods and decimated once by build_progressive_mesh();
-// the levels of all maps have the same triangles. Beside them stand meshes that CGAL's quadrics
+// Each mesh, a disk, is mapped by several methods. build_textured_progressive_mesh() makes its
+// levels under each map, with its default options. Beside them stand meshes that CGAL's quadrics
 // make, whose vertices get the texture coordinates of the nearest point of the fine surface.
 
 #include "charts/chart_io.h"
 #include "machine.h"
 
-#include <CGAL/Surface_mesh_multiresolution/build_progressive_mesh.h>
+#include <CGAL/Surface_mesh_multiresolution/Level_extractor.h>
+#include <CGAL/Surface_mesh_multiresolution/build_textured_progressive_mesh.h>
+#include <CGAL/Surface_mesh_multiresolution/copy_textured_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/texture_deviation.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/Spectral_conformal_parameterizer_3.h>
@@ -84,25 +86,14 @@ std::vector<SMM::Vertex_index> numbers(std::size_t n)
   return result;
 }
 
-SMM::Textured_progressive_mesh textured(const SMM::Progressive_surface& surface, const Uvs& uv)
+SMM::Textured_progressive_mesh textured(const Mesh& mesh, const Uvs& uv)
 {
-  SMM::Textured_progressive_mesh mesh;
-  mesh.progressive_mesh = surface.progressive_mesh;
-  mesh.vertex = numbers(uv.size());
-  mesh.uv = uv;
-  mesh.points = surface.points;
-  return SMM::coarse_first(mesh);
-}
-
-// The first level with at most this many triangles.
-std::size_t position_of(const SMM::Textured_progressive_mesh& mesh, std::size_t triangles)
-{
-  std::size_t finer = 0, k = mesh.number_of_collapses();
-  while(finer + 1 < k) {
-    const std::size_t middle = finer + (k - finer) / 2;
-    (SMM::number_of_triangles_after(mesh, middle) > triangles ? finer : k) = middle;
-  }
-  return mesh.whole_position(k);
+  const auto corner_uv = [&](const auto h) { return uv[mesh.target(h)]; };
+  SMM::Textured_progressive_mesh_result result
+    = SMM::build_textured_progressive_mesh(SMM::textured_triangle_mesh(mesh, corner_uv));
+  if(!result.error.empty())
+    throw std::runtime_error(result.error);
+  return std::move(result.mesh);
 }
 
 // Triangles that lie on their backs, or have no area, in the texture.
@@ -170,11 +161,7 @@ public:
   explicit Table(const std::string& path)
     : m_chart(std::filesystem::path(path).stem().string())
     , m_mesh(charts::make_surface_mesh(charts::read_chart(path)))
-    , m_surface(SMM::build_progressive_mesh(m_mesh))
-  {
-    if(!m_surface.error.empty())
-      throw std::runtime_error(m_chart + ": " + m_surface.error);
-  }
+  {}
 
   void print()
   {
@@ -196,11 +183,12 @@ public:
 private:
   void print_levels(const char* map, const Uvs& uv) const
   {
-    const SMM::Textured_progressive_mesh mesh = textured(m_surface, uv);
+    const SMM::Textured_progressive_mesh mesh = textured(m_mesh, uv);
+    const SMM::Level_extractor extractor(mesh);
     const std::size_t flips = number_of_flips(SMM::textured_level(mesh, 0));
     for(const double percent : levels) {
-      const std::size_t k
-        = position_of(mesh, std::size_t(percent / 100. * double(m_mesh.number_of_faces())));
+      const std::size_t k = extractor.position_of_triangles(
+        std::size_t(percent / 100. * double(m_mesh.number_of_faces())));
       print_row(map, percent, flips, number_of_flips(SMM::textured_level(mesh, k)),
                 [&] { return SMM::measure_texture_deviation(mesh, k); });
     }
@@ -209,13 +197,14 @@ private:
   // To the numbers of faces that the levels have
   void print_quadrics(const char* map, const Uvs& uv) const
   {
-    const SMM::Textured_progressive_mesh mesh = textured(m_surface, uv);
+    const SMM::Textured_progressive_mesh mesh = textured(m_mesh, uv);
+    const SMM::Level_extractor extractor(mesh);
     const SMM::Wedge_mesh fine = SMM::textured_level(mesh, 0);
     for(const double percent : levels) {
-      const std::size_t k
-        = position_of(mesh, std::size_t(percent / 100. * double(m_mesh.number_of_faces())));
+      const std::size_t k = extractor.position_of_triangles(
+        std::size_t(percent / 100. * double(m_mesh.number_of_faces())));
       const SMM::Wedge_mesh coarse
-        = by_quadrics(m_mesh, fine, SMM::number_of_triangles_after(mesh, k));
+        = by_quadrics(m_mesh, fine, extractor.number_of_triangles(k));
       print_row(map, percent, number_of_flips(fine), number_of_flips(coarse),
                 [&] { return SMM::measure_texture_deviation(fine, coarse); });
     }
@@ -244,7 +233,6 @@ private:
 
   std::string m_chart;
   Mesh m_mesh;
-  SMM::Progressive_surface m_surface;
 };
 
 } // namespace

@@ -198,8 +198,9 @@ std::vector<Texel_in_triangle> texels_in(const std::vector<std::array<Gltf_verte
         hi[c] = (std::max)(hi[c], v.uv[c]);
       }
     const double w = double(image.width), h = double(image.height);
-    for(double x = std::floor(lo[0] * w); x <= hi[0] * w && x < w; ++x)
-      for(double y = std::floor((1. - hi[1]) * h); y <= (1. - lo[1]) * h && y < h; ++y) {
+    for(double x = (std::max)(0., std::floor(lo[0] * w)); x <= hi[0] * w && x < w; ++x)
+      for(double y = (std::max)(0., std::floor((1. - hi[1]) * h));
+          y <= (1. - lo[1]) * h && y < h; ++y) {
         const std::size_t i = std::size_t(x), j = std::size_t(y);
         const auto weights = weights_in(triangles[t], centre_of(i, j, image));
         if(*std::min_element(weights.begin(), weights.end()) > 1e-6)
@@ -357,38 +358,44 @@ TEST(Tangent_frames, are_orthonormal_and_follow_the_texture)
 
 TEST(Tangent_frames, are_means_weighted_with_angles)
 {
-  // A roof: the left half falls to the left, the right half is flat, and in the texture both are as
-  // long as on the surface. At the ridge all angles of a triangle's corners count in the plane that
-  // is orthogonal to the normal there.
-  Textured_triangle_mesh mesh;
-  mesh.points = {{-1, 0, -1}, {0, 0, 0}, {1, 0, 0}, {-1, 1, -1}, {0, 1, 0}, {1, 1, 0}};
-  mesh.triangles = {{0, 1, 3}, {1, 4, 3}, {1, 2, 4}, {2, 5, 4}};
-  const double r = std::sqrt(2.);
-  mesh.uv = {{0, 0}, {r, 0}, {r + 1, 0}, {0, 1}, {r, 1}, {r + 1, 1}};
-  mesh.wedges = mesh.triangles;
+  // The direction of growing u on a triangle leads from one point to that whose u is larger by 1.
+  // At a corner it counts with the angle, both seen in the plane that is orthogonal to the normal.
+  const Indexed_triangle_mesh hills = with_hills(irregular_grid(12, 9, seed), 2., seed + 1);
+  const Textured_triangle_mesh mesh = textured(hills, [&](std::size_t, Vertex_index v) {
+    const Point_3& p = hills.points[v];
+    return Point_2(p.x() + 0.4 * std::sin(0.8 * (p.x() + p.y())), p.y() + 0.3 * std::sin(p.x()));
+  });
   const std::vector<Vector_3> normals = vertex_normals(mesh);
   const SMT::Tangent_frames frames = tangent_frames(mesh, normals);
-  ASSERT_EQ(frames.frames.size(), 6u);
-  const auto angle = [](const Vector_3& a, const Vector_3& b) {
-    return std::acos(a * b / std::sqrt((a * a) * (b * b)));
-  };
+  ASSERT_EQ(frames.frames.size(), mesh.points.size()); // no triangle is turned over
+  std::vector<Vector_3> sums(mesh.points.size(), Vector_3(0., 0., 0.));
+  for(const Triangle_indices& t : mesh.triangles) {
+    std::array<Gltf_vertex, 3> corners;
+    Point_2 place(0., 0.);
+    for(int c = 0; c < 3; ++c) {
+      corners[c].uv = mesh.uv[mesh.wedges[std::size_t(&t - mesh.triangles.data())][c]];
+      place = Point_2(place.x() + corners[c].uv.x() / 3., place.y() + corners[c].uv.y() / 3.);
+    }
+    const auto from = weights_in(corners, place);
+    const auto to = weights_in(corners, Point_2(place.x() + 1., place.y()));
+    Vector_3 along_u(0., 0., 0.);
+    for(int c = 0; c < 3; ++c)
+      along_u = along_u + (to[c] - from[c]) * (mesh.points[t[c]] - Point_3(0., 0., 0.));
+    for(int c = 0; c < 3; ++c) {
+      const Vector_3& n = normals[t[c]];
+      const auto flattened = [&n](const Vector_3& v) { return v - (v * n) * n; };
+      const Vector_3 a = flattened(mesh.points[t[(c + 1) % 3]] - mesh.points[t[c]]);
+      const Vector_3 b = flattened(mesh.points[t[(c + 2) % 3]] - mesh.points[t[c]]);
+      const Vector_3 u = flattened(along_u / std::sqrt(along_u * along_u));
+      const double angle = std::acos(a * b / std::sqrt((a * a) * (b * b)));
+      sums[t[c]] = sums[t[c]] + (angle / std::sqrt(u * u)) * u;
+    }
+  }
   for(const SMT::Tangent_frame& frame : frames.frames) {
-    const Vector_3 n = normals[frame.vertex];
-    const auto flattened = [&n](const Vector_3& v) { return v - (v * n) * n; };
-    Vector_3 sum(0., 0., 0.);
-    for(std::size_t t = 0; t < 4; ++t)
-      for(int c = 0; c < 3; ++c)
-        if(mesh.triangles[t][c] == frame.vertex) {
-          const Point_3 &p = mesh.points[mesh.triangles[t][c]],
-                        &q = mesh.points[mesh.triangles[t][(c + 1) % 3]],
-                        &s = mesh.points[mesh.triangles[t][(c + 2) % 3]];
-          const Vector_3 u
-            = flattened(t < 2 ? Vector_3(1. / r, 0., 1. / r) : Vector_3(1., 0., 0.));
-          sum = sum + (angle(flattened(q - p), flattened(s - p)) / std::sqrt(u * u)) * u;
-        }
+    const Vector_3& sum = sums[frame.vertex];
     const Vector_3 expected = sum / std::sqrt(sum * sum);
     for(int c = 0; c < 3; ++c)
-      EXPECT_NEAR(frame.tangent[c], expected[c], 1e-9) << frame.vertex;
+      ASSERT_NEAR(frame.tangent[c], expected[c], 1e-9) << frame.vertex << seed_text;
   }
 }
 
@@ -661,6 +668,41 @@ TEST(Baked_map, beside_the_fine_surface_has_the_value_of_the_nearest_point)
     const float* q = map.image.texel(x, y);
     const double distance = std::hypot(q[0] - p.x(), q[1] - p.y());
     ASSERT_NEAR(distance, 0.2 - r, 0.012); // texels of 1 / 150: the nearest centre of one
+  }
+  EXPECT_GT(beside, 100u);
+}
+
+TEST(Baked_map, has_nothing_of_the_chart_next_to_it)
+{
+  // The hole of the light ring is smaller than the fine one: the ring reaches into the disk in it.
+  const auto with_disk = [](Vertex_index sectors) {
+    Textured_triangle_mesh mesh = ring(sectors);
+    const Vertex_index first = Vertex_index(mesh.points.size());
+    const Indexed_triangle_mesh disk = fan(60);
+    for(const Point_3& p : disk.points) {
+      mesh.points.emplace_back(0.5 + 0.19 * p.x(), 0.5 + 0.19 * p.y(), 0.);
+      mesh.uv.emplace_back(mesh.points.back().x(), mesh.points.back().y());
+    }
+    const Vertex_index shift = Vertex_index(mesh.uv.size() - mesh.points.size());
+    for(const Triangle_indices& t : disk.triangles) {
+      mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+      mesh.wedges.push_back({shift + first + t[0], shift + first + t[1], shift + first + t[2]});
+    }
+    return mesh;
+  };
+  const Textured_triangle_mesh fine = with_disk(96), light = with_disk(6);
+  std::vector<float> values(fine.points.size(), 1.f); // of the disk
+  std::fill_n(values.begin(), 2 * 96, 0.f);
+  const Baked_map map = bake_vertex_colors(fine, values, 1, light, options_of(200));
+  const SMT::Tangent_frames frames = tangent_frames(light, vertex_normals(light));
+  std::size_t beside = 0;
+  for(const Texel_in_triangle& p : texels_in(gltf_triangles(light, frames), map.image)) {
+    const Point_2 q = centre_of(p.x, p.y, map.image);
+    const bool is_ring = p.triangle < 2 * 6; // which comes first where both are
+    beside += is_ring && std::hypot(q.x() - 0.5, q.y() - 0.5) < 0.189 ? 1 : 0;
+    if(is_ring || std::hypot(q.x() - 0.5, q.y() - 0.5) < 0.17) {
+      ASSERT_EQ(*map.image.texel(p.x, p.y), is_ring ? 0.f : 1.f) << p.x << ", " << p.y;
+    }
   }
   EXPECT_GT(beside, 100u);
 }

@@ -97,7 +97,8 @@ inline Chart_shape blob_chart(Random& random, double size)
   });
   const double c = std::cos(phase[0]), s = std::sin(phase[0]);
   for(auto& p : chart.uv)
-    p = Chart_shape::Point_2(c * p.x() - s * stretch * p.y() + 100., s * p.x() + c * stretch * p.y());
+    p = Chart_shape::Point_2(c * p.x() - s * stretch * p.y() + 100.,
+                             s * p.x() + c * stretch * p.y());
   return chart;
 }
 

@@ -78,7 +78,10 @@ public:
   /// after `coarse` collapses: a geomorph (Hoppe 1996) between the two levels draws the triangles
   /// of the fine one with wedge \f$ w \f$ at \f$ (1 - \alpha) x_w + \alpha x_{a(w)} \f$, its
   /// texture coordinate likewise. Precondition: `fine <= coarse`.
-  std::vector<Vertex_index> ancestors(std::size_t fine, std::size_t coarse) const;
+  std::vector<Vertex_index> ancestors(std::size_t fine, std::size_t coarse) const
+  {
+    return internal::wedge_ancestors(m_mesh, fine, coarse);
+  }
 
 private:
   Vertex_index ancestor(Vertex_index w, Vertex_index end) const
@@ -140,17 +143,6 @@ inline Textured_triangle_mesh Level_extractor::mesh(std::size_t k) const
   result.triangles.reserve(result.wedges.size());
   for(const Triangle_indices& t : result.wedges)
     result.triangles.push_back({m_mesh.vertex[t[0]], m_mesh.vertex[t[1]], m_mesh.vertex[t[2]]});
-  return result;
-}
-
-inline std::vector<Vertex_index> Level_extractor::ancestors(std::size_t fine,
-                                                            std::size_t coarse) const
-{
-  CGAL_precondition(fine <= coarse);
-  const Vertex_index end = Vertex_index(m_mesh.number_of_wedges_after(coarse));
-  std::vector<Vertex_index> result(m_mesh.number_of_wedges_after(fine));
-  for(Vertex_index w = 0; w < result.size(); ++w)
-    result[w] = w < end ? w : result[m_parent[w]];
   return result;
 }
 

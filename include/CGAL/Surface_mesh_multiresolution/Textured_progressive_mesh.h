@@ -5,10 +5,12 @@
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_TEXTURED_PROGRESSIVE_MESH_H
 
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
-#include <CGAL/Surface_mesh_multiresolution/Vsplit_table.h>
 
 #include <CGAL/assertions.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -101,28 +103,52 @@ struct Textured_progressive_mesh
 
 namespace internal {
 
-// The triangles in the order in which splits make them, each turned as the invariants want it: the
-// corner that comes first, as an index into the corners of `pm`.
-inline std::vector<Vsplit_table::Corner> coarse_first_corners(const Progressive_mesh& pm,
-                                                              const Vsplit_table& table)
+// How a triangle of a mesh comes into being whose wedges are numbered coarse first.
+struct Triangle_birth
 {
-  std::vector<Vsplit_table::Corner> first;
-  first.reserve(pm.triangles.size());
-  for(std::uint32_t t = 0; t < pm.triangles.size(); ++t)
-    if(table.death(t) == Vsplit_table::never)
-      first.push_back(3 * t);
-  for(std::size_t i = pm.collapses.size(); i-- > 0;) {
-    const Vsplit_table::Corners dying = table.dying(i);
-    const auto is_left = [&](Vsplit_table::Corner corner) {
-      const Triangle_indices& t = table.triangles_at_death()[corner / 3];
-      return t[(corner % 3 + 1) % 3] == pm.collapses[i].kept;
-    };
-    for(const bool side : {true, false})
-      for(const Vsplit_table::Corner corner : dying)
-        if(is_left(corner) == side)
-          first.push_back(corner);
+  std::uint32_t order; // 0 in the coarsest level; 1 and 2 to the left and to the right of what the
+                       // first split adds, 3 and 4 of the second ...
+  std::uint32_t place; // of the new wedge; 0 in the coarsest level
+};
+
+// The corner with the largest wedge is the next to go, until it goes to another corner. There are
+// two such steps a triangle, as collapses move about four corners and remove two triangles.
+inline Triangle_birth triangle_birth(Triangle_indices t, const Textured_progressive_mesh& mesh)
+{
+  const std::size_t base = mesh.number_of_wedges_after(mesh.number_of_collapses());
+  while(true) {
+    const std::uint32_t c = std::uint32_t(std::max_element(t.begin(), t.end()) - t.begin());
+    if(t[c] < base)
+      return {0, 0};
+    const Vertex_index kept = mesh.parent(t[c]);
+    const std::uint32_t order = std::uint32_t(2 * (t[c] - base));
+    if(t[(c + 1) % 3] == kept)
+      return {order + 1, c};
+    if(t[(c + 2) % 3] == kept)
+      return {order + 2, c};
+    t[c] = kept;
   }
-  return first;
+}
+
+// Brings the triangles of a mesh whose wedges are numbered coarse first into the order in which
+// splits make them, which is a stable counting sort, and turns each as the invariants want it.
+inline void sort_triangles(Textured_progressive_mesh& mesh)
+{
+  const std::vector<Triangle_indices> triangles = std::move(mesh.progressive_mesh.triangles);
+  std::vector<Triangle_birth> births(triangles.size());
+  std::vector<std::uint32_t> begin(2 * mesh.number_of_collapses() + 2, 0);
+  for(std::size_t t = 0; t < triangles.size(); ++t) {
+    births[t] = triangle_birth(triangles[t], mesh);
+    ++begin[births[t].order + 1];
+  }
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  mesh.progressive_mesh.triangles.resize(triangles.size());
+  for(std::size_t i = 0; i < triangles.size(); ++i) {
+    const Triangle_indices& t = triangles[i];
+    const std::uint32_t c = births[i].place;
+    mesh.progressive_mesh.triangles[begin[births[i].order]++]
+      = {t[c], t[(c + 1) % 3], t[(c + 2) % 3]};
+  }
 }
 
 } // namespace internal
@@ -178,11 +204,9 @@ inline Textured_progressive_mesh coarse_first(const Textured_progressive_mesh& m
   for(const Halfedge_collapse& c : pm.collapses)
     fine.collapses.push_back({wedge[c.removed], wedge[c.kept]});
   fine.triangles.reserve(pm.triangles.size());
-  for(const Vsplit_table::Corner corner : internal::coarse_first_corners(pm, Vsplit_table(pm))) {
-    const Triangle_indices& t = pm.triangles[corner / 3];
-    const int c = int(corner % 3);
-    fine.triangles.push_back({wedge[t[c]], wedge[t[(c + 1) % 3]], wedge[t[(c + 2) % 3]]});
-  }
+  for(const Triangle_indices& t : pm.triangles)
+    fine.triangles.push_back({wedge[t[0]], wedge[t[1]], wedge[t[2]]});
+  internal::sort_triangles(result);
   return result;
 }
 

@@ -5,10 +5,10 @@
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_WEDGE_MESH_H
 
 #include <CGAL/Surface_mesh_multiresolution/Textured_progressive_mesh.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/triangle_numbers.h>
 
 #include <CGAL/assertions.h>
 
-#include <algorithm>
 #include <vector>
 
 namespace CGAL {
@@ -35,58 +35,13 @@ struct Wedge_mesh
   std::vector<Triangle_indices> triangles; ///< the wedges of each triangle
 };
 
-namespace internal {
-
-// The ancestor of each wedge after k collapses, which are in the order of the wedges.
-inline std::vector<Vertex_index> wedge_ancestors(const Textured_progressive_mesh& mesh,
-                                                 std::size_t k)
-{
-  const std::size_t n = mesh.number_of_wedges(), kept = mesh.number_of_wedges_after(k);
-  std::vector<Vertex_index> ancestor(n);
-  for(Vertex_index w = 0; w < kept; ++w)
-    ancestor[w] = w;
-  for(Vertex_index w = Vertex_index(kept); w < n; ++w)
-    ancestor[w] = ancestor[mesh.parent(w)];
-  return ancestor;
-}
-
-inline Triangle_indices replaced(const Triangle_indices& t,
-                                 const std::vector<Vertex_index>& ancestor)
-{
-  return {ancestor[t[0]], ancestor[t[1]], ancestor[t[2]]};
-}
-
-// The triangles of a level are the first ones: found by bisection.
-inline std::size_t number_of_triangles_with(const Textured_progressive_mesh& mesh,
-                                            const std::vector<Vertex_index>& ancestor)
-{
-  const std::vector<Triangle_indices>& triangles = mesh.progressive_mesh.triangles;
-  const auto is_alive = [&ancestor](const Triangle_indices& fine) {
-    const Triangle_indices t = replaced(fine, ancestor);
-    return t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
-  };
-  return std::size_t(std::partition_point(triangles.begin(), triangles.end(), is_alive)
-                     - triangles.begin());
-}
-
-// The triangles after the collapses that make these ancestors.
-inline std::vector<Triangle_indices> level_triangles(const Textured_progressive_mesh& mesh,
-                                                     const std::vector<Vertex_index>& ancestor)
-{
-  std::vector<Triangle_indices> result(number_of_triangles_with(mesh, ancestor));
-  for(std::size_t t = 0; t < result.size(); ++t)
-    result[t] = replaced(mesh.progressive_mesh.triangles[t], ancestor);
-  return result;
-}
-
-} // namespace internal
-
 /// \ingroup PkgHLSCMLevelsOfDetail
-/// Returns the number of triangles after `k` collapses. Time linear in the number of wedges.
+/// Returns the number of triangles after `k` collapses. Linear time; `Level_extractor` knows it for
+/// all `k`.
 inline std::size_t number_of_triangles_after(const Textured_progressive_mesh& mesh, std::size_t k)
 {
   CGAL_precondition(k <= mesh.number_of_collapses());
-  return internal::number_of_triangles_with(mesh, internal::wedge_ancestors(mesh, k));
+  return internal::triangle_numbers(mesh)[mesh.number_of_wedges_after(k)];
 }
 
 /// \ingroup PkgHLSCMLevelsOfDetail
@@ -100,7 +55,7 @@ inline Wedge_mesh textured_level(const Textured_progressive_mesh& mesh, std::siz
   level.points.assign(mesh.points.begin(), mesh.points.begin() + mesh.number_of_vertices_after(k));
   level.vertex.assign(mesh.vertex.begin(), mesh.vertex.begin() + wedges);
   level.uv.assign(mesh.uv.begin(), mesh.uv.begin() + wedges);
-  level.triangles = internal::level_triangles(mesh, internal::wedge_ancestors(mesh, k));
+  level.triangles = internal::level_triangles(mesh, k, internal::wedge_ancestors(mesh, 0, k));
   return level;
 }
 

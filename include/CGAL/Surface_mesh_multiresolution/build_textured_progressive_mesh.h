@@ -178,8 +178,8 @@ Bad data: as above. Linear time.
 */
 inline Textured_progressive_mesh_result
 build_textured_progressive_mesh(const Progressive_mesh& pm,
-                                const std::vector<Textured_triangle_mesh::Point_3>& points,
-                                const std::vector<Textured_triangle_mesh::Point_2>& uv,
+                                std::vector<Textured_triangle_mesh::Point_3> points,
+                                std::vector<Textured_triangle_mesh::Point_2> uv,
                                 const Textured_progressive_mesh_options& options
                                 = Textured_progressive_mesh_options())
 {
@@ -188,8 +188,6 @@ build_textured_progressive_mesh(const Progressive_mesh& pm,
   Textured_progressive_mesh fine;
   fine.progressive_mesh.number_of_vertices = pm.number_of_vertices;
   fine.progressive_mesh.triangles = pm.triangles;
-  fine.points = points;
-  fine.uv = uv;
   fine.vertex.resize(points.size());
   std::iota(fine.vertex.begin(), fine.vertex.end(), Vertex_index(0));
   result.error = internal::point_error(points);
@@ -202,11 +200,11 @@ build_textured_progressive_mesh(const Progressive_mesh& pm,
     result.error = replay.run(pm, points, uv, options.target_vertices, options.is_locked);
   if(!result.error.empty())
     return result;
-  fine.progressive_mesh.collapses = replay.collapses;
-  fine.progressive_mesh.batch_ends = replay.batch_ends;
+  fine.progressive_mesh.collapses = std::move(replay.collapses);
+  fine.progressive_mesh.batch_ends = std::move(replay.batch_ends);
 
   // Go on from the coarsest mesh, which is small
-  const std::size_t left = points.size() - replay.collapses.size();
+  const std::size_t left = replay.vertices.size();
   if(left > options.target_vertices) {
     Textured_progressive_mesh_options rest = options;
     Textured_triangle_mesh coarse;
@@ -226,6 +224,8 @@ build_textured_progressive_mesh(const Progressive_mesh& pm,
     for(const std::size_t end : more.batch_ends)
       fine.progressive_mesh.batch_ends.push_back(first + end);
   }
+  fine.points = std::move(points);
+  fine.uv = std::move(uv);
   result.mesh = coarse_first(fine);
   return result;
 }

@@ -10,6 +10,7 @@
 #include <CGAL/boost/graph/properties.h>
 #include <CGAL/number_utils.h>
 
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -53,7 +54,8 @@ build_textured_progressive_mesh(
     uv[r] = SMM::Textured_triangle_mesh::Point_2(to_double(q[0]), to_double(q[1]));
   }
   SMM::Textured_progressive_mesh_result result
-    = SMM::build_textured_progressive_mesh(chart.progressive_mesh, points, uv, options);
+    = SMM::build_textured_progressive_mesh(chart.progressive_mesh, std::move(points),
+                                           std::move(uv), options);
   for(SMM::Vertex_index& v : result.mesh.source_vertex)
     v = chart.vertices[v];
   return result;

@@ -7,14 +7,12 @@
 #include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
 #include <CGAL/Surface_mesh_parameterization/Solver_traits_cholesky.h>
-#include <CGAL/Surface_mesh_parameterization/internal/Border_first_flattening.h>
 #include <CGAL/Surface_mesh_parameterization/internal/Conformal_solver.h>
 #include <CGAL/Surface_mesh_parameterization/internal/check_options.h>
 #include <CGAL/Surface_mesh_parameterization/internal/pins.h>
 
 #include <CGAL/Default.h>
 
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -42,52 +40,16 @@ threads are those of the caller's `Blocked_execution::Thread_scope`.
 Time and memory as for `HLSCM_parameterizer_3`; meshes of less than about 10,000 triangles are best
 mapped with `Conformal_method::DIRECT`.
 */
-inline Conformal_map flatten_border_first(Surface_mesh_multiresolution::Indexed_triangle_mesh mesh)
-{
-  namespace SMM = Surface_mesh_multiresolution;
-  Conformal_map result;
-  const std::size_t n = mesh.points.size();
-  internal::Chart chart;
-  chart.mesh = std::move(mesh);
-  chart.source.resize(n);
-  std::iota(chart.source.begin(), chart.source.end(), 0u);
-  for(std::size_t v = 0; v < n; ++v)
-    internal::check_point(chart.mesh.points[v], v, chart);
-  internal::prepare_chart(chart, SMM::no_vertex);
-  if(chart.error == OK && chart.borders.size() != 1)
-    chart.fail(ERROR_NO_TOPOLOGICAL_DISC, "not a disk");
-  if(chart.error == OK) {
-    internal::Border_first_flattening f(chart);
-    const auto z = f.run();
-    result.report.borders = 1;
-    if(z.empty()) chart.fail(ERROR_CANNOT_SOLVE_LINEAR_SYSTEM, "x");
-    else {
-    result.uv.assign(n, Simple_cartesian<double>::Point_2(0., 0.));
-    for(std::size_t v = 0; v < z.size(); ++v)
-        result.uv[chart.source[v]]
-          = Simple_cartesian<double>::Point_2(z[v].real(), z[v].imag());
-    }
-  }
-  result.report.message = chart.message;
-  result.error = chart.error;
-  return result;
-}
-
 inline Conformal_map conformal_map(Surface_mesh_multiresolution::Indexed_triangle_mesh mesh,
                                    const HLSCM_options& options = HLSCM_options())
 {
-  namespace SMM = Surface_mesh_multiresolution;
   Conformal_map result;
   const std::size_t n = mesh.points.size();
   result.report.method = internal::name_of(options.method);
   internal::Chart chart;
-  chart.mesh = std::move(mesh);
-  chart.source.resize(n);
-  std::iota(chart.source.begin(), chart.source.end(), 0u);
   internal::check_options(options, chart);
-  for(std::size_t v = 0; v < n; ++v)
-    internal::check_point(chart.mesh.points[v], v, chart);
-  internal::prepare_chart(chart, SMM::no_vertex);
+  if(chart.error == OK)
+    chart = internal::chart_of_arrays(std::move(mesh));
   if(chart.error == OK) {
     result.report.vertices = chart.mesh.points.size();
     result.report.faces = chart.mesh.triangles.size();
@@ -96,12 +58,8 @@ inline Conformal_map conformal_map(Surface_mesh_multiresolution::Indexed_triangl
     internal::Conformal_solver<typename internal::Coarsest_solver<Default>::type>
       solver(chart, pins, options, result.report);
     const auto z = solver.run();
-    if(chart.error == OK && !result.report.cancelled) {
-      result.uv.assign(n, Simple_cartesian<double>::Point_2(0., 0.));
-      for(std::size_t v = 0; v < z.size(); ++v)
-        result.uv[chart.source[v]]
-          = Simple_cartesian<double>::Point_2(z[v].real(), z[v].imag());
-    }
+    if(chart.error == OK && !result.report.cancelled)
+      result.uv = internal::points_of_values(chart, z, n);
   }
   result.report.message = result.report.cancelled ? "cancelled" : chart.message;
   result.error = result.report.cancelled ? ERROR_CANNOT_SOLVE_LINEAR_SYSTEM : chart.error;

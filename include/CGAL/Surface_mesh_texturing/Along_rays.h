@@ -9,7 +9,6 @@
 
 #include <CGAL/assertions.h>
 
-#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -27,19 +26,16 @@ struct Ray_hit
 /*!
 \ingroup PkgHLSCMTexturing
 
-The class `Along_rays` finds, for points of a light model, the nearest point of a fine surface on the
-line along the interpolated normal of the light model, in front or behind it, where the fine surface
-looks to the same side (its triangle's normal has a positive product with that of the light model).
-The two need not have anything else in common.
+The class `Along_rays` finds, for points of a light model, the nearest point of a fine surface on
+the line along the interpolated normal of the light model, in front or behind it, where the fine
+surface looks to the same side (its triangle's normal has a positive product with that of the light
+model). The two need not have anything else in common.
 
-\tparam RayCaster has `Ray_hit cast(const Point_3& origin, const Vector_3& direction, double nearest,
-double farthest) const`, the first point of the surface on the ray between these distances;
-`direction` is a unit vector, `nearest` is not negative. Models are `Embree_ray_caster` and
-`AABB_tree_ray_caster`.
+\tparam RayCaster_ a model of `RayCaster`: `Embree_ray_caster` or `AABB_tree_ray_caster`
 
 \cgalModels{SurfaceCorrespondence}
 */
-template <class RayCaster>
+template <class RayCaster_>
 class Along_rays
 {
 public:
@@ -47,7 +43,7 @@ public:
 
   /// Prepares the search on the fine surface with these arrays and its `caster`, up to
   /// `max_distance` from `light`, which has `normals` at its vertices. All must live as long.
-  Along_rays(const RayCaster& caster, const std::vector<Point_3>& fine_points,
+  Along_rays(const RayCaster_& caster, const std::vector<Point_3>& fine_points,
              const std::vector<Triangle_indices>& fine_triangles,
              const Textured_triangle_mesh& light, const std::vector<Vector_3>& normals,
              double max_distance)
@@ -70,28 +66,25 @@ public:
       const Point_3 p
         = origin + internal::position(m_light.points, t, sample.light.weights, origin);
       const Ray_hit above = cast(p, n, n), below = cast(p, -n, n);
-      sample.fine
-        = std::abs(below.distance) < std::abs(above.distance) ? below.point : above.point;
+      sample.fine = below.distance < above.distance ? below.point : above.point;
     }
   }
 
 private:
   // The first hit that looks along n. The ray begins a little behind p, where rounding may have
-  // put a surface that goes through p.
+  // put a surface that goes through p; its distance is that from there.
   Ray_hit cast(const Point_3& p, const Vector_3& direction, const Vector_3& n) const
   {
     const double behind = 1e-3 * m_max_distance, step = 1e-5 * m_max_distance;
     const int most_layers = 64; // of surfaces seen from behind: each takes one more ray
     double nearest = 0.;
     for(int i = 0; i < most_layers; ++i) {
-      Ray_hit hit = m_caster.cast(p - behind * direction, direction, nearest,
-                                  behind + m_max_distance);
+      const Ray_hit hit = m_caster.cast(p - behind * direction, direction, nearest,
+                                        behind + m_max_distance);
       if(!hit.point.exists())
         break;
-      if(normal(hit.point.triangle) * n > 0.) {
-        hit.distance -= behind;
+      if(normal(hit.point.triangle) * n > 0.)
         return hit;
-      }
       nearest = hit.distance + step;
     }
     return {};
@@ -103,7 +96,7 @@ private:
     return cross_product(m_points[t[1]] - m_points[t[0]], m_points[t[2]] - m_points[t[0]]);
   }
 
-  const RayCaster& m_caster;
+  const RayCaster_& m_caster;
   const std::vector<Point_3>& m_points;
   const std::vector<Triangle_indices>& m_triangles;
   const Textured_triangle_mesh& m_light;

@@ -34,8 +34,8 @@ struct Baking_options
   std::size_t height = 1024; ///< of the image, in texels
   /// Samples of a texel in each direction; a texel has the mean of those that lie in a chart.
   std::size_t samples = 2;
-  /// How far beyond the charts texels are filled, in texels. Each has the value of the nearest texel
-  /// of a chart, so that what filters the image across the border of a chart finds no other colour.
+  /// How far beyond the charts texels are filled, in texels. Each has the value of the nearest
+  /// texel of a chart, so that what filters the image across its border finds no other colour.
   std::size_t dilation = unlimited_dilation;
   /// Of the vectors of normal maps.
   Normal_space space = Normal_space::TANGENT;
@@ -49,13 +49,13 @@ struct Baked_map
 {
   /// Texels beyond the charts and out of reach of the dilation are 0 in all channels.
   Texture_image image;
-  /// For each texel, row by row, whether a sample of it lies in a chart of the light model and has a
-  /// value of its own.
+  /// For each texel, row by row, whether a sample of it lies in a chart of the light model and has
+  /// a value of its own.
   std::vector<bool> is_covered;
   std::size_t number_of_covered_texels = 0; ///< in `is_covered`
   std::size_t number_of_samples = 0;        ///< that lie in a chart of the light model
-  /// Of these, those that lie in no triangle of the fine surface; they have the value of the nearest
-  /// sample in the texture that does (equal texture coordinates).
+  /// Of these, those that lie beside the right chart of the fine surface in the texture and have
+  /// the value of the nearest sample that does not; see `Equal_uv`.
   std::size_t number_of_samples_beside = 0;
   std::size_t number_of_samples_without = 0; ///< Of these, those that found no point at all.
   std::string error; ///< why there is no image, as a sentence; empty if all is well

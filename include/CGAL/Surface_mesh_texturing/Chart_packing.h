@@ -77,8 +77,8 @@ struct Packing_options
 /*!
 \ingroup PkgHLSCMTexturing
 
-Where a chart lies: the point \f$ p \f$ of its plane goes to `scale` \f$ R p \f$ + `offset`, with the
-rotation \f$ R \f$ by `angle`, in texels from the *lower* left corner of the page. Texture
+Where a chart lies: the point \f$ p \f$ of its plane goes to `scale` \f$ R p \f$ + `offset`, with
+the rotation \f$ R \f$ by `angle`, in texels from the *lower* left corner of the page. Texture
 coordinates in \f$ [0, 1]^2 \f$ are these divided by the width and the height of the page.
 */
 struct Chart_placement

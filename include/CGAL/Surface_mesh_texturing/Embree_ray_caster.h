@@ -60,8 +60,11 @@ private:
   const std::vector<Triangle_indices>& m_triangles;
   internal::Bounding_ball m_ball;
   std::string m_error;
-  Device m_device; // released after the scene
+  Device m_device; // of one thread, released after the scene
   Scene m_scene;
+  // Of all threads: where Embree uses TBB, a device of one thread that is the only one leaves one
+  // thread to all of the program, so to those that cast rays.
+  Device m_threads;
 };
 
 inline Embree_ray_caster::Embree_ray_caster(const std::vector<Point_3>& points,
@@ -75,7 +78,9 @@ inline Embree_ray_caster::Embree_ray_caster(const std::vector<Point_3>& points,
   m_device.reset(rtcNewDevice("threads=1"));
   if(m_device)
     m_scene.reset(rtcNewScene(m_device.get()));
-  if(!m_scene || !add_triangles() || rtcGetDeviceError(m_device.get()) != RTC_ERROR_NONE) {
+  const bool is_built = m_scene && add_triangles();
+  m_threads.reset(rtcNewDevice(nullptr));
+  if(!is_built || rtcGetDeviceError(m_device.get()) != RTC_ERROR_NONE) {
     m_error = "Embree could not build its hierarchy";
     m_scene.reset();
   }

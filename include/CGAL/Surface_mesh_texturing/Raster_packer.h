@@ -24,9 +24,11 @@ the most of its rim meets other charts or the border of the page. Many orders ar
 that is so coarse that one takes some milliseconds; what was found is refined on the raster of
 texels, where each chart is placed again among the places near to that on the coarse raster.
 
-Models `ChartPacker`. The charts of one page take about
-\f$ O(r \, h \, (h + \sum_c h_c)) \f$ words' operations an order, with \f$ r \f$ rotations, pages of
-\f$ h \f$ rows and charts of \f$ h_c \f$ rows.
+With a given density there is one order, the largest chart first, on the raster of texels.
+
+Time is proportional to the number of charts, of rotations and of cells of the coarse raster, which
+has 16384 cells or 64 a chart, and of the orders tried, about 70 for up to a hundred charts. Memory
+is about three bytes for each texel of each page.
 
 \cgalModels{ChartPacker}
 */

@@ -31,12 +31,13 @@ struct Texture_atlas_options
   std::size_t coarse_faces = 4000;
   /// The charts, if they are given; those that are no disks are cut.
   std::optional<Face_charts> charts;
-  /// How charts of more than `direct_faces` triangles are mapped; smaller ones are solved directly.
-  Surface_mesh_parameterization::Conformal_method method
-    = Surface_mesh_parameterization::Conformal_method::SPECTRAL;
+  /// How charts are mapped: by default by `border_first_map()`, whose area scale varies least, as
+  /// the charts were tried when they were found. A least squares method may need more charts within
+  /// the same bound.
+  std::optional<Surface_mesh_parameterization::Conformal_method> method;
   /// See `HLSCM_options::tolerance`.
   double tolerance = 1e-2;
-  /// Charts with fewer triangles are mapped by a direct solver.
+  /// With a `method`, charts with fewer triangles are mapped by a direct solver all the same.
   std::size_t direct_faces = 20000;
   /// For each triangle the texels that it is to have along a unit of length, relative to others; a
   /// chart gets the mean over its area. Empty for equal texel density.

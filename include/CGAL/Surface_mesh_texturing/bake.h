@@ -72,12 +72,12 @@ struct Sample_counts
 };
 
 // Bakes the rows of texels of one band; see bake().
-template <class SurfaceCorrespondence, class BakingShader>
+template <class Correspondence, class Shader>
 class Band_baker
 {
 public:
-  Band_baker(const Uv_rasterizer& raster, const SurfaceCorrespondence& correspondence,
-             const BakingShader& shader, std::size_t samples, Baked_map& map)
+  Band_baker(const Uv_rasterizer& raster, const Correspondence& correspondence,
+             const Shader& shader, std::size_t samples, Baked_map& map)
     : m_raster(raster), m_correspondence(correspondence), m_shader(shader), m_samples(samples)
     , m_map(map), m_channels(map.image.channels)
   {}
@@ -137,8 +137,8 @@ private:
   }
 
   const Uv_rasterizer& m_raster;
-  const SurfaceCorrespondence& m_correspondence;
-  const BakingShader& m_shader;
+  const Correspondence& m_correspondence;
+  const Shader& m_shader;
   std::size_t m_samples;
   Baked_map& m_map;
   std::size_t m_channels;
@@ -153,22 +153,18 @@ Bakes an image of a fine surface in the texture of the light model `light`: of e
 image that lies in a triangle of `light` (in the first one, if several overlap), `correspondence`
 says which point of the fine surface it shows, and `shader` what is to be seen there.
 
-\tparam SurfaceCorrespondence has `void find(std::size_t y, std::vector<Baking_sample>& samples)
-const`, which sets `fine` of the samples of row `y` (of samples, not of texels) or leaves it;
-models are `Equal_uv` and `Along_rays`.
-\tparam BakingShader has `std::size_t channels() const`, `void shade(const Surface_point& fine,
-const Surface_point& light, double* value) const`, which sets the channels of a sample, and
-`void finish(double* mean) const`, which may change the mean of a texel.
+\tparam Correspondence a model of `SurfaceCorrespondence`
+\tparam Shader a model of `BakingShader`
 
 The result does not depend on the number of threads. Linear time beside that of `correspondence`.
 
 \pre `light` and `options` have no error in the sense of `bake_normal_map()`.
 */
-template <class SurfaceCorrespondence, class BakingShader>
-Baked_map bake(const Textured_triangle_mesh& light, const SurfaceCorrespondence& correspondence,
-               const BakingShader& shader, const Baking_options& options)
+template <class Correspondence, class Shader>
+Baked_map bake(const Textured_triangle_mesh& light, const Correspondence& correspondence,
+               const Shader& shader, const Baking_options& options)
 {
-  typedef internal::Band_baker<SurfaceCorrespondence, BakingShader> Baker;
+  typedef internal::Band_baker<Correspondence, Shader> Baker;
   const std::size_t texel_rows = 8, bands_between_progress = 16;
   Baked_map map;
   map.image = {options.width, options.height, shader.channels(), {}};

@@ -27,19 +27,18 @@ struct Baking_by_rays_options : Baking_options
 /*!
 \ingroup PkgHLSCMTexturing
 
-Bakes the normals of the fine surface, which needs no texture, into a texture of `light`, a model of
-any origin with texture coordinates of its own: a sample shows the interpolated `fine_normals` at the
-point that `Along_rays` finds, relative to the interpolated `frames` of `light`. Samples that find
-none count for nothing; `Baked_map::number_of_samples_without` tells how many.
+Bakes the normals of the fine surface, which needs no texture, into a texture of `light`, a model
+of any origin with texture coordinates of its own: a sample shows the interpolated `fine_normals` at
+the point that `Along_rays` finds, relative to the interpolated `frames` of `light`. Samples that
+find none count for nothing; `Baked_map::number_of_samples_without` tells how many.
 
-\tparam RayCaster is a model of the concept of `Along_rays`, constructible from the two arrays, that
-has `error()`.
+\tparam RayCaster_ a model of `RayCaster`
 
 Errors are those of `bake_normal_map()` and of the ray caster. Linear time beside that of the rays.
 
 \pre there is a normal for each vertex of the fine surface; `frames` are those of `light`.
 */
-template <class RayCaster>
+template <class RayCaster_>
 Baked_map bake_normal_map_by_rays(const Indexed_triangle_mesh& fine,
                                   const std::vector<Vector_3>& fine_normals,
                                   const Textured_triangle_mesh& light,
@@ -52,12 +51,12 @@ Baked_map bake_normal_map_by_rays(const Indexed_triangle_mesh& fine,
   result.error = internal::ray_baking_error(fine, light, options);
   if(!result.error.empty())
     return result;
-  const RayCaster caster(fine.points, fine.triangles);
+  const RayCaster_ caster(fine.points, fine.triangles);
   result.error = caster.error();
   if(!result.error.empty())
     return result;
   const double radius = internal::Bounding_ball({&light.points}).radius;
-  const Along_rays<RayCaster> correspondence(caster, fine.points, fine.triangles, light,
+  const Along_rays<RayCaster_> correspondence(caster, fine.points, fine.triangles, light,
                                              frames.normals, options.max_distance * radius);
   return bake(light, correspondence,
               Normal_shader(fine.triangles, fine_normals, light.triangles, frames, options.space),
@@ -67,7 +66,7 @@ Baked_map bake_normal_map_by_rays(const Indexed_triangle_mesh& fine,
 /// \ingroup PkgHLSCMTexturing
 /// Bakes the normals of the fine surface with the `vertex_normals()` of both and the
 /// `tangent_frames()` of `light`; see the other overload.
-template <class RayCaster>
+template <class RayCaster_>
 Baked_map bake_normal_map_by_rays(const Indexed_triangle_mesh& fine,
                                   const Textured_triangle_mesh& light,
                                   const Baking_by_rays_options& options = Baking_by_rays_options())
@@ -76,7 +75,7 @@ Baked_map bake_normal_map_by_rays(const Indexed_triangle_mesh& fine,
   result.error = internal::ray_baking_error(fine, light, options);
   if(!result.error.empty())
     return result;
-  return bake_normal_map_by_rays<RayCaster>(fine, vertex_normals(fine.points, fine.triangles),
+  return bake_normal_map_by_rays<RayCaster_>(fine, vertex_normals(fine.points, fine.triangles),
                                             light, tangent_frames(light, vertex_normals(light)),
                                             options);
 }

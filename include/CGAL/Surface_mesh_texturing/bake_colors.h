@@ -103,7 +103,7 @@ inline Baked_map bake_vertex_colors(const Textured_triangle_mesh& fine,
   result.error = internal::baking_error(fine, light, options);
   if(!result.error.empty())
     return result;
-  return bake(light, Equal_uv(fine, options),
+  return bake(light, Equal_uv(fine, light, options),
               Vertex_value_shader(fine.triangles, values, channels), options);
 }
 
@@ -130,7 +130,7 @@ inline Baked_map bake_image(const Textured_triangle_mesh& fine,
     result.error = internal::wedge_error(former, "the former texture");
   if(!result.error.empty())
     return result;
-  return bake(light, Equal_uv(fine, options), Image_shader(former, image), options);
+  return bake(light, Equal_uv(fine, light, options), Image_shader(former, image), options);
 }
 
 } // namespace Surface_mesh_texturing

@@ -86,7 +86,7 @@ inline Baked_displacement bake_displacement(const Textured_triangle_mesh& fine,
   result.map.error = internal::baking_error(fine, light, options);
   if(!result.map.error.empty())
     return result;
-  result.map = bake(light, Equal_uv(fine, options),
+  result.map = bake(light, Equal_uv(fine, light, options),
                     Displacement_shader(fine.points, fine.triangles, light, normals), options);
   bool is_first = true;
   for(std::size_t i = 0; i < result.map.is_covered.size(); ++i)

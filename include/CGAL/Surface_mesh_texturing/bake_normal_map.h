@@ -137,7 +137,7 @@ inline Baked_map bake_normal_map(const Textured_triangle_mesh& fine,
   result.error = internal::baking_error(fine, light, options);
   if(!result.error.empty())
     return result;
-  return bake(light, Equal_uv(fine, options),
+  return bake(light, Equal_uv(fine, light, options),
               Normal_shader(fine.triangles, normals, light.triangles, frames, options.space),
               options);
 }
@@ -145,8 +145,8 @@ inline Baked_map bake_normal_map(const Textured_triangle_mesh& fine,
 /*!
 \ingroup PkgHLSCMTexturing
 
-Bakes the normals of `fine` into a texture of `light`, both with their `vertex_normals()` and `light`
-with its `tangent_frames()`; see the other overload.
+Bakes the normals of `fine` into a texture of `light`, both with their `vertex_normals()` and
+`light` with its `tangent_frames()`; see the other overload.
 */
 inline Baked_map bake_normal_map(const Textured_triangle_mesh& fine,
                                  const Textured_triangle_mesh& light,

@@ -45,9 +45,9 @@ namespace internal {
 
 // Clears the seams both ends of which are inside the same chart and end there: an edge alone cuts
 // nothing open, as both of its sides keep the same two vertices.
-inline std::vector<std::uint8_t> without_lonely_seams(const std::vector<Triangle_indices>& triangles,
-                                                      const Triangle_adjacency& adjacency,
-                                                      std::vector<std::uint8_t> seams)
+inline std::vector<std::uint8_t>
+without_lonely_seams(const std::vector<Triangle_indices>& triangles,
+                     const Triangle_adjacency& adjacency, std::vector<std::uint8_t> seams)
 {
   // Whether the seam h is the only one at the vertex it starts from
   const auto ends_alone = [&](std::uint32_t h) {

@@ -37,8 +37,8 @@ Returns `charts` with seams added within those charts that are no disks, until a
 short and prefer creases, concave ones above all. A chart with several borders gets seams between
 them, a chart with handles seams along these, and a closed chart a tree of seams to its extremities.
 
-Any surface that `Face_charts` can describe will do. Time \f$ O(n \log n) \f$ for the charts that are
-no disks, linear for the others.
+Any surface that `Face_charts` can describe will do. Time \f$ O(n \log n) \f$ for the charts that
+are no disks, linear for the others.
 */
 inline Face_charts cut_to_disks(const Indexed_triangle_mesh& mesh, Face_charts charts,
                                 const Disk_cut_options& options = Disk_cut_options())
@@ -67,7 +67,7 @@ inline Face_charts cut_to_disks(const Indexed_triangle_mesh& mesh, Face_charts c
 \ingroup PkgHLSCMTexturing
 
 Returns the connected components of `mesh` as charts, each cut to one disk. On a mesh of many
-triangles it is faster to cut a coarse one and to refine the cut; see `segment_into_charts()`.
+triangles it is faster to cut a coarse one and to refine the cut; see `segment_coarse_to_fine()`.
 */
 inline Face_charts one_disk_per_component(const Indexed_triangle_mesh& mesh,
                                           const Disk_cut_options& options = Disk_cut_options())

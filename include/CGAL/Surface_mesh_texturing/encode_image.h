@@ -20,11 +20,11 @@ namespace Surface_mesh_texturing {
 /*!
 \ingroup PkgHLSCMTexturing
 
-Returns the texels as integers: `lowest` becomes 0 and `highest` the largest number of the type, what
-lies between is rounded to the nearest, what lies beyond is cut off. Linear time.
+Returns the texels as integers: `lowest` becomes 0 and `highest` the largest number of the type,
+what lies between is rounded to the nearest, what lies beyond is cut off. Linear time.
 
-\tparam Integer `std::uint8_t` or `std::uint16_t`, whose bytes are those of the machine (in PNG files
-the higher one comes first).
+\tparam Integer `std::uint8_t` or `std::uint16_t`, whose bytes are those of the machine (in PNG
+files the higher one comes first).
 */
 template <class Integer>
 std::vector<Integer> encode_values(const Texture_image& image, double lowest, double highest)

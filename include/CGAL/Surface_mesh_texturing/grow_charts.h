@@ -8,6 +8,7 @@
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/Chart_search.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -74,6 +75,8 @@ inline std::string growth_error(const Indexed_triangle_mesh& mesh,
         return "vertex " + std::to_string(v) + " has a coordinate that is not a finite number";
   if(!(options.bound.area_scale > 1.) || !(options.bound.quasi_conformal > 1.))
     return "a distortion bound is not larger than 1";
+  if(!(options.bound_part > 0. && options.bound_part <= 1.))
+    return "the part of the bound that is used is not between 0 and 1";
   return {};
 }
 
@@ -125,7 +128,7 @@ as long as the map of the union, which is computed, is within the bound; a searc
 and their neighbours apart and merges them in other ways to get along with fewer.
 
 Errors: a mesh without triangles or extent, a coordinate that is not finite, a bound not larger than
-1, and "cancelled".
+1 or a part of it not in (0, 1], and "cancelled".
 
 Meant for coarse meshes of 1K to 10K triangles. Time about linear, in proportion to
 `Chart_growth_options::effort`. Trial maps are computed in parallel; the result does not depend on
@@ -153,8 +156,7 @@ inline Chart_growth_result grow_charts(const Indexed_triangle_mesh& mesh,
   search.effort = options.effort;
   search.progress = options.progress;
   internal::Chart_search growth(surface, search);
-  const bool is_done = growth.run();
-  if(is_done)
+  if(growth.run())
     return internal::growth_result(mesh, growth.best().graph, options.bound);
   result.error = "cancelled";
   return result;

@@ -62,8 +62,9 @@ collapses, whose triangles are those of `triangles_after(pm, k)`.
 The collapses are undone one by one. Where a vertex on seams becomes two, each seam goes with the
 triangles beside it, and the new edge becomes a seam if it must join the seams of both; so the graph
 of the seams keeps its homotopy type, and each chart its topology. Each time the mesh has four times
-the vertices, and at the end, the seams are made straight (see `straighten_charts()`), which costs
-time in proportion to their length.
+the vertices the seams are made straight in one round, and at the end in all rounds (see
+`straighten_charts()`), which costs time in proportion to their length. In all, a seam moves by
+about two edges of the coarse mesh at most.
 
 \param pm whose collapses keep the mesh a manifold, of the same topology, and border vertices on the
 border, as those of `Flat_collapse_engine`
@@ -81,18 +82,23 @@ inline Face_charts refine_charts(const Progressive_mesh& pm,
   internal::Seam_net graph(pm.triangles, points, options.creases);
   const std::vector<internal::Halfedge> edges = internal::collapse_all(pm, k, graph.mesh());
   graph.set_seams(internal::seams_of_survivors(pm, graph.mesh(), edges, coarse));
+  graph.pin_curved(options.pinned_defect);
   internal::Seam_straightener straightener(graph);
-  const internal::Straightening_reach reach = internal::reach_of(options);
-  std::size_t next_level = pm.number_of_vertices_after(k);
+  // Not at once: on the coarse mesh a move by one edge would be a far one
+  int level = 0;
+  std::size_t next_level = 4 * pm.number_of_vertices_after(k);
   for(std::size_t i = k; i-- > 0;) {
-    if(pm.number_of_vertices_after(i + 1) >= next_level) {
-      straightener.run(reach);
-      next_level *= 4;
-    }
     if(edges[i] != internal::no_halfedge)
       graph.split(edges[i], pm.collapses[i].removed, pm.collapses[i].kept);
+    if(options.rounds > 0 && i > 0 && pm.number_of_vertices_after(i) >= next_level) {
+      straightener.run({options.rings + (std::min)(level, 2), options.window, level, level + 1});
+      ++level;
+      next_level *= 4;
+    }
   }
-  straightener.run(reach);
+  internal::Straightening_reach last = internal::reach_of(options);
+  last.rings += (std::min)(level, 2); // edges are short by now
+  straightener.run(last);
   return internal::label_charts(graph.mesh(), graph.seams());
 }
 

@@ -99,14 +99,15 @@ private:
 
 Compares the normals that are seen on `original`, its interpolated `vertex_normals()`, to those on
 the light model: orthographic views from the twelve directions of an icosahedron's vertices, each of
-`size` times `size` pixels that show the sphere around both models. A light model's normal is that of
-the bilinear interpolation of `map` between texels in the interpolated frames, as renderers do it.
+`size` times `size` pixels that show the sphere around both models. A light model's normal is that
+of the bilinear interpolation of `map` between texels in the interpolated frames, as renderers do
+it.
 
 The result does not depend on the unit of length, nor on the number of threads. Linear time in the
 numbers of triangles and of pixels.
 
-\pre the meshes have triangles and finite coordinates; `frames` are those of `light`, `map` has three
-channels.
+\pre the meshes have triangles and finite coordinates; `frames` are those of `light`, `map` has
+three channels.
 */
 inline Rendering_error rendering_error(const Textured_triangle_mesh& original,
                                        const Textured_triangle_mesh& light,

@@ -20,8 +20,12 @@ namespace Surface_mesh_texturing {
 struct Straightening_options
 {
   int rounds = 2;          ///< over all seams; 0: seams stay where they are
-  int rings = 4;           ///< how far a seam may move in a round, in edges
+  int rings = 1;           ///< how far a seam may move in a round, in edges
   std::size_t window = 24; ///< the length of the pieces that are made shortest, in edges
+  /// Vertices on seams stay there if the angles around them differ from a full turn by that much,
+  /// on the coarse mesh if there is one; degrees. Charts whose border does not reach the tips of
+  /// the surface are much distorted.
+  double pinned_defect = 25.;
   Crease_weights creases;  ///< what is taken to be short
 };
 
@@ -29,24 +33,22 @@ namespace internal {
 
 inline Straightening_reach reach_of(const Straightening_options& options)
 {
-  return {options.rings, options.window, options.rounds};
+  return {options.rings, options.window, 0, options.rounds};
 }
 
 } // namespace internal
 
-/*!
-\ingroup PkgHLSCMTexturing
-
-Returns the lengths of the seams of `mesh` inside the surface, each counted once: on the surface,
-and with creases as short as `creases` says. Linear time.
-*/
+/// \ingroup PkgHLSCMTexturing
+/// The lengths of the seams inside a surface, each counted once; see `measure_seams()`.
 struct Seam_length
 {
-  double length = 0.;  ///< in the unit of the mesh
-  double weighted = 0.; ///< in the unit of the mesh
-  std::size_t edges = 0; ///< their number
+  double length = 0.;    ///< in the unit of the mesh
+  double weighted = 0.;  ///< the same with creases as short as `Crease_weights` says
+  std::size_t edges = 0; ///< the number of edges
 };
 
+/// \ingroup PkgHLSCMTexturing
+/// Returns the length of the seams of `mesh` inside the surface. Linear time.
 inline Seam_length measure_seams(const Indexed_triangle_mesh& mesh, const Face_charts& charts,
                                  const Crease_weights& creases = Crease_weights())
 {
@@ -71,8 +73,8 @@ inline Seam_length measure_seams(const Indexed_triangle_mesh& mesh, const Face_c
 Returns charts with shorter seams: pieces of `window` edges are replaced by the shortest paths of
 edges in a band of `rings` edges around them, where creases count less, and junctions of seams move
 to where their seams are shortest, those on the border of the surface along it. The ends of seams
-within a chart stay. If all charts are disks, they still are, and their number does not change. The
-weighted length of the seams never grows.
+within a chart, and vertices of much curvature, stay. If all charts are disks, they still are, and
+their number does not change. The weighted length of the seams never grows.
 
 Time linear in the number of triangles, with a small constant, plus that of the seam edges times
 `rounds * rings`.
@@ -84,6 +86,7 @@ inline Face_charts straighten_charts(const Indexed_triangle_mesh& mesh, const Fa
   CGAL_precondition(charts.seams.size() == mesh.triangles.size());
   internal::Seam_net graph(mesh.triangles, mesh.points, options.creases);
   graph.set_seams(charts.seams);
+  graph.pin_curved(options.pinned_defect);
   internal::Seam_straightener(graph).run(internal::reach_of(options));
   return internal::label_charts(graph.mesh(), graph.seams());
 }

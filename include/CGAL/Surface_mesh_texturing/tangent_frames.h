@@ -54,14 +54,15 @@ struct Tangent_frames
 
 Returns the tangent frames of `mesh` with unit `normals`, one for each vertex, as Mikkelsen 2008
 ("Simulation of Wrinkled Surfaces Revisited") defines them: each triangle has the direction of
-growing \f$ u \f$ on it; a corner has its projection onto the plane that is orthogonal to the normal;
-corners that share vertex, texture coordinate and orientation and are neighbours across edges
-on which they do have the mean of these, weighted with their angles in that plane.
+growing \f$ u \f$ on it; a corner has its projection onto the plane that is orthogonal to the
+normal; corners that share vertex, texture coordinate and orientation and are neighbours across
+edges at both ends of which they do have the mean of these, weighted with their angles in that
+plane.
 
 Triangles without area in the texture count for nothing and have the frames of a neighbour. Where no
 triangle tells a direction, the tangent is any that is orthogonal to the normal. Linear time.
 
-\pre edges have one or two triangles, of equal orientation.
+Edges should have one or two triangles, of equal orientation; frames do not go on across others.
 */
 inline Tangent_frames tangent_frames(const Textured_triangle_mesh& mesh,
                                      std::vector<Vector_3> normals)

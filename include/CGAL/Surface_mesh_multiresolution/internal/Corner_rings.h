@@ -65,7 +65,20 @@ public:
     m_triangles.reserve(triangles);
   }
 
-  std::size_t number_of_vertices() const { return m_first.size(); }
+  // Makes room for so many vertices and triangles in all. There is no split without room for it.
+  void make_room(std::size_t vertices, std::size_t triangles)
+  {
+    m_first.resize(vertices);
+    m_next.resize(4 * triangles);
+    m_triangles.resize(triangles);
+  }
+
+  // Gives back the room that is left.
+  void trim() { make_room(m_number_of_vertices, m_number_of_triangles); }
+
+  std::size_t number_of_triangles() const { return m_number_of_triangles; }
+
+  // With the room for those to come, if there is.
   const std::vector<Triangle_indices>& triangles() const { return m_triangles; }
   std::vector<Triangle_indices> take_triangles() { return std::move(m_triangles); }
   bool is_border(Vertex_index v) const { return (m_first[v] & border_flag) != 0; }
@@ -93,13 +106,14 @@ public:
   // may be: all of a vertex inside, the one on the border of a border vertex. Returns false if
   // there is no such split; the triangles then have the new vertex in some places of its parent.
   template <class Use>
-  bool split(const Ring_split& split, const Use& use);
+  bool split(const Ring_split& split, Use&& use);
 
   // Goes back to the first triangles, with ancestor(v) in the place of each vertex v. It cannot be
   // split any more.
   template <class Ancestor>
   void truncate(std::size_t triangles, const Ancestor& ancestor)
   {
+    m_number_of_triangles = triangles;
     m_triangles.resize(triangles);
     for(Triangle_indices& t : m_triangles)
       for(Vertex_index& v : t)
@@ -130,11 +144,17 @@ private:
   // From here on `corner` begins the ring of v, which stays open if it was.
   void set_first(Vertex_index v, Corner corner) { m_first[v] = corner | (m_first[v] & border_flag); }
 
+  bool has_room(std::size_t triangles) const
+  {
+    return m_number_of_vertices < m_first.size()
+        && m_number_of_triangles + triangles <= m_triangles.size();
+  }
+
+  // The next corners of the new ones are for the caller to set.
   Corner add_triangle(Vertex_index v, Vertex_index w, Vertex_index x)
   {
-    m_triangles.push_back({v, w, x});
-    m_next.insert(m_next.end(), 4, no_corner);
-    return Corner(m_next.size() - 4);
+    m_triangles[m_number_of_triangles] = {v, w, x};
+    return Corner(4 * m_number_of_triangles++);
   }
 
   void insert_after(Corner corner, Corner inserted)
@@ -149,15 +169,28 @@ private:
     set_first(at(corner), inserted);
   }
 
+  // Puts the triangle `right`, behind the corners that moved, into the rings of t and a; `last` is
+  // the last corner that moved, `after` the one that followed it.
+  void link_right(Corner right, Corner last, Corner after)
+  {
+    m_next[right + 2] = after;
+    if(after != no_corner)
+      insert_after(next(after), right + 1);
+    else
+      insert_first(previous(last), right + 1);
+  }
+
   void list_ring(Vertex_index v, std::vector<Vertex_index>& ring) const;
 
   template <class Use>
-  bool split_inside(const Ring_split& split, const Use& use);
+  bool split_inside(const Ring_split& split, Use& use);
   template <class Use>
-  bool split_begin(const Ring_split& split, const Use& use);
+  bool split_begin(const Ring_split& split, Use& use);
   template <class Use>
-  bool split_end(const Ring_split& split, const Use& use);
+  bool split_end(const Ring_split& split, Use& use);
 
+  // The arrays may have more room than this.
+  std::size_t m_number_of_vertices = 0, m_number_of_triangles = 0;
   std::vector<Triangle_indices> m_triangles;
   std::vector<Corner> m_next;  // of the same vertex; `no_corner` at the end of an open ring
   std::vector<Corner> m_first; // of each vertex, with `border_flag` if its ring is open
@@ -167,6 +200,8 @@ inline Ring_defect Corner_rings::build(std::vector<Triangle_indices> triangles,
                                        std::size_t number_of_vertices)
 {
   m_triangles = std::move(triangles);
+  m_number_of_triangles = m_triangles.size();
+  m_number_of_vertices = number_of_vertices;
   m_next.assign(4 * m_triangles.size(), no_corner);
   m_first.assign(number_of_vertices, no_corner);
   std::vector<Corner> corners;
@@ -218,7 +253,7 @@ inline Ring_defect Corner_rings::build(std::vector<Triangle_indices> triangles,
 }
 
 template <class Use>
-bool Corner_rings::split(const Ring_split& split, const Use& use)
+bool Corner_rings::split(const Ring_split& split, Use&& use)
 {
   if(split.kind == Split_kind::INSIDE)
     return split_inside(split, use);
@@ -228,10 +263,10 @@ bool Corner_rings::split(const Ring_split& split, const Use& use)
 }
 
 template <class Use>
-bool Corner_rings::split_inside(const Ring_split& split, const Use& use)
+bool Corner_rings::split_inside(const Ring_split& split, Use& use)
 {
-  const Vertex_index t = split.parent, v = Vertex_index(m_first.size());
-  if(split.moved == 0 || split.moved > max_walk || split.skipped > max_walk)
+  const Vertex_index t = split.parent, v = Vertex_index(m_number_of_vertices);
+  if(split.moved == 0 || split.moved > max_walk || split.skipped > max_walk || !has_room(2))
     return false;
   const bool is_open = is_border(t);
   Corner before = is_open ? no_corner : first(t);
@@ -254,29 +289,25 @@ bool Corner_rings::split_inside(const Ring_split& split, const Use& use)
   }
   const Corner left = add_triangle(v, t, at(next(from)));
   const Corner right = add_triangle(v, at(previous(last)), t);
-  m_first.push_back(left);
+  m_first[m_number_of_vertices++] = left;
   m_next[left] = from;
   m_next[last] = right;
   m_next[right] = left;
   if(before != no_corner)
     m_next[before] = left + 1;
   m_next[left + 1] = right + 2;
-  m_next[right + 2] = after;
   if(!is_open || before == no_corner)
     set_first(t, left + 1);
   insert_after(next(from), left + 2);
-  if(after != no_corner)
-    insert_after(next(after), right + 1);
-  else
-    insert_first(previous(last), right + 1);
+  link_right(right, last, after);
   return true;
 }
 
 template <class Use>
-bool Corner_rings::split_begin(const Ring_split& split, const Use& use)
+bool Corner_rings::split_begin(const Ring_split& split, Use& use)
 {
-  const Vertex_index t = split.parent, v = Vertex_index(m_first.size());
-  if(split.skipped != 0 || split.moved > max_walk)
+  const Vertex_index t = split.parent, v = Vertex_index(m_number_of_vertices);
+  if(split.skipped != 0 || split.moved > max_walk || !has_room(1))
     return false;
   const Corner from = first(t);
   Corner last = no_corner, after = from;
@@ -290,23 +321,20 @@ bool Corner_rings::split_begin(const Ring_split& split, const Use& use)
   }
   const bool moves = last != no_corner;
   const Corner right = add_triangle(v, moves ? at(previous(last)) : at(next(from)), t);
-  m_first.push_back((moves ? from : right) | border_flag);
+  m_first[m_number_of_vertices++] = (moves ? from : right) | border_flag;
+  m_next[right] = no_corner;
   if(moves)
     m_next[last] = right;
-  m_next[right + 2] = after;
   set_first(t, right + 2);
-  if(after != no_corner)
-    insert_after(next(after), right + 1);
-  else
-    insert_first(previous(last), right + 1);
+  link_right(right, last, after);
   return true;
 }
 
 template <class Use>
-bool Corner_rings::split_end(const Ring_split& split, const Use& use)
+bool Corner_rings::split_end(const Ring_split& split, Use& use)
 {
-  const Vertex_index t = split.parent, v = Vertex_index(m_first.size());
-  if(split.moved != 0 || split.skipped > max_walk)
+  const Vertex_index t = split.parent, v = Vertex_index(m_number_of_vertices);
+  if(split.moved != 0 || split.skipped > max_walk || !has_room(1))
     return false;
   Corner before = no_corner, from = first(t);
   for(std::uint32_t i = 0; i < split.skipped; ++i) {
@@ -325,8 +353,9 @@ bool Corner_rings::split_end(const Ring_split& split, const Use& use)
   }
   use(at(previous(last)));
   const Corner left = add_triangle(v, t, moved > 0 ? at(next(from)) : at(previous(before)));
-  m_first.push_back(left | border_flag);
+  m_first[m_number_of_vertices++] = left | border_flag;
   m_next[left] = from;
+  m_next[left + 1] = no_corner;
   if(before != no_corner)
     m_next[before] = left + 1;
   else

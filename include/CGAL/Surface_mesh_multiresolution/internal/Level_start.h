@@ -19,8 +19,8 @@ class Level_start
 {
 public:
   Level_start(const Textured_progressive_mesh& mesh, std::size_t k)
-    : m_mesh(mesh), m_ancestor(wedge_ancestors(mesh, k))
-    , m_triangles(level_triangles(mesh, m_ancestor)), m_kept(mesh.number_of_wedges_after(k))
+    : m_mesh(mesh), m_ancestor(wedge_ancestors(mesh, 0, k))
+    , m_triangles(level_triangles(mesh, k, m_ancestor)), m_kept(mesh.number_of_wedges_after(k))
     , m_view(mesh.points, mesh.vertex, mesh.uv, m_triangles, m_kept)
   {
     if(mesh.points.size() < mesh.number_of_wedges())

@@ -108,7 +108,7 @@ private:
   }
   bool is_second(Vertex_index w) const { return w > 0 && m_mesh.vertex[w] == m_mesh.vertex[w - 1]; }
   void set_values();
-  void put_values(Vertex_index w, const Wedge_values& predicted);
+  void put_values(Vertex_index w, const std::array<std::uint32_t, 5>& predicted);
   void append_section(std::uint32_t splits, const std::string& bytes);
   void append_values(std::string& bytes) const;
   std::string put_base();
@@ -146,7 +146,8 @@ inline void Progressive_mesh_encoder::set_values()
 }
 
 // Residuals are the shorter way round if values have fewer than 32 bits.
-inline void Progressive_mesh_encoder::put_values(Vertex_index w, const Wedge_values& predicted)
+inline void Progressive_mesh_encoder::put_values(Vertex_index w,
+                                                 const std::array<std::uint32_t, 5>& predicted)
 {
   for(int c = is_second(w) ? 3 : 0; c < 5; ++c) {
     const std::uint32_t mask = m_codec.mask(c), sign = (mask >> 1) + 1;
@@ -192,10 +193,11 @@ inline std::string Progressive_mesh_encoder::put_base()
       triangles[t][c] = ancestor(triangles[t][c], m_header.base.wedges);
       corners.push_back(zigzag(triangles[t][c] - last[c]));
     }
-  Wedge_values before = {};
-  for(Vertex_index w = 0; w < m_header.base.wedges; before = m_values[w++]) {
+  std::array<std::uint32_t, 5> before = {};
+  for(Vertex_index w = 0; w < m_header.base.wedges; ++w) {
     m_columns.pairs.push_back(is_second(w));
     put_values(w, before);
+    std::copy_n(m_values[w].begin(), 5, before.begin());
   }
   std::string bytes;
   append_little_endian(bytes, ends.size(), 4);
@@ -214,7 +216,7 @@ inline std::string Progressive_mesh_encoder::put_split(Vertex_index w)
   const Vertex_index t = parent(w);
   Vertex_index left = no_vertex, right = no_vertex;
   const std::size_t end = (std::min)(m_triangle_numbers[w + 1], m_header.fine.triangles);
-  for(std::size_t f = m_rings.triangles().size(); f < end; ++f) {
+  for(std::size_t f = m_rings.number_of_triangles(); f < end; ++f) {
     const Triangle_indices& fine = m_mesh.progressive_mesh.triangles[f];
     const Vertex_index second = ancestor(fine[1], w), third = ancestor(fine[2], w);
     if(second == t && third != t && left == no_vertex && right == no_vertex)
@@ -237,8 +239,8 @@ inline std::string Progressive_mesh_encoder::put_split(Vertex_index w)
   m_columns.deltas.push_back(code.delta);
   m_columns.skipped.push_back(split.skipped);
   m_columns.moved.push_back(zigzag(split.moved - expected_moved));
-  Value_prediction prediction(m_values[t]);
-  m_rings.split(split, [&](Vertex_index neighbor) { prediction.add(m_values[neighbor]); });
+  Value_prediction prediction(m_values, t);
+  m_rings.split(split, prediction);
   put_values(w, prediction.mean());
   return {};
 }
@@ -265,6 +267,7 @@ inline std::string Progressive_mesh_encoder::run()
   set_values();
   m_rings.reserve(m_header.fine.wedges, m_header.fine.triangles);
   std::string error = put_base();
+  m_rings.make_room(m_header.fine.wedges, m_header.fine.triangles);
   m_columns = Columns();
   m_parents = Parent_prediction(pm.batch_ends, m_header.base.wedges, m_header.fine.wedges);
   std::uint32_t splits = 0;

@@ -24,25 +24,23 @@ public:
   void prefetch(const Corner_rings& rings, std::size_t i, const ParentOf& parent_of,
                 const PrefetchValues& prefetch_values)
   {
-    const std::size_t farthest = i + corners_ahead + 4, far = i + corners_ahead + 1;
-    const Vertex_index parent = parent_of(farthest);
+    const Vertex_index parent = parent_of(i + corners_ahead + 4);
     if(parent != no_vertex) {
       rings.prefetch(parent);
       prefetch_values(parent);
     }
-    const Vertex_index next = parent_of(far);
-    m_cursors[far % m_cursors.size()] = next != no_vertex ? rings.prefetch_first(next) : 0;
-    for(std::size_t j = i + 1; j < far; ++j) {
-      Corner_rings::Corner& cursor = m_cursors[j % m_cursors.size()];
-      cursor = rings.prefetch_next(cursor, prefetch_values);
-    }
+    for(std::size_t j = 0; j < corners_ahead; ++j)
+      m_cursors[j] = rings.prefetch_next(m_cursors[j + 1], prefetch_values);
+    const Vertex_index next = parent_of(i + corners_ahead + 1);
+    m_cursors[corners_ahead] = next != no_vertex ? rings.prefetch_first(next) : 0;
   }
 
 private:
   // The corners of a ring that are asked for one after the other: more than most splits pass.
-  static constexpr std::size_t corners_ahead = 8;
+  static constexpr std::size_t corners_ahead = 6;
 
-  std::array<Corner_rings::Corner, 16> m_cursors = {};
+  // That of split i + 1 + j.
+  std::array<Corner_rings::Corner, corners_ahead + 1> m_cursors = {};
 };
 
 } // namespace internal

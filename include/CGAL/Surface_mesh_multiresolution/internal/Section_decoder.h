@@ -37,7 +37,7 @@ public:
   bool read_base(const char* bytes, std::size_t size);
   bool read_splits(std::uint32_t splits, const char* bytes, std::size_t size);
 
-  std::size_t number_of_wedges() const { return m_values.size(); }
+  std::size_t number_of_wedges() const { return m_mesh.vertex.size(); }
   std::size_t number_of_splits() const { return m_parents.size(); }
 
   // The mesh so far, as a copy or for good.
@@ -55,7 +55,11 @@ private:
   bool read_values(const char*& from, const char* end);
   bool read_connectivity(std::uint32_t splits, const char*& from, const char* end);
   bool split_all(Column_reader& kinds);
+  bool split_one(std::size_t i, Vertex_index wedge);
+  void make_room(std::size_t splits);
   bool append_points(std::size_t from);
+  template <Value_format format>
+  bool append_points_of(std::size_t from);
   bool has_sound_counts() const;
   void go_back(std::size_t wedges, std::size_t triangles);
   void set_collapses(Progressive_mesh& pm) const;
@@ -234,16 +238,27 @@ inline bool Section_decoder::read_connectivity(std::uint32_t splits, const char*
       && moved.is_sound();
 }
 
+// Makes room for the wedges of a section and all that they may bring.
+inline void Section_decoder::make_room(std::size_t splits)
+{
+  const std::size_t wedges = number_of_wedges() + splits;
+  m_rings.make_room(wedges, (std::min)(m_rings.number_of_triangles() + 2 * splits,
+                                       std::size_t(m_header.fine.triangles)));
+  m_values.resize(wedges);
+  m_parents.resize(wedges - m_header.base.wedges);
+  m_mesh.vertex.resize(wedges);
+}
+
 // The wedges with their values and vertices.
 inline bool Section_decoder::split_all(Column_reader& kinds)
 {
-  const std::size_t n = m_splits.size();
+  Vertex_index wedge = Vertex_index(number_of_wedges());
+  make_room(m_splits.size());
   const auto prefetch_values = [this](Vertex_index w) { internal::prefetch(&m_values[w]); };
-  const auto parent_of = [this](std::size_t j) { // it may be a wedge that is not there yet
-    return j < m_splits.size() && m_splits[j].parent < m_values.size() ? m_splits[j].parent
-                                                                       : no_vertex;
+  const auto parent_of = [&](std::size_t j) { // it may be a wedge that is not there yet
+    return j < m_splits.size() && m_splits[j].parent < wedge ? m_splits[j].parent : no_vertex;
   };
-  for(std::size_t i = 0; i < n; ++i) {
+  for(std::size_t i = 0; i < m_splits.size(); ++i, ++wedge) {
     m_ahead.prefetch(m_rings, i, parent_of, prefetch_values);
     Ring_split& split = m_splits[i];
     if(m_rings.is_border(split.parent) && !kinds.is_empty()) {
@@ -252,38 +267,68 @@ inline bool Section_decoder::split_all(Column_reader& kinds)
         return false;
       split.kind = Split_kind(kind);
     }
-    m_parents.push_back(split.parent);
-    Value_prediction prediction(m_values[split.parent]);
-    if(!m_rings.split(split, [&](Vertex_index w) { prediction.add(m_values[w]); }))
+    if(!split_one(i, wedge))
       return false;
-    Wedge_values values = prediction.mean();
-    for(int c = 0; c < 5; ++c)
-      values[c] = (values[c] + m_residuals[i][c]) & m_codec.mask(c);
-    if(m_is_second[i] != 0) {
-      const Vertex_index first = m_parents[m_parents.size() - 2];
-      if(m_mesh.vertex[first] != m_mesh.vertex[split.parent])
-        return false;
-      std::copy_n(m_values.back().begin(), 3, values.begin());
-    }
-    m_values.push_back(values);
-    m_mesh.vertex.push_back(m_mesh.vertex.back() + 1 - m_is_second[i]);
   }
+  m_rings.trim();
   return kinds.is_sound();
+}
+
+// Split i of a section, which makes a wedge for which there is room.
+inline bool Section_decoder::split_one(std::size_t i, Vertex_index wedge)
+{
+  const Ring_split& split = m_splits[i];
+  Vertex_index* parent = &m_parents[wedge - m_header.base.wedges];
+  Vertex_index* vertex = &m_mesh.vertex[wedge];
+  *parent = split.parent;
+  Value_prediction prediction(m_values, split.parent);
+  if(!m_rings.split(split, prediction))
+    return false;
+  const std::array<std::uint32_t, 5> predicted = prediction.mean();
+  Wedge_values& values = m_values[wedge];
+  for(int c = 0; c < 5; ++c)
+    values[c] = (predicted[c] + m_residuals[i][c]) & m_codec.mask(c);
+  if(m_is_second[i] != 0) {
+    if(m_mesh.vertex[parent[-1]] != m_mesh.vertex[split.parent])
+      return false;
+    std::copy_n(m_values[wedge - 1].begin(), 3, values.begin());
+  }
+  *vertex = vertex[-1] + 1 - m_is_second[i];
+  return true;
 }
 
 // The coordinates of the wedges from `from` on, which are those in `m_residuals`.
 inline bool Section_decoder::append_points(std::size_t from)
 {
+  switch(m_header.format) {
+  case Value_format::QUANTIZED:
+    return append_points_of<Value_format::QUANTIZED>(from);
+  case Value_format::FLOAT32:
+    return append_points_of<Value_format::FLOAT32>(from);
+  default:
+    return append_points_of<Value_format::FLOAT64>(from);
+  }
+}
+
+template <Value_format format>
+bool Section_decoder::append_points_of(std::size_t from)
+{
+  const std::size_t wedges = number_of_wedges() - from;
+  m_mesh.uv.resize(from + wedges);
+  m_mesh.points.resize(m_mesh.vertex.back() + 1);
   bool is_finite = true;
-  for(std::size_t w = from; w < m_values.size(); ++w) {
+  for(std::size_t i = 0; i < wedges; ++i) {
+    const Wedge_values& values = m_values[from + i];
     std::array<double, 5> x;
     for(int c = 0; c < 5; ++c) {
-      x[c] = m_codec.value_of({m_values[w][c], m_codec.has_low() ? m_low[w - from][c] : 0}, c);
-      is_finite = is_finite && std::isfinite(x[c]);
+      x[c] = m_codec.value_of<format>(
+        {values[c], format == Value_format::FLOAT64 ? m_low[i][c] : 0}, c);
+      if(format != Value_format::QUANTIZED) // which a sound header makes finite
+        is_finite &= std::isfinite(x[c]);
     }
-    m_mesh.uv.emplace_back(x[3], x[4]);
-    if(m_is_second[w - from] == 0)
-      m_mesh.points.emplace_back(x[0], x[1], x[2]);
+    m_mesh.uv[from + i] = Textured_progressive_mesh::Point_2(x[3], x[4]);
+    if(m_is_second[i] == 0)
+      m_mesh.points[m_mesh.vertex[from + i]] = Textured_progressive_mesh::Point_3(x[0], x[1], x[2]);
   }
   return is_finite;
 }
@@ -291,7 +336,7 @@ inline bool Section_decoder::append_points(std::size_t from)
 inline bool Section_decoder::has_sound_counts() const
 {
   const File_counts& fine = m_header.fine;
-  const std::size_t triangles = m_rings.triangles().size(), vertices = m_mesh.points.size();
+  const std::size_t triangles = m_rings.number_of_triangles(), vertices = m_mesh.points.size();
   return m_values.size() < fine.wedges
            ? triangles < fine.triangles && vertices <= fine.vertices
            : triangles == fine.triangles && vertices == fine.vertices;
@@ -299,7 +344,7 @@ inline bool Section_decoder::has_sound_counts() const
 
 inline bool Section_decoder::read_splits(std::uint32_t splits, const char* bytes, std::size_t size)
 {
-  const std::size_t wedges = m_values.size(), triangles = m_rings.triangles().size();
+  const std::size_t wedges = number_of_wedges(), triangles = m_rings.number_of_triangles();
   const char *from = bytes, *end = bytes + size;
   if(!read_pairs(from, end, splits))
     return false;
@@ -331,10 +376,11 @@ inline void Section_decoder::go_back(std::size_t wedges, std::size_t triangles)
 inline void Section_decoder::set_collapses(Progressive_mesh& pm) const
 {
   const std::size_t missing = m_header.number_of_splits() - number_of_splits();
-  pm.number_of_vertices = m_values.size();
-  pm.collapses.reserve(m_parents.size());
-  for(std::size_t i = m_parents.size(); i-- > 0;)
-    pm.collapses.push_back({Vertex_index(m_header.base.wedges + i), m_parents[i]});
+  pm.number_of_vertices = number_of_wedges();
+  const std::size_t splits = number_of_splits();
+  pm.collapses.resize(splits);
+  for(std::size_t i = 0; i < splits; ++i)
+    pm.collapses[splits - 1 - i] = {Vertex_index(m_header.base.wedges + i), m_parents[i]};
   pm.batch_ends.clear();
   for(const std::size_t end : m_mesh.progressive_mesh.batch_ends)
     if(end > missing || missing == 0)

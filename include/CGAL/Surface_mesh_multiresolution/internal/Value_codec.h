@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 
 namespace CGAL {
 namespace Surface_mesh_multiresolution {
@@ -19,20 +18,6 @@ namespace internal {
 // that the difference of two near numbers is small.
 inline std::uint32_t ordered(std::uint32_t bits) { return (bits >> 31) != 0 ? ~bits : bits | 1u << 31; }
 inline std::uint32_t unordered(std::uint32_t x) { return (x >> 31) != 0 ? x & ~(1u << 31) : ~x; }
-
-inline std::uint32_t bits_of(float x)
-{
-  std::uint32_t bits;
-  std::memcpy(&bits, &x, 4);
-  return bits;
-}
-
-inline float float_of(std::uint32_t bits)
-{
-  float x;
-  std::memcpy(&x, &bits, 4);
-  return x;
-}
 
 // A coordinate as one integer of the width that `File_header::mask()` tells, which is predicted,
 // and for float64 a second one, the lower half, which is not.
@@ -60,9 +45,9 @@ public:
   Code code_of(double x, int c) const
   {
     if(m_format == Value_format::FLOAT32)
-      return {ordered(bits_of(float(x))), 0};
+      return {ordered(bit_cast<std::uint32_t>(float(x))), 0};
     if(m_format == Value_format::FLOAT64) {
-      const std::uint64_t bits = bits_of(x);
+      const auto bits = bit_cast<std::uint64_t>(x);
       return {ordered(std::uint32_t(bits >> 32)), std::uint32_t(bits)};
     }
     const double q = m_step[c] > 0. ? std::floor((x - m_origin[c]) / m_step[c] + 0.5) : 0.;
@@ -70,13 +55,14 @@ public:
   }
 
   // Not a finite number only if the code is not one of a writer.
+  template <Value_format format>
   double value_of(const Code& code, int c) const
   {
-    if(m_format == Value_format::QUANTIZED)
+    if(format == Value_format::QUANTIZED)
       return m_origin[c] + m_step[c] * code.high;
-    if(m_format == Value_format::FLOAT32)
-      return float_of(unordered(code.high));
-    return double_of(std::uint64_t(unordered(code.high)) << 32 | code.low);
+    if(format == Value_format::FLOAT32)
+      return bit_cast<float>(unordered(code.high));
+    return bit_cast<double>(std::uint64_t(unordered(code.high)) << 32 | code.low);
   }
 
 private:

@@ -77,18 +77,14 @@ struct File_header
   }
 };
 
-inline std::uint64_t bits_of(double x)
+// The same bits as a value of another type.
+template <class To, class From>
+To bit_cast(const From& from)
 {
-  std::uint64_t bits;
-  std::memcpy(&bits, &x, 8);
-  return bits;
-}
-
-inline double double_of(std::uint64_t bits)
-{
-  double x;
-  std::memcpy(&x, &bits, 8);
-  return x;
+  static_assert(sizeof(To) == sizeof(From), "types of one size");
+  To to;
+  std::memcpy(&to, &from, sizeof to);
+  return to;
 }
 
 inline std::string bytes_of(const File_header& header)
@@ -102,9 +98,9 @@ inline std::string bytes_of(const File_header& header)
     for(const std::uint32_t count : {counts.wedges, counts.vertices, counts.triangles})
       append_little_endian(bytes, count, 4);
   for(const double x : header.origin)
-    append_little_endian(bytes, bits_of(x), 8);
+    append_little_endian(bytes, bit_cast<std::uint64_t>(x), 8);
   for(const double x : header.step)
-    append_little_endian(bytes, bits_of(x), 8);
+    append_little_endian(bytes, bit_cast<std::uint64_t>(x), 8);
   append_little_endian(bytes, 0, 4); // for later versions
   append_little_endian(bytes, crc32(bytes.data(), bytes.size()), 4);
   return bytes;
@@ -150,11 +146,11 @@ inline File_header header_of(const char* bytes)
       at += 4;
     }
   for(double& x : h.origin) {
-    x = double_of(number(at, 8));
+    x = bit_cast<double>(number(at, 8));
     at += 8;
   }
   for(double& x : h.step) {
-    x = double_of(number(at, 8));
+    x = bit_cast<double>(number(at, 8));
     at += 8;
   }
   return h;

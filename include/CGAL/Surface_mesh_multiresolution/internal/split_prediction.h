@@ -93,29 +93,37 @@ struct alignas(32) Wedge_values : std::array<std::uint32_t, 8>
 class Value_prediction
 {
 public:
-  explicit Value_prediction(const Wedge_values& parent) : m_parent(parent), m_sum() {}
+  Value_prediction(const std::vector<Wedge_values>& values, Vertex_index parent)
+    : m_values(values.data()), m_parent(parent), m_sum()
+  {}
 
-  void add(const Wedge_values& neighbor)
+  // Takes a neighbour.
+  void operator()(Vertex_index w)
   {
+    const Wedge_values values = m_values[w]; // a copy, which makes this one addition
     for(int c = 0; c < 8; ++c)
-      m_sum[c] += neighbor[c] - m_parent[c];
+      m_sum[c] += values[c];
     ++m_count;
   }
 
-  Wedge_values mean() const
+  std::array<std::uint32_t, 5> mean() const
   {
+    const Wedge_values& parent = m_values[m_parent];
     const std::int64_t factor = (1 << 20) / (m_count + 1);
-    Wedge_values result = {};
-    for(int c = 0; c < 5; ++c)
-      result[c] = m_parent[c]
-                + std::uint32_t((std::int32_t(m_sum[c]) * factor + (1 << 19)) >> 20);
+    std::array<std::uint32_t, 5> result;
+    for(int c = 0; c < 5; ++c) {
+      const std::uint32_t difference = m_sum[c] - m_count * parent[c];
+      result[c] = parent[c]
+                + std::uint32_t((std::int32_t(difference) * factor + (1 << 19)) >> 20);
+    }
     return result;
   }
 
 private:
-  const Wedge_values& m_parent;
+  const Wedge_values* m_values;
+  Vertex_index m_parent;
   Wedge_values m_sum;
-  int m_count = 0;
+  std::uint32_t m_count = 0;
 };
 
 } // namespace internal

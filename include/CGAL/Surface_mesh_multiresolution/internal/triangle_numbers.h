@@ -6,6 +6,8 @@
 
 #include <CGAL/Surface_mesh_multiresolution/Textured_progressive_mesh.h>
 
+#include <CGAL/assertions.h>
+
 #include <cstdint>
 #include <vector>
 
@@ -35,6 +37,35 @@ inline std::vector<std::uint32_t> triangle_numbers(const Textured_progressive_me
   }
   for(std::size_t w = 0; w <= base; ++w)
     result[w] = number;
+  return result;
+}
+
+// For each wedge of the level after `fine` collapses the one into which it has collapsed after
+// `coarse` collapses.
+inline std::vector<Vertex_index> wedge_ancestors(const Textured_progressive_mesh& mesh,
+                                                 std::size_t fine, std::size_t coarse)
+{
+  CGAL_precondition(fine <= coarse);
+  const std::size_t kept = mesh.number_of_wedges_after(coarse);
+  std::vector<Vertex_index> result(mesh.number_of_wedges_after(fine));
+  for(Vertex_index w = 0; w < result.size(); ++w)
+    result[w] = w < kept ? w : result[mesh.parent(w)];
+  return result;
+}
+
+inline Triangle_indices replaced(const Triangle_indices& t, const std::vector<Vertex_index>& by)
+{
+  return {by[t[0]], by[t[1]], by[t[2]]};
+}
+
+// The triangles after k collapses, given the `wedge_ancestors()` of the fine mesh there.
+inline std::vector<Triangle_indices> level_triangles(const Textured_progressive_mesh& mesh,
+                                                     std::size_t k,
+                                                     const std::vector<Vertex_index>& ancestor)
+{
+  std::vector<Triangle_indices> result(triangle_numbers(mesh)[mesh.number_of_wedges_after(k)]);
+  for(std::size_t t = 0; t < result.size(); ++t)
+    result[t] = replaced(mesh.progressive_mesh.triangles[t], ancestor);
   return result;
 }
 

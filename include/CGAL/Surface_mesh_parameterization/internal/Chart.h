@@ -14,6 +14,7 @@
 #include <CGAL/number_utils.h>
 
 #include <cmath>
+#include <complex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -192,6 +193,30 @@ inline void prepare_chart(Chart& chart, std::uint32_t seed)
   }
   chart.borders = SMM::internal::border_loops(chart.rings);
   check_topology(chart);
+}
+
+// A connected mesh that is two arrays.
+inline Chart chart_of_arrays(Chart::Mesh mesh)
+{
+  Chart chart;
+  chart.mesh = std::move(mesh);
+  chart.source.resize(chart.mesh.points.size());
+  for(std::uint32_t v = 0; v < chart.source.size(); ++v) {
+    chart.source[v] = v;
+    check_point(chart.mesh.points[v], v, chart);
+  }
+  prepare_chart(chart, Surface_mesh_multiresolution::no_vertex);
+  return chart;
+}
+
+// The parameters of the `n` vertices of the input; (0, 0) of those that are not in the chart.
+inline std::vector<Simple_cartesian<double>::Point_2>
+points_of_values(const Chart& chart, const std::vector<std::complex<double>>& z, std::size_t n)
+{
+  std::vector<Simple_cartesian<double>::Point_2> uv(n, Simple_cartesian<double>::Point_2(0., 0.));
+  for(std::size_t v = 0; v < z.size(); ++v)
+    uv[chart.source[v]] = Simple_cartesian<double>::Point_2(z[v].real(), z[v].imag());
+  return uv;
 }
 
 // The connected component of `mesh` that has the halfedge `bhd`.

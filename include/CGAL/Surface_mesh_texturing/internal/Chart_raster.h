@@ -46,16 +46,15 @@ inline Packing_raster exact_raster(const Packing_options& options)
   return result;
 }
 
-// A raster of about `cells` cells along the longer side, or the same if it is not finer. Charts
-// that touch a cell in part grow by half a cell on each side on average, and by half the padding;
-// the padding is chosen such that both together are what they are on the exact raster, if possible.
-inline Packing_raster coarser_raster(const Packing_raster& exact, int cells)
+// A raster of about `cells` cells, or the same if it has not more. Charts that touch a cell in part
+// grow by half a cell on each side on average, and by half the padding; the padding is chosen such
+// that both together are what they are on the exact raster, if possible.
+inline Packing_raster coarser_raster(const Packing_raster& exact, double cells)
 {
-  const int side = (std::max)(exact.width, exact.height);
-  if(side <= cells)
+  const double ratio = std::sqrt(double(exact.width) * exact.height / cells);
+  if(!(ratio > 1.))
     return exact;
   Packing_raster result = exact;
-  const double ratio = double(side) / cells;
   result.cell = exact.cell * ratio;
   result.width = (std::max)(1, int(exact.width / ratio + 1e-6));
   result.height = (std::max)(1, int(exact.height / ratio + 1e-6));
@@ -70,30 +69,30 @@ struct Chart_raster
   Vector_2d centre = {};               // of the chart, from the lower left corner
   std::vector<Probe> probes;           // of the cells it touches
   std::vector<Cell_run> padded;        // these and the padding around, from the same corner
-  std::vector<std::array<int, 2>> rim; // some cells around it, near and not so near
+  std::vector<int> rim;                // some cells around it, see `rim_of()`
 };
 
-// Cells just outside of the mask and two cells further, evenly chosen.
-inline std::vector<std::array<int, 2>> rim_of(const Texel_mask& mask)
+// Cells just outside of the mask, and those two cells further, evenly chosen, as offsets in the
+// rows of a `Page_raster` from the mask's lower left corner.
+inline std::vector<int> rim_of(const Texel_mask& mask, int stride)
 {
   constexpr std::size_t samples = 64; // of each rim
-  std::vector<std::array<int, 2>> result, rim;
-  Texel_mask inner = mask;
-  for(int r = 1; r <= 3; ++r) {
-    Texel_mask outer = dilated(mask, r);
-    if(r != 2) {
-      Texel_mask difference = outer;
-      for(const Cell_run& run : inner.runs())
-        difference.remove({run.y + 1, run.begin + 1, run.end + 1});
-      rim.clear();
-      for(const Cell_run& run : difference.runs())
-        for(int x = run.begin; x < run.end; ++x)
-          rim.push_back({x - r, run.y - r});
-      const std::size_t n = (std::min)(rim.size(), samples);
-      for(std::size_t i = 0; i < n; ++i)
-        result.push_back(rim[i * rim.size() / n]);
-    }
-    inner = std::move(outer);
+  std::vector<int> result, rim;
+  for(const int r : {1, 3}) {
+    const Texel_mask inner = dilated(mask, r - 1), outer = dilated(mask, r);
+    rim.clear();
+    for(int y = 0; y < outer.height(); ++y)
+      for(int i = 0; i < outer.words(); ++i) {
+        const bool has_row = y > 0 && y <= inner.height();
+        const Word low = has_row && i < inner.words() ? inner.row(y - 1)[i] : 0;
+        const Word before = has_row && i > 0 ? inner.row(y - 1)[i - 1] : 0;
+        Word ring = outer.row(y)[i] & ~(low << 1 | before >> 63);
+        for(; ring != 0; ring &= ring - 1)
+          rim.push_back((y - r) * stride + 64 * i + lowest_bit(ring) - r);
+      }
+    const std::size_t n = (std::min)(rim.size(), samples);
+    for(std::size_t i = 0; i < n; ++i)
+      result.push_back(rim[i * rim.size() / n]);
   }
   return result;
 }
@@ -113,7 +112,7 @@ inline Chart_raster chart_raster(const Chart_outline& outline, double angle, dou
   result.padded = dilated(chart.mask, raster.padding).runs();
   for(Cell_run& run : result.padded)
     run = {run.y - raster.padding, run.begin - raster.padding, run.end - raster.padding};
-  result.rim = rim_of(chart.mask);
+  result.rim = rim_of(chart.mask, Page_raster::stride(raster.width));
   return result;
 }
 

@@ -10,6 +10,7 @@
 #include <CGAL/Surface_mesh_texturing/internal/straighten_seams.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -36,7 +37,7 @@ struct Search_options
 // them again in another order, and keeps what is better.
 class Chart_search
 {
-  typedef Chart_merger::State State;
+  typedef Chart_state State;
   static constexpr std::size_t most_neighbors = 4; // one more than are taken apart with a chart
   static constexpr std::size_t small_size = 500;   // triangles; smaller meshes get more effort
   static constexpr std::size_t most_failures = 8;  // rounds without success in succession
@@ -68,7 +69,7 @@ private:
   {
     return a.number_of_charts != b.number_of_charts
              ? a.number_of_charts < b.number_of_charts
-             : m_merger.seam_length(a) < (1. - 1e-9) * m_merger.seam_length(b);
+             : a.seam_length() < (1. - 1e-9) * b.seam_length();
   }
   bool is_worn() const { return double(m_merger.work()) >= m_most_work; }
 
@@ -143,13 +144,13 @@ inline bool Chart_search::improve_around(std::uint32_t c, std::size_t round)
     {1., 0.6, 0.4, 0.15, 0.5}, {1., 0.2, 0.2, 0.3, 0.5}, {0.5, 1., 0.3, 0.05, 1.},
     {0.3, 0.3, 0.2, 0.6, 0.3}}};
   State state = *m_best;
-  std::vector<std::uint32_t> charts = m_merger.neighbors(state, c);
+  std::vector<std::uint32_t> charts = state.neighbors(c);
   std::stable_sort(charts.begin(), charts.end(), [&state](std::uint32_t a, std::uint32_t b) {
     return state.pieces[a].area < state.pieces[b].area;
   });
   charts.resize((std::min)(charts.size(), round % most_neighbors));
   charts.push_back(c);
-  const std::vector<bool> is_active = m_merger.take_apart(state, *m_atoms, charts);
+  const std::vector<bool> is_active = state.take_apart(m_surface, *m_atoms, charts);
   m_merger.merge(state, is_active, weights[round % weights.size()]);
   if(m_is_cancelled || !is_better(state, *m_best))
     return false;

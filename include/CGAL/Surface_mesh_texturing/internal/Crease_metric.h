@@ -64,6 +64,14 @@ public:
     return to_units(length * factor(dot, squares, left, to_r));
   }
 
+  // The angle at v between the edges to u and w, in degrees.
+  double angle(Vertex_index v, Vertex_index u, Vertex_index w) const
+  {
+    const Vector a = vector(v, u), b = vector(v, w);
+    const double dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    return std::atan2(norm(cross(a, b)), dot) * 180. / pi;
+  }
+
   // A length in the units of the points.
   double to_length(Length length) const { return double(length) * m_extent / units; }
 

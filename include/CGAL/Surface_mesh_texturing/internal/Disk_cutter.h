@@ -27,11 +27,11 @@ struct Disk_cut
 
 // Cuts one connected manifold mesh to a disk.
 //
-// Loops of handles, and paths between borders: with the forest of the shortest paths to the borders,
-// or to one vertex, those edges that neither the forest nor a spanning tree of the triangles across
-// the other edges has, each with the paths from its ends, are the cut; the spanning tree takes the
-// edges with the longest paths (Erickson and Whittlesey 2005, "Greedy optimal homotopy and homology
-// generators").
+// Loops of handles, and paths between borders: with the forest of the shortest paths to the
+// borders, or to one vertex, those edges that neither the forest nor a spanning tree of the
+// triangles across the other edges has, each with the paths from its ends, are the cut; the
+// spanning tree takes the edges with the longest paths (Erickson and Whittlesey 2005, "Greedy
+// optimal homotopy and homology generators").
 class Disk_cutter
 {
 public:
@@ -86,7 +86,7 @@ private:
   void add_generators();
   std::size_t add_path(const Forest& forest, Vertex_index v);
   void prune();
-  void shorten() { Seam_straightener(m_graph).run({8, 48, 4}); }
+  void shorten() { Seam_straightener(m_graph).run({8, 48, 0, 4}); }
   void add_extremities();
 
   Disk_cut m_options;

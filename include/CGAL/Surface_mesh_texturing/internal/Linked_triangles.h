@@ -28,10 +28,10 @@ inline Halfedge previous(Halfedge h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
 // A triangle mesh that halfedge collapses make coarser and vertex splits finer again.
 //
-//           L                L         A collapse of r into k links the neighbours a and b of a dying
-//       a / | \ b        a / b         triangle to each other. The dying triangle keeps its links and
-//        /  |  \    ->    |            vertices, so that the split finds everything in it: the doubly
-//       r --e-> k         k            linked list of which Knuth says that its links dance.
+//          L              L        A collapse of r into k links the neighbours a and b of a dying
+//      a /   \ b        a | b      triangle to each other. The dying triangle keeps its links and
+//       /     \     ->    |        vertices, so that the split finds everything in it: the doubly
+//      r --e-> k          k        linked list of which Knuth says that its links dance.
 //
 // Every triangle keeps its number and corners.
 class Linked_triangles

@@ -6,6 +6,8 @@
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 
+#include <CGAL/assertions.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
@@ -23,21 +25,23 @@ class Nearest_covered
 public:
   static constexpr std::size_t no_cell = std::size_t(-1);
 
-  // Linear time; is_covered(i) tells about cell i = y * columns + x.
+  // Linear time; is_covered(i) tells about cell i = y * columns + x. There are fewer than 65535
+  // rows.
   template <class IsCovered>
   Nearest_covered(std::size_t columns, std::size_t rows, const IsCovered& is_covered)
     : m_columns(columns), m_row(columns * rows)
   {
+    CGAL_precondition(rows < std::size_t(none));
     Blocked_execution::blocked_for(columns, 512, [&](std::size_t begin, std::size_t end) {
       for(std::size_t y = 0; y < rows; ++y)
         for(std::size_t x = begin; x < end; ++x) {
           const std::size_t i = y * columns + x;
-          m_row[i] = is_covered(i) ? std::uint32_t(y) : y > 0 ? m_row[i - columns] : none;
+          m_row[i] = is_covered(i) ? Row(y) : y > 0 ? m_row[i - columns] : none;
         }
       for(std::size_t y = rows - 1; y-- > 0;)
         for(std::size_t x = begin; x < end; ++x) {
-          std::uint32_t& row = m_row[y * columns + x];
-          const std::uint32_t below = m_row[(y + 1) * columns + x];
+          Row& row = m_row[y * columns + x];
+          const Row below = m_row[(y + 1) * columns + x];
           // One that comes from above lies at most at y, as do both if they are the same
           if(below != none && below > y && (row == none || below - y < y - row))
             row = below;
@@ -56,7 +60,7 @@ public:
     std::vector<Site> sites;
     const std::int64_t columns = std::int64_t(m_columns);
     for(std::int64_t x = 0; x < columns; ++x) {
-      const std::uint32_t row = m_row[y * m_columns + std::size_t(x)];
+      const Row row = m_row[y * m_columns + std::size_t(x)];
       if(row == none)
         continue;
       const std::int64_t height = std::int64_t(row) - std::int64_t(y);
@@ -79,16 +83,18 @@ public:
     for(std::size_t i = 0; i < sites.size(); ++i) {
       const std::int64_t end = i + 1 < sites.size() ? sites[i + 1].begin : columns;
       const std::size_t x = std::size_t(sites[i].x);
-      const std::size_t cell = m_row[y * m_columns + x] * m_columns + x;
+      const std::size_t cell = std::size_t(m_row[y * m_columns + x]) * m_columns + x;
       std::fill(nearest.begin() + sites[i].begin, nearest.begin() + end, cell);
     }
   }
 
 private:
-  static constexpr std::uint32_t none = std::uint32_t(-1);
+  typedef std::uint16_t Row; // half the memory of 32 bits
+
+  static constexpr Row none = Row(-1);
 
   std::size_t m_columns;
-  std::vector<std::uint32_t> m_row; // of the nearest covered cell in the column of each cell
+  std::vector<Row> m_row; // of the nearest covered cell in the column of each cell
 };
 
 } // namespace internal

@@ -7,6 +7,8 @@
 #include <CGAL/Surface_mesh_texturing/internal/Texel_mask.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -46,8 +48,10 @@ class Page_raster
 public:
   Page_raster(int width, int height)
     : m_width(width), m_height(height), m_words((width + 63) / 64),
-      m_taken(width, height)
+      m_framed(std::size_t(stride(width)) * (height + 2 * frame), 1)
   {
+    for(int y = 0; y < height; ++y)
+      std::fill_n(m_framed.begin() + index(0, y), width, std::uint8_t(0));
     for(int k = 0; 1 << k <= width; ++k)
       m_levels.emplace_back(std::size_t(m_words) * height + m_words + 1, 0);
   }
@@ -56,11 +60,18 @@ public:
   int height() const { return m_height; }
   int words() const { return m_words; } // of a row
 
-  // Whether the cell is taken; those outside of the page are.
-  bool is_taken(int x, int y) const
+  // The cells around a page that count as taken, and the cells of a row with them.
+  static constexpr int frame = 4;
+  static int stride(int width) { return width + 2 * frame; }
+
+  // The number of the cells that are taken at the offsets y * stride + x from a place.
+  int number_of_taken(const int* begin, const int* end, int x, int y) const
   {
-    return x < 0 || y < 0 || x >= m_width || y >= m_height
-           || m_taken.has(x, y);
+    const std::uint8_t* place = m_framed.data() + index(x, y);
+    int n = 0;
+    for(const int* offset = begin; offset != end; ++offset)
+      n += place[*offset];
+    return n;
   }
 
   // Takes the cells of a mask whose lower left corner lies at (x, y), which may be outside.
@@ -68,8 +79,14 @@ public:
   {
     if(runs.empty())
       return;
-    for(const Cell_run& run : runs)
-      m_taken.add({run.y + y, run.begin + x, run.end + x});
+    for(const Cell_run& run : runs) {
+      const int begin = (std::max)(0, run.begin + x), end = (std::min)(m_width, run.end + x);
+      if(run.y + y < 0 || run.y + y >= m_height || begin >= end)
+        continue;
+      std::fill(m_framed.begin() + index(begin, run.y + y),
+                m_framed.begin() + index(end, run.y + y), std::uint8_t(1));
+      set_bits(row(0, run.y + y), begin, end);
+    }
     update((std::max)(0, runs.front().y + y), (std::min)(m_height, runs.back().y + y + 1));
   }
 
@@ -101,14 +118,19 @@ public:
 private:
   typedef std::vector<Word> Level;
 
+  // Of a cell of the page or of the frame.
+  std::ptrdiff_t index(int x, int y) const
+  {
+    return std::ptrdiff_t(y + frame) * stride(m_width) + x + frame;
+  }
+
   Word* row(int k, int y) { return m_levels[k].data() + std::size_t(m_words) * y; }
   const Word* row(int k, int y) const { return m_levels[k].data() + std::size_t(m_words) * y; }
 
-  // Derives the levels of the rows [begin, end).
+  // Derives the higher levels of the rows [begin, end) from the first.
   void update(int begin, int end)
   {
-    for(int y = begin; y < end; ++y) {
-      std::copy(m_taken.row(y), m_taken.row(y) + m_words, row(0, y));
+    for(int y = begin; y < end; ++y)
       for(int k = 1; k < int(m_levels.size()); ++k) {
         const Word* from = row(k - 1, y);
         Word* to = row(k, y);
@@ -119,11 +141,10 @@ private:
           to[i] = from[i] | low >> s | high << 1 << (63 - s);
         }
       }
-    }
   }
 
   int m_width, m_height, m_words;
-  Texel_mask m_taken;
+  std::vector<std::uint8_t> m_framed; // 1 where a cell is taken, with the frame
   std::vector<Level> m_levels; // each with a row and a word more than the page, which are read only
 };
 

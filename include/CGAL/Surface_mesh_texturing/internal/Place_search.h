@@ -118,9 +118,13 @@ inline void Place_search::rank_snug(const Chart_raster& chart, const Page_raster
   // More free cells than this are worse, as a part of the rim, than the best
   const std::int64_t allowed = m_best.is_found() ? (m_score.first + 1) * n / all : n;
   std::int64_t free = 0;
-  for(const auto& c : chart.rim)
-    if(!page.is_taken(place.x + c[0], place.y + c[1]) && ++free > allowed)
+  const int *offset = chart.rim.data(), *end = offset + chart.rim.size();
+  for(int block; offset != end; offset += block) {
+    block = int((std::min)(std::ptrdiff_t(16), end - offset));
+    free += block - page.number_of_taken(offset, offset + block, place.x, place.y);
+    if(free > allowed)
       return;
+  }
   const std::int64_t right = std::int64_t(place.x + chart.width) * page.height();
   const std::int64_t top = std::int64_t(place.y + chart.height) * page.width();
   keep(place, {free * all / n, (std::max)(right, top)});

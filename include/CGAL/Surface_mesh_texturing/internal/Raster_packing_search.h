@@ -58,18 +58,17 @@ private:
     Raster_packing packing;
   };
 
-  static constexpr int tries = 8; // orders at a time
+  static constexpr std::size_t tries = 8;         // orders at a time
+  static constexpr double first_work = 6e8;       // positions compared before those of the budget
+  static constexpr double work_per_second = 1e9;  // see `Packing_options::time_budget`
 
-  // Enough for charts of equal sizes to have 16 cells a side.
-  int coarse_cells() const
-  {
-    return int((std::max)(128., std::ceil(16. * std::sqrt(double(m_outlines.size())))));
-  }
+  // Enough for charts of equal sizes on one page to have 8 cells a side.
+  double coarse_cells() const { return (std::max)(128. * 128., 64. * m_outlines.size()); }
 
   Packing_result with_density(double density);
   void maximize();
   Plan first_plan();
-  bool improve(Plan& plan, std::size_t round);
+  bool improve(Plan& plan);
   void refine(const Plan& plan);
 
   Packing_result packing_result(const Raster_packing& packing, const Chart_rasters& charts,
@@ -106,13 +105,16 @@ private:
       .pack(*m_coarse_charts.at(level), order_of(keys), Place_criterion::SNUG);
   }
 
-  // Returns whether to go on.
+  // Tells the part of the work done, which is not known before; returns whether to go on.
   bool report()
   {
-    m_is_cancelled = m_is_cancelled || (m_options.progress && !m_options.progress(0.5));
+    const double all = first_work + work_per_second * m_options.time_budget;
+    const double part = (std::min)(0.99, m_work / all);
+    m_is_cancelled = m_is_cancelled || (m_options.progress && !m_options.progress(part));
     return !m_is_cancelled;
   }
 
+  // Counts the positions of some orders.
   void count_work(const Packing_raster& raster, std::size_t orders)
   {
     m_work += double(orders) * m_outlines.size() * m_options.rotations * raster.width
@@ -130,6 +132,7 @@ private:
   int m_best_level = 0;
   std::unique_ptr<Chart_rasters> m_best_charts;
   double m_work = 0.; // positions compared
+  std::size_t m_rounds = 0;
   bool m_is_cancelled = false;
 };
 
@@ -164,13 +167,15 @@ inline Raster_packing_search::Plan Raster_packing_search::first_plan()
   Plan plan;
   plan.keys = keys_by_area();
   plan.level = highest_level(m_ladder.lowest(), -62, 16, [&](int level) {
+    if(!report())
+      return false;
     coarse_charts(level);
     count_work(m_coarse, 1);
     Raster_packing packing = pack_coarse(plan.keys, level);
     const bool is_complete = packing.is_complete;
     if(is_complete)
       plan.packing = std::move(packing);
-    return is_complete && report();
+    return is_complete;
   });
   m_coarse_charts.erase(m_coarse_charts.begin(), m_coarse_charts.lower_bound(plan.level));
   return plan;
@@ -178,13 +183,14 @@ inline Raster_packing_search::Plan Raster_packing_search::first_plan()
 
 // Tries other orders near that of the plan at higher levels; returns whether one of them succeeds,
 // which the plan then is.
-inline bool Raster_packing_search::improve(Plan& plan, std::size_t round)
+inline bool Raster_packing_search::improve(Plan& plan)
 {
   std::vector<Plan> plans(tries);
   for(std::size_t i = 0; i < tries; ++i)
-    plans[i].keys = perturbed(plan.keys, round * tries + i + 1);
+    plans[i].keys = perturbed(plan.keys, m_rounds * tries + i + 1);
+  ++m_rounds;
   bool is_better = false;
-  for(int level = plan.level + 1; level <= 0 && !plans.empty(); ++level) {
+  for(int level = plan.level + 1; level <= 0 && report(); ++level) {
     coarse_charts(level);
     count_work(m_coarse, plans.size());
     Blocked_execution::blocked_for(plans.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -206,9 +212,11 @@ inline bool Raster_packing_search::improve(Plan& plan, std::size_t round)
 inline void Raster_packing_search::refine(const Plan& plan)
 {
   const auto succeeds = [&](int level) {
+    if(!report())
+      return false;
     std::unique_ptr<Chart_rasters> charts(
       new Chart_rasters(m_outlines, m_options.rotations, m_ladder.density(level), m_exact));
-    count_work(m_exact, 1);
+    count_work(m_coarse, 2); // few positions are compared, but it takes this time
     Raster_packing packing = Greedy_packing(m_exact, m_options.max_pages)
                                .refine(*charts, plan.packing, *m_coarse_charts.at(plan.level));
     const bool is_complete = packing.is_complete;
@@ -217,7 +225,7 @@ inline void Raster_packing_search::refine(const Plan& plan)
       m_best_level = level;
       m_best_charts = std::move(charts);
     }
-    return report() && is_complete;
+    return is_complete;
   };
   if(m_best.is_complete)
     highest_level(m_best_level + 1, m_best_level + 1, 1, succeeds);
@@ -225,25 +233,46 @@ inline void Raster_packing_search::refine(const Plan& plan)
     highest_level(m_ladder.lowest(), plan.level, 4, succeeds);
 }
 
+// The first part of the search takes up to 8 rounds; all plans on the way are refined, since the
+// best one on the coarse raster need not be the best.
 inline void Raster_packing_search::maximize()
 {
-  constexpr double first_work = 6e8, work_per_second = 1e9;
-  Plan plan = first_plan();
-  if(!plan.packing.is_complete)
+  constexpr std::size_t first_rounds = 8;
+  std::vector<Plan> plans(1, first_plan());
+  if(!plans[0].packing.is_complete) { // very many charts, or very long pages
+    m_coarse = m_exact;
+    m_coarse_charts.clear();
+    plans[0] = first_plan();
+  }
+  if(!plans[0].packing.is_complete)
     return;
-  std::size_t round = 0;
-  for(; m_work < first_work && !m_is_cancelled; ++round)
-    improve(plan, round);
-  refine(plan);
-  m_work = 0.;
-  for(; m_work < work_per_second * m_options.time_budget && !m_is_cancelled; ++round)
-    if(improve(plan, round))
-      refine(plan);
+  const auto improve_last = [&] {
+    Plan plan = plans.back();
+    const bool is_better = improve(plan);
+    if(is_better)
+      plans.push_back(std::move(plan));
+    return is_better;
+  };
+  const auto may_go_on = [&](double work) {
+    return m_work < work && plans.back().level < 0 && !m_is_cancelled;
+  };
+  while(m_rounds < first_rounds && may_go_on(first_work))
+    improve_last();
+  for(auto plan = plans.rbegin(); plan != plans.rend() && !m_is_cancelled; ++plan)
+    refine(*plan);
+  const double work = m_work + work_per_second * m_options.time_budget;
+  while(may_go_on(work))
+    if(improve_last())
+      refine(plans.back());
 }
 
 inline Packing_result Raster_packing_search::with_density(double density)
 {
   Packing_result result;
+  if(!report()) {
+    result.error = "cancelled";
+    return result;
+  }
   Chart_rasters charts(m_outlines, m_options.rotations, density, m_exact);
   charts.make_all();
   const Raster_packing packing = Greedy_packing(m_exact, m_options.max_pages)

@@ -10,6 +10,7 @@
 #include <CGAL/assertions.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -30,6 +31,7 @@ public:
              const Crease_weights& weights)
     : m_mesh(triangles, points.size()), m_metric(points, weights)
     , m_seams(triangles.size(), 0), m_degree(points.size(), 0), m_is_border(points.size(), 0)
+    , m_is_pinned(points.size(), 0)
   {
     for(Halfedge h = 0; h < m_mesh.number_of_halfedges(); ++h)
       if(m_mesh.opposite(h) == no_halfedge)
@@ -49,6 +51,14 @@ public:
 
   // The number of seams at v, border edges included.
   std::uint32_t degree(Vertex_index v) const { return m_degree[v]; }
+
+  // Whether seams that pass v are to stay there.
+  bool is_pinned(Vertex_index v) const { return m_is_pinned[v] != 0; }
+
+  // Pins the vertices on seams inside the surface the angles around which differ from a full turn
+  // by at least `defect` degrees: tips and saddles, around which a chart would be much distorted if
+  // its border did not reach them.
+  void pin_curved(double defect);
 
   void add_seam(Halfedge h)
   {
@@ -119,7 +129,7 @@ private:
   Crease_metric m_metric;
   std::vector<std::uint8_t> m_seams; // of each triangle, as in `Face_charts`
   std::vector<std::uint32_t> m_degree;
-  std::vector<std::uint8_t> m_is_border;
+  std::vector<std::uint8_t> m_is_border, m_is_pinned;
 };
 
 // The seams at both ends of a new edge but for those that are yet to be placed.
@@ -142,6 +152,21 @@ inline void Seam_net::set_seams(std::vector<std::uint8_t> seams)
       ++m_degree[m_mesh.source(h)];
       ++m_degree[m_mesh.target(h)];
     }
+}
+
+inline void Seam_net::pin_curved(double defect)
+{
+  for(Vertex_index v = 0; v < m_degree.size(); ++v) {
+    m_is_pinned[v] = 0;
+    if(m_degree[v] == 0 || is_border(v))
+      continue;
+    double angles = 0.;
+    m_mesh.for_each_outgoing(m_mesh.outgoing(v), [&](Halfedge h) {
+      angles += m_metric.angle(v, m_mesh.target(h), m_mesh.source(previous(h)));
+      return true;
+    });
+    m_is_pinned[v] = std::abs(360. - angles) >= defect;
+  }
 }
 
 // Marks the border, and lets the other sides of the new triangles be no seams for the moment.
@@ -213,6 +238,8 @@ inline void Seam_net::split(Halfedge e, Vertex_index r, Vertex_index k)
   const std::uint32_t joins = best_way >> 2;
   m_degree[r] = star.at_r + (best_way & 1) + (best_way >> 1 & 1) + joins;
   m_degree[k] = star.at_k + (free_0 && !(best_way & 1)) + (free_1 && !(best_way & 2)) + joins;
+  if(m_degree[k] == 0) // all seams have gone with r
+    std::swap(m_is_pinned[k], m_is_pinned[r]);
 }
 
 } // namespace internal

@@ -20,17 +20,17 @@ struct Straightening_reach
 {
   int rings;          // how far a piece of a seam may move, in edges
   std::size_t window; // the length of a piece, in edges
-  int rounds;
+  int first_round, end_round; // in odd ones pieces are shifted by half their length
 };
 
 // Makes the seams of a mesh shorter, piece by piece.
 //
 // Why all charts stay disks: a piece has a chart on each side. Without the piece the two are one
 // disk, with the ends of the piece on its border; any other path between these ends, and through
-// the sectors that were open to the piece, cuts it into two disks again. If the same chart is on both
-// sides, the piece either joins the two borders of an annulus, as any other path would, or one of
-// its ends is the end of the seam. For a junction of several seams the same holds in a band without
-// holes.
+// the sectors that were open to the piece, cuts it into two disks again. If the same chart is on
+// both sides, the piece either joins the two borders of an annulus, as any other path would, or one
+// of its ends is the end of the seam. For a junction of several seams the same holds in a band
+// without holes.
 class Seam_straightener
 {
 public:
@@ -40,8 +40,10 @@ public:
   void run(const Straightening_reach& reach)
   {
     m_reach = reach;
+    if(reach.first_round == reach.end_round)
+      return;
     Seam_arcs arcs = find_seam_arcs(m_graph);
-    for(int round = 0; round < reach.rounds; ++round) {
+    for(int round = reach.first_round; round < reach.end_round; ++round) {
       for(Path& arc : arcs.arcs)
         straighten(arc, round);
       for(const Arc_end* first = arcs.ends.data(), *end = first + arcs.ends.size(); first != end;) {
@@ -151,6 +153,8 @@ inline void Seam_straightener::slide(const Arc_end* first, const Arc_end* last,
   const Path& arc = arcs[end.arc];
   const Vertex_index node = end.is_last ? target(arc.back()) : source(arc.front());
   const std::uint32_t degree = std::uint32_t(last - first);
+  if(m_graph.is_pinned(node))
+    return;
   if(m_graph.is_border(node)) {
     if(degree == 1 && m_graph.degree(node) == 3)
       slide_on_border(end, arcs[end.arc]);

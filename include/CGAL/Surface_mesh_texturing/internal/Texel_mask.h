@@ -54,6 +54,15 @@ struct Cell_run
   int y, begin, end;
 };
 
+// Sets the bits from `begin` to before `end`, of which there must be one.
+inline void set_bits(Word* words, int begin, int end)
+{
+  const int first = begin >> 6, last = (end - 1) >> 6;
+  for(int i = first; i <= last; ++i)
+    words[i] |= (i == first ? ~Word(0) << (begin & 63) : ~Word(0))
+                & (i == last ? ~Word(0) >> (63 - ((end - 1) & 63)) : ~Word(0));
+}
+
 // A set of cells of a raster: a bit each, row by row, each row beginning with a new word.
 class Texel_mask
 {
@@ -74,12 +83,9 @@ public:
   // Adds a run, of which what lies outside of the raster is ignored.
   void add(const Cell_run& run)
   {
-    change(run, [](Word& word, Word bits) { word |= bits; });
-  }
-
-  void remove(const Cell_run& run)
-  {
-    change(run, [](Word& word, Word bits) { word &= ~bits; });
+    const int begin = (std::max)(0, run.begin), end = (std::min)(m_width, run.end);
+    if(run.y >= 0 && run.y < m_height && begin < end)
+      set_bits(row(run.y), begin, end);
   }
 
   std::size_t count() const
@@ -93,20 +99,6 @@ public:
   std::vector<Cell_run> runs() const;
 
 private:
-  // Calls `change(word, bits)` for the words and the bits of the run that lies within.
-  template <class Change>
-  void change(const Cell_run& run, const Change& change)
-  {
-    const int begin = (std::max)(0, run.begin), end = (std::min)(m_width, run.end);
-    if(run.y < 0 || run.y >= m_height || begin >= end)
-      return;
-    Word* words = row(run.y);
-    const int first = begin >> 6, last = (end - 1) >> 6;
-    for(int i = first; i <= last; ++i)
-      change(words[i], (i == first ? ~Word(0) << (begin & 63) : ~Word(0))
-                         & (i == last ? ~Word(0) >> (63 - ((end - 1) & 63)) : ~Word(0)));
-  }
-
   // The first cell from x on in the row that is in the set or not.
   int find(const Word* words, int x, bool is_in) const
   {

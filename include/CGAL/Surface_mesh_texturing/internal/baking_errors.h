@@ -71,9 +71,9 @@ inline std::string options_error(const Baking_options& options)
     return "the image has no texels";
   if(options.samples == 0)
     return "there are no samples in a texel";
-  const std::size_t most = 65536; // in a row or column: 32 GB of samples
+  const std::size_t most = 65534; // what Nearest_covered counts in 16 bits
   if((std::max)(options.width, options.height) > most / (std::min)(options.samples, most))
-    return "there are more than 65536 samples in a row or column of the image";
+    return "there are more than 65534 samples in a row or column of the image";
   return {};
 }
 

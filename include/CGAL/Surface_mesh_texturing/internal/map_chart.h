@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_MAP_CHART_H
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_MAP_CHART_H
 
+#include <CGAL/Surface_mesh_parameterization/border_first_map.h>
 #include <CGAL/Surface_mesh_parameterization/conformal_map.h>
 #include <CGAL/Surface_mesh_parameterization/repair_flipped_faces.h>
 #include <CGAL/Surface_mesh_texturing/Texture_atlas_options.h>
@@ -97,6 +98,20 @@ inline double border_length(const Indexed_triangle_mesh& mesh)
   return sum;
 }
 
+// The map by the method of the options; empty if there is none.
+inline std::vector<Point_2> conformal_uv(const Indexed_triangle_mesh& mesh,
+                                         const Texture_atlas_options& options)
+{
+  namespace SMP = Surface_mesh_parameterization;
+  if(!options.method)
+    return SMP::border_first_map(mesh).uv;
+  SMP::HLSCM_options solver;
+  solver.method = mesh.triangles.size() < options.direct_faces ? SMP::Conformal_method::DIRECT
+                                                               : *options.method;
+  solver.tolerance = options.tolerance;
+  return SMP::conformal_map(mesh, solver).uv;
+}
+
 // Maps a chart and says whether the map is one-to-one and within the bound.
 inline Mapped_chart map_chart(Chart_mesh chart, const Texture_atlas_options& options)
 {
@@ -112,15 +127,10 @@ inline Mapped_chart map_chart(Chart_mesh chart, const Texture_atlas_options& opt
     result.is_valid = true;
     return result;
   }
-  SMP::HLSCM_options solver;
-  solver.method = mesh.triangles.size() < options.direct_faces ? SMP::Conformal_method::DIRECT
-                                                               : options.method;
-  solver.tolerance = options.tolerance;
-  SMP::Conformal_map map = SMP::flatten_border_first(mesh);
   result.report.is_one_to_one = false;
-  if(map.error != SMP::OK)
+  result.uv = conformal_uv(mesh, options);
+  if(result.uv.empty())
     return result;
-  result.uv = std::move(map.uv);
   if(!scale_to_surface(measure_chart_distortion(mesh, result.uv), result.uv))
     return result;
   const auto flips = count_flips(mesh.triangles, result.uv);

@@ -130,8 +130,8 @@ inline void add_outline(const Chart_outline& outline, const Rotation_and_scale& 
   }
 }
 
-// The cells that an outline touches, its bounding box in the middle of as few rows and columns as it
-// needs, or an empty mask if these are more than `max_width` and `max_height`. A chart without
+// The cells that an outline touches, its bounding box in the middle of as few rows and columns as
+// it needs, or an empty mask if these are more than `max_width` and `max_height`. A chart without
 // triangles takes one cell.
 inline Rasterized_chart rasterize(const Chart_outline& outline, double angle, double scale,
                                   int max_width, int max_height)

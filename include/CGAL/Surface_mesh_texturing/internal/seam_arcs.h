@@ -22,8 +22,8 @@ struct Arc_end
   bool is_last; // the end of the last halfedge, not the beginning of the first
 };
 
-// The seams inside a surface as paths between *nodes*, which are junctions, ends of seams, and
-// vertices on the border of the surface. Arcs without nodes are closed.
+// The seams inside a surface as paths between *nodes*, which are junctions, ends of seams, pinned
+// vertices, and vertices on the border of the surface. Arcs without nodes are closed.
 struct Seam_arcs
 {
   std::vector<std::vector<Halfedge>> arcs;
@@ -32,7 +32,7 @@ struct Seam_arcs
 
 inline bool is_seam_node(const Seam_net& graph, Vertex_index v)
 {
-  return graph.degree(v) != 2 || graph.is_border(v);
+  return graph.degree(v) != 2 || graph.is_border(v) || graph.is_pinned(v);
 }
 
 // The other seam at the end of h, which is no node, as a halfedge from there.

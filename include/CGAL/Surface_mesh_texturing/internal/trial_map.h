@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_TRIAL_MAP_H
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_TRIAL_MAP_H
 
-#include <CGAL/Surface_mesh_parameterization/conformal_map.h>
+#include <CGAL/Surface_mesh_parameterization/border_first_map.h>
 #include <CGAL/Surface_mesh_texturing/Chart_distortion.h>
 #include <CGAL/Surface_mesh_texturing/internal/Triangle_adjacency.h>
 
@@ -94,10 +94,8 @@ inline Trial_map try_map(const Indexed_triangle_mesh& mesh, const std::vector<Bo
 {
   namespace SMP = Surface_mesh_parameterization;
   Trial_map result;
-  SMP::HLSCM_options options;
-  options.method = SMP::Conformal_method::DIRECT;
-  const SMP::Conformal_map map = SMP::flatten_border_first(mesh);
-  result.is_disk = map.error == SMP::OK && map.report.borders == 1;
+  const SMP::Border_first_map map = SMP::border_first_map(mesh);
+  result.is_disk = map.error.empty();
   if(!result.is_disk)
     return result;
   result.distortion = measure_chart_distortion(mesh, map.uv);

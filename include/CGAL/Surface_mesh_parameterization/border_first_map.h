@@ -1,0 +1,62 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_BORDER_FIRST_MAP_H
+#define CGAL_SURFACE_MESH_PARAMETERIZATION_BORDER_FIRST_MAP_H
+
+#include <CGAL/Surface_mesh_parameterization/internal/Border_first_flattening.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_parameterization {
+
+/// \ingroup PkgHLSCMParameterizer
+/// What `border_first_map()` returns.
+struct Border_first_map
+{
+  /// The parameter of each vertex; (0, 0) for vertices without a face; empty if there is an error.
+  std::vector<Simple_cartesian<double>::Point_2> uv;
+  std::string error; ///< why there is no map, as a sentence; empty if all is well
+};
+
+/*!
+\ingroup PkgHLSCMParameterizer
+
+Returns the conformal map of a disk under which its border keeps its lengths, up to one factor: of
+all conformal maps the one whose area scale varies least (Springborn, Schröder and Pinkall 2008).
+
+A least squares conformal map depends on how the mesh resolves the surface (see the near-kernel in
+the manual), and so does its distortion. This map is determined by the surface: on a coarse mesh it
+shows what it will be on a fine one. It is computed from the border inwards (boundary first
+flattening: Sawhney and Crane 2017, section 4), by one sparse Cholesky factorization of the real
+cotangent Laplacian of the inner vertices, which takes about half the time of the complex one of
+`Conformal_method::DIRECT`.
+
+The map may have flipped triangles, and its border may meet itself. Bad data (coordinates that are not
+finite, no disk) give a result with `error` set.
+*/
+inline Border_first_map border_first_map(Surface_mesh_multiresolution::Indexed_triangle_mesh mesh)
+{
+  Border_first_map result;
+  const std::size_t n = mesh.points.size();
+  internal::Chart chart = internal::chart_of_arrays(std::move(mesh));
+  if(chart.error == OK && chart.borders.size() != 1)
+    chart.fail(ERROR_NO_TOPOLOGICAL_DISC, "the surface has several borders; cut it to a disk first");
+  if(chart.error == OK) {
+    const auto z = internal::Border_first_flattening(chart).run();
+    if(z.empty())
+      chart.fail(ERROR_CANNOT_SOLVE_LINEAR_SYSTEM, "the matrix cannot be factorized");
+    else
+      result.uv = internal::points_of_values(chart, z, n);
+  }
+  result.error = chart.message;
+  return result;
+}
+
+} // namespace Surface_mesh_parameterization
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_BORDER_FIRST_MAP_H
