@@ -93,7 +93,8 @@ private:
   SMT::Baked_map bake_with(const Shader& shader, const SMT::Tangent_frames& frames)
   {
     if(m_input.shares_texture()) {
-      return SMT::bake(m_input.light, SMT::Equal_uv(m_input.fine, m_library), shader, m_library);
+      const SMT::Equal_uv equal(m_input.fine, m_input.light, m_library);
+      return SMT::bake(m_input.light, equal, shader, m_library);
     }
     const Ray_caster caster(m_input.fine.points, m_input.fine.triangles);
     const double radius = SMT::internal::Bounding_ball({&m_input.light.points}).radius;
