@@ -100,8 +100,8 @@ void add_atlas_commands(CLI::App& app, Program_options& options)
 
 void check_bake(const Program_options& options)
 {
-  const int models
-      = int(!options.faces.empty()) + int(options.error.has_value()) + int(!options.bake.target.empty());
+  const int models = int(!options.faces.empty()) + int(options.error.has_value())
+                     + int(!options.bake.target.empty());
   if(models != 1) {
     throw CLI::ValidationError("bake", "give one of --faces, --error and --target");
   }

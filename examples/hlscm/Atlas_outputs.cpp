@@ -45,8 +45,9 @@ Atlas_outputs::Atlas_outputs(const Program_options& options)
   : m_options(options),
     m_folder(options.output, {options.input, options.atlas.charts, options.bake.target,
                               options.bake.colours}),
-    m_report(options.report.empty() ? m_folder.create_anywhere(fs::path(options.output) / "report.json")
-                                    : m_folder.create_anywhere(options.report))
+    m_report(m_folder.create_anywhere(options.report.empty()
+                                          ? fs::path(options.output) / "report.json"
+                                          : fs::path(options.report)))
 {
   if(!options.bake.target.empty()) {
     return;

@@ -3,7 +3,6 @@
 
 #include "Baking.h"
 
-#include "Image_reading.h"
 #include "Interruption.h"
 #include "Program_error.h"
 #include "Stopwatch.h"
@@ -69,10 +68,9 @@ public:
       set_displacement(map, images);
     }
     if(m_input.coloured) {
-      const SMT::Texture_image image = read_image(m_options.bake.colours);
       m_progress.start_stage("colours");
-      images.colours
-          = checked(bake_with(SMT::Image_shader(*m_input.coloured, image), images.frames)).image;
+      const SMT::Image_shader shader(*m_input.coloured, m_input.colours);
+      images.colours = checked(bake_with(shader, images.frames)).image;
     }
     return images;
   }
@@ -95,7 +93,8 @@ private:
   SMT::Baked_map bake_with(const Shader& shader, const SMT::Tangent_frames& frames)
   {
     if(m_input.shares_texture()) {
-      return SMT::bake(m_input.light, SMT::Equal_uv(m_input.fine, m_library), shader, m_library);
+      const SMT::Equal_uv equal(m_input.fine, m_input.light, m_library);
+      return SMT::bake(m_input.light, equal, shader, m_library);
     }
     const Ray_caster caster(m_input.fine.points, m_input.fine.triangles);
     const double radius = SMT::internal::Bounding_ball({&m_input.light.points}).radius;

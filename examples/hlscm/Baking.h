@@ -23,6 +23,7 @@ struct Baking_input
   Textured_triangle_mesh fine;
   Textured_triangle_mesh light;
   std::optional<Textured_triangle_mesh> coloured; ///< `fine` in a texture that is to be baked, too
+  CGAL::Surface_mesh_texturing::Texture_image colours; ///< that texture
   std::size_t pages = 1; ///< of the texture, which stand side by side in the unit square
 
   bool shares_texture() const { return !fine.wedges.empty(); }

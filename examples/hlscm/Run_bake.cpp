@@ -5,6 +5,7 @@
 #include "Bake_outputs.h"
 #include "Bake_pictures.h"
 #include "Commands.h"
+#include "Image_reading.h"
 #include "Overlap.h"
 #include "Program_error.h"
 #include "Progressive_building.h"
@@ -15,7 +16,8 @@
 
 #include <CGAL/Surface_mesh_multiresolution/Level_extractor.h>
 
-#include <algorithm>
+#include <cmath>
+#include <optional>
 #include <utility>
 
 namespace hlscm {
@@ -81,6 +83,7 @@ Baking_input prepare(const Polygon_soup& surface, const Program_options& options
                                          "which --colors needs, leave that out");
     }
     input.coloured = to_textured(surface);
+    input.colours = read_image(options.bake.colours);
   }
   if(!options.bake.target.empty()) {
     SMM::Indexed_triangle_mesh fine = to_indexed(surface);

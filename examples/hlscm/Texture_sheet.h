@@ -13,8 +13,8 @@
 
 namespace hlscm {
 
-// A sheet is a texture with all pages of an atlas side by side in the unit square: what knows of one
-// texture only works on it. With one page it is that page, to the bit.
+// A sheet is a texture with all pages of an atlas side by side in the unit square: what knows of
+// one texture only works on it. With one page it is that page, to the bit.
 
 /// Moves the texture coordinates of a mesh from its pages to the sheet.
 inline Textured_triangle_mesh to_sheet(Textured_triangle_mesh mesh,
