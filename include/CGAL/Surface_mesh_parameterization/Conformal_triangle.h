@@ -41,6 +41,9 @@ public:
   /// The point type.
   typedef Surface_mesh_multiresolution::Indexed_triangle_mesh::Point_3 Point_3;
 
+  /// By how much the edges of a triangle without area are longer, in mean edges.
+  static constexpr double mollification = 1e-6;
+
   /// Constructs the triangle.
   ///
   /// \param mean_edge the mean edge length of the mesh, the measure of mollification
@@ -107,7 +110,7 @@ inline Conformal_triangle::Conformal_triangle(const Point_3& p0, const Point_3& 
   const double longest = (std::max)({ll[0], ll[1], ll[2]});
   const double twice_area = std::sqrt(dot(n, n));
   if(!(twice_area > 1e-9 * longest)) {
-    const double extra = 1e-6 * mean_edge;
+    const double extra = mollification * mean_edge;
     m_is_mollified = true;
     lay_out(std::sqrt(ll[0]) + extra, std::sqrt(ll[1]) + extra, std::sqrt(ll[2]) + extra);
     return;

@@ -27,6 +27,9 @@ struct Texture_atlas_options
   /// The number of charts to come down to, beyond the bound on distortion if need be; 0 for as few
   /// as the bound allows.
   std::size_t max_charts = 0;
+  /// The part of its convex hull in the plane that a chart fills at least, as far as charts can be
+  /// told apart: less means fewer charts, and more of the texture left empty.
+  double least_fill = 0.75;
   /// Triangles of the level on which the charts are found.
   std::size_t coarse_faces = 4000;
   /// The charts, if they are given; those that are no disks are cut.

@@ -197,6 +197,7 @@ inline bool Texture_atlas_builder::segment()
     Chart_growth_options growth;
     growth.bound = m_options.bound;
     growth.max_charts = m_options.max_charts;
+    growth.least_fill = m_options.least_fill;
     Segmentation_options segmentation;
     segmentation.coarse_faces = m_options.coarse_faces;
     segmentation.progress = [this](double part) { return proceed(0., 0.4, part); };
@@ -233,7 +234,7 @@ inline bool Texture_atlas_builder::pack()
   if(m_result.error.empty())
     m_result.error = m_packing.error;
   m_result.report.seconds_pack = watch.seconds();
-  return m_result.error.empty();
+  return m_result.error.empty() && proceed(1., 1., 1.);
 }
 
 inline void Texture_atlas_builder::fill()

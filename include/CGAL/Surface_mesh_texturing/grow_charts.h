@@ -28,7 +28,7 @@ struct Chart_growth_options
   Distortion_bound bound;
   /// The part of the bound, as logarithms, that is used: what remains is for the finer mesh, which
   /// has a little more distortion than the coarse one.
-  double bound_part = 0.92;
+  double bound_part = 0.85;
   /// The largest number of charts, which has precedence over the bound; 0 for no limit. There are
   /// never less than `least_charts` in each component.
   std::size_t max_charts = 0;
@@ -39,7 +39,7 @@ struct Chart_growth_options
   double feature_angle = 30.;
   /// The part of its convex hull in the plane that a chart fills at least, so that charts can be
   /// packed: without, stars and spirals are possible.
-  double least_fill = 0.65;
+  double least_fill = 0.75;
   /// Triangles to one of the patches from which charts are merged.
   std::size_t patch_size = 25;
   /// How much is tried to get along with fewer charts: triangles that are mapped for each triangle

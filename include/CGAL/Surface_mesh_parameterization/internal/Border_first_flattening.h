@@ -90,6 +90,7 @@ private:
   std::vector<std::int32_t> m_rank; // among the inner vertices, or -1
   std::size_t m_number_inside = 0;
   std::vector<double> m_angle_sum;
+  std::vector<double> m_length;            // of the border edge that begins at a vertex
   Eigen::SparseMatrix<double> m_laplacian; // A_II, the lower triangle
   std::vector<Link> m_links;
   Factorization m_factorization;
@@ -101,6 +102,10 @@ inline void Border_first_flattening::assemble()
   std::vector<Entry> entries;
   entries.reserve(6 * m_mesh.triangles.size());
   m_angle_sum.assign(m_mesh.points.size(), 0.);
+  m_length.assign(m_mesh.points.size(), 0.);
+  std::vector<std::uint32_t> next(m_mesh.points.size(), Surface_mesh_multiresolution::no_vertex);
+  for(std::size_t i = 0; i < m_loop.size(); ++i)
+    next[m_loop[i]] = m_loop[(i + 1) % m_loop.size()];
   for(std::size_t t = 0; t < m_mesh.triangles.size(); ++t) {
     const Conformal_triangle triangle = conformal_triangle(m_mesh, t);
     for(int c = 0; c < 3; ++c) {
@@ -108,6 +113,9 @@ inline void Border_first_flattening::assemble()
       m_angle_sum[m_mesh.triangles[t][c]] += std::atan2(1., cotangent);
       const std::uint32_t p = m_mesh.triangles[t][(c + 1) % 3], q = m_mesh.triangles[t][(c + 2) % 3];
       const std::int32_t i = m_rank[p], j = m_rank[q];
+      if(next[p] == q) // longer by what gives triangles without area theirs
+        m_length[p] = std::sqrt(squared_distance(m_mesh.points[p], m_mesh.points[q]))
+                    + (triangle.is_mollified() ? Conformal_triangle::mollification : 0.);
       if(i >= 0)
         entries.push_back(Entry(i, i, w));
       if(j >= 0)
@@ -154,8 +162,7 @@ inline void Border_first_flattening::lay_out_border(const std::vector<double>& t
   double direction = 0., xx = 0., xy = 0., yy = 0.;
   Complex gap(0.);
   for(std::size_t i = 0; i < n; ++i) { // the edge from vertex i to the next one
-    const double length = std::sqrt(
-      squared_distance(m_mesh.points[m_loop[i]], m_mesh.points[m_loop[(i + 1) % n]]));
+    const double length = m_length[m_loop[i]];
     step[i] = std::polar(length, direction);
     direction += turning[(i + 1) % n];
     const Complex t = length > 0. ? step[i] / length : Complex(0.);

@@ -6,9 +6,9 @@
 
 #include <CGAL/Surface_mesh_texturing/internal/halve_chart.h>
 #include <CGAL/Surface_mesh_texturing/internal/map_chart.h>
+#include <CGAL/Surface_mesh_texturing/segment_into_charts.h>
 
 #include <CGAL/Blocked_execution/blocked_for.h>
-#include <CGAL/Surface_mesh_texturing/segment_into_charts.h>
 
 #include <algorithm>
 #include <functional>
@@ -48,13 +48,17 @@ inline std::vector<Chart_mesh> cut_again(const Mapped_chart& mapped,
                                          const Texture_atlas_options& options)
 {
   constexpr double margin = 0.9; // below the bound, which the chart just missed
+  constexpr double effort = 20.; // a few charts are soon found
+  constexpr std::size_t coarse_faces = 1500;
   const Chart_mesh& chart = mapped.chart;
   Chart_growth_options growth;
   growth.bound = options.bound;
   growth.bound.area_scale = (std::max)(1.1, margin * options.bound.area_scale);
   growth.least_charts = 2;
+  growth.least_fill = options.least_fill;
+  growth.effort = effort;
   Segmentation_options segmentation;
-  segmentation.coarse_faces = options.coarse_faces;
+  segmentation.coarse_faces = (std::min)(coarse_faces, options.coarse_faces);
   Segmentation_result cut = segment_into_charts(chart.mesh, segmentation, growth);
   if(!cut.error.empty() || cut.charts.number_of_charts < 2)
     cut.charts = halve_chart(chart.mesh);
