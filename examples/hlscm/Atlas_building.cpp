@@ -24,6 +24,8 @@ Built_atlas build_atlas(const Polygon_soup& surface, const Program_options& opti
   library.max_charts = options.atlas.max_charts;
   library.charts = given_charts(surface, options);
   library.method = options.atlas.method;
+  library.packer = options.atlas.packer;
+  library.packing.time_budget = options.atlas.packing_time;
   library.packing.width = library.packing.height = options.atlas.texture;
   library.packing.padding = options.atlas.padding;
   library.packing.mip_levels = options.atlas.mip_levels;

@@ -3,7 +3,12 @@
 
 #include "Option_parts.h"
 
+#include <optional>
+
 namespace hlscm {
+
+namespace SMP = CGAL::Surface_mesh_parameterization;
+namespace SMT = CGAL::Surface_mesh_texturing;
 
 namespace {
 
@@ -33,7 +38,21 @@ void add_atlas_options(CLI::App& app, Program_options& o)
                "one chart for each part of the surface, cut to a disk where it is none");
   add_count(app, "--pages", std::size_t(1), std::size_t(1000), atlas.pages,
             "textures at most (default 1)");
-  add_method(app, atlas.method, "spectral");
+  add_choice<SMT::Atlas_packer>(
+      app, "--packer",
+      {{"raster", SMT::Atlas_packer::RASTER}, {"horizon", SMT::Atlas_packer::HORIZON}}, atlas.packer,
+      "raster: charts in any gap where they fit; horizon: from below, as in 2002 (default raster)");
+  add_number(app, "--packing-time", 0, 1e6, atlas.packing_time,
+             "seconds to look for a better packing, on a usual machine (default 0)");
+  add_choice<std::optional<SMP::Conformal_method>>(
+      app, "--method",
+      {{"border-first", std::nullopt},
+       {"spectral", SMP::Conformal_method::SPECTRAL},
+       {"hlscm", SMP::Conformal_method::HLSCM},
+       {"cascadic", SMP::Conformal_method::CASCADIC}},
+      atlas.method,
+      "how charts are mapped; border-first: with the least change of areas; the others are those of "
+      "parameterize (default border-first)");
   add_threads(app, o.library.threads);
   app.add_flag("--ply", atlas.writes_ply, "write binary PLY, too");
 }

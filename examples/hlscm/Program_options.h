@@ -5,6 +5,7 @@
 #define HLSCM_PROGRAM_PROGRAM_OPTIONS_H
 
 #include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
+#include <CGAL/Surface_mesh_texturing/Atlas_packer.h>
 #include <CGAL/Surface_mesh_texturing/Chart_distortion.h>
 
 #include <cstddef>
@@ -44,8 +45,10 @@ struct Atlas_settings
   std::string charts;         ///< a file, or "uv"; empty: they are to be found
   bool is_one_disk = false;   ///< one chart for each connected component
   std::size_t pages = 1;      ///< at most
-  CGAL::Surface_mesh_parameterization::Conformal_method method
-      = CGAL::Surface_mesh_parameterization::Conformal_method::SPECTRAL;
+  double packing_time = 0;    ///< seconds for better packings
+  CGAL::Surface_mesh_texturing::Atlas_packer packer
+      = CGAL::Surface_mesh_texturing::Atlas_packer::RASTER;
+  std::optional<CGAL::Surface_mesh_parameterization::Conformal_method> method;
   bool writes_ply = false;
 };
 

@@ -5,9 +5,10 @@
 #define CGAL_SURFACE_MESH_TEXTURING_TEXTURE_ATLAS_OPTIONS_H
 
 #include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
+#include <CGAL/Surface_mesh_texturing/Atlas_packer.h>
 #include <CGAL/Surface_mesh_texturing/Chart_distortion.h>
+#include <CGAL/Surface_mesh_texturing/Chart_packing.h>
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
-#include <CGAL/Surface_mesh_texturing/pack_charts.h>
 
 #include <cstddef>
 #include <functional>
@@ -45,6 +46,8 @@ struct Texture_atlas_options
   /// For each triangle the texels that it is to have along a unit of length, relative to others; a
   /// chart gets the mean over its area. Empty for equal texel density.
   std::vector<float> density;
+  /// What places the charts in the textures.
+  Atlas_packer packer = Atlas_packer::RASTER;
   /// The textures, and how charts are placed in them.
   Packing_options packing;
   /// Told the part done in [0, 1] from time to time; returning `false` cancels.

@@ -6,10 +6,12 @@
 
 #include <CGAL/Surface_mesh_multiresolution/build_progressive_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/internal/Progress.h>
+#include <CGAL/Surface_mesh_texturing/Horizon_packer.h>
 #include <CGAL/Surface_mesh_texturing/Texture_atlas.h>
 #include <CGAL/Surface_mesh_texturing/Texture_atlas_options.h>
 #include <CGAL/Surface_mesh_texturing/Texture_atlas_report.h>
 #include <CGAL/Surface_mesh_texturing/internal/map_charts.h>
+#include <CGAL/Surface_mesh_texturing/pack_charts.h>
 
 #include <CGAL/assertions.h>
 
@@ -230,7 +232,8 @@ inline bool Texture_atlas_builder::pack()
     shapes.push_back({map.uv, map.chart.mesh.triangles});
   Packing_options packing = m_options.packing;
   packing.progress = [this](double part) { return proceed(0.8, 1., part); };
-  m_packing = pack_charts(shapes, packing);
+  m_packing = m_options.packer == Atlas_packer::RASTER ? pack_charts<Raster_packer>(shapes, packing)
+                                                       : pack_charts<Horizon_packer>(shapes, packing);
   if(m_result.error.empty())
     m_result.error = m_packing.error;
   m_result.report.seconds_pack = watch.seconds();
