@@ -13,7 +13,6 @@
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_multiresolution/build_textured_progressive_mesh.h>
-#include <CGAL/Surface_mesh_multiresolution/textured_level.h>
 #include <CGAL/Surface_mesh_parameterization/conformal_map.h>
 #include <CGAL/Surface_mesh_texturing/bake_by_rays.h>
 #include <CGAL/Surface_mesh_texturing/bake_normal_map.h>
@@ -146,7 +145,7 @@ void print_rows(const std::string& path)
   const std::string name = std::filesystem::path(path).stem().string();
   for(const std::size_t triangles : {2000, 8000}) {
     const SMM::Textured_triangle_mesh light
-      = SMM::textured_level(result.mesh, levels, levels.position_of_triangles(triangles));
+      = levels.mesh(levels.position_of_triangles(triangles));
     const Baking_table table(name, fine, light);
     for(const std::size_t size : {1024, 2048, 4096})
       if(triangles == 8000 || size == 2048)

@@ -141,6 +141,11 @@ mapfile -t large < <(find "$charts" -maxdepth 1 -name '*_1[0-9][0-9][0-9]k.ply' 
 "$HLSCM_BIN/live_map" "${large[@]}" > "$out/live_map.csv"
 "$HLSCM_BIN/levels" "${large[@]}" > "$out/levels.csv"
 "$HLSCM_BIN/baking" "${large[@]}" > "$out/baking.csv"
+"$HLSCM_BIN/packing" > "$out/packing.csv"
+{
+  "$HLSCM_BIN/atlases" --threads 0 "$HLSCM_DATA_DIR"/{bunny00,armadillo,camel}.off
+  "$HLSCM_BIN/atlases" --threads 0 --loop 2 "$HLSCM_DATA_DIR"/{bunny00,armadillo}.off | grep -v '^[#m]'
+} > "$out/atlases.csv"
 "$HLSCM_BIN/stages" "${large[@]}" > "$out/stages.csv"
 "$HLSCM_BIN/parameters" --repeat "$repeat" "$charts/camel_313k.ply" \
   "$charts/scaling/bunny00_302k.ply" > "$out/parameters.csv"
