@@ -213,7 +213,10 @@ TEST(Charts_of_texture, are_between_the_discontinuities)
   for(const auto& [name, mesh] : textured_meshes(seed)) {
     const Face_charts charts = SMT::charts_of_texture(mesh);
     EXPECT_EQ(error_in_charts(mesh.triangles, charts), "") << name << seed_text;
-    const auto value = [&mesh](std::size_t t, int c) { return mesh.uv[mesh.wedges[t][c % 3]]; };
+    const Textured_triangle_mesh& textured = mesh; // lambdas must not capture bindings
+    const auto value = [&textured](std::size_t t, int c) {
+      return textured.uv[textured.wedges[t][c % 3]];
+    };
     for(std::size_t t = 0; t < mesh.triangles.size(); ++t)
       for(int c = 0; c < 3; ++c) {
         bool is_continuous = false;

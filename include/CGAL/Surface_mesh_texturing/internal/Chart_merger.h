@@ -45,7 +45,7 @@ public:
   // Merges keep within `bound`, and leave `least` charts in each component.
   Chart_merger(const Growth_surface& surface, const std::vector<std::uint8_t>& is_feature,
                const Distortion_bound& bound, double least_fill, std::size_t least)
-    : m_surface(surface), m_is_feature(is_feature), m_bound(bound), m_least_fill(least_fill)
+    : m_surface(surface), m_bound(bound), m_least_fill(least_fill)
     , m_least(least), m_finder(surface, is_feature), m_cutter(surface.mesh)
   {
     for(const double a : surface.area)
@@ -103,7 +103,6 @@ private:
   void apply(Chart_state& state, const Pair& pair, const Chart_union& candidate) const;
 
   const Growth_surface& m_surface;
-  const std::vector<std::uint8_t>& m_is_feature;
   Distortion_bound m_bound;
   double m_least_fill;
   std::size_t m_least;
