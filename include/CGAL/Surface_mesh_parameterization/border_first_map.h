@@ -35,8 +35,8 @@ flattening: Sawhney and Crane 2017, section 4), by one sparse Cholesky factoriza
 cotangent Laplacian of the inner vertices, which takes about half the time of the complex one of
 `Conformal_method::DIRECT`.
 
-The map may have flipped triangles, and its border may meet itself. Bad data (coordinates that are not
-finite, no disk) give a result with `error` set.
+The map may have flipped triangles, and its border may meet itself. Bad data (coordinates that are
+not finite, no disk) give a result with `error` set.
 */
 inline Border_first_map border_first_map(Surface_mesh_multiresolution::Indexed_triangle_mesh mesh)
 {
@@ -44,7 +44,8 @@ inline Border_first_map border_first_map(Surface_mesh_multiresolution::Indexed_t
   const std::size_t n = mesh.points.size();
   internal::Chart chart = internal::chart_of_arrays(std::move(mesh));
   if(chart.error == OK && chart.borders.size() != 1)
-    chart.fail(ERROR_NO_TOPOLOGICAL_DISC, "the surface has several borders; cut it to a disk first");
+    chart.fail(ERROR_NO_TOPOLOGICAL_DISC,
+               "the surface has several borders; cut it to a disk first");
   if(chart.error == OK) {
     const auto z = internal::Border_first_flattening(chart).run();
     if(z.empty())

@@ -21,9 +21,9 @@ using Surface_mesh_multiresolution::Textured_triangle_mesh;
 
 The struct `Texture_atlas` is a mesh with its charts side by side in one or several textures.
 
-Invariants: `mesh.triangles` are those of the surface, in their order; the texture coordinates lie in
-\f$ [0, 1]^2 \f$ of the page of their chart, one for each wedge (see `with_wedges()`); no two
-triangles on a page overlap unless the report of the atlas lists them.
+Invariants: `mesh.triangles` are those of the surface, in their order; the texture coordinates lie
+in \f$ [0, 1]^2 \f$ of the page of their chart, one for each wedge (see `with_wedges()`); no two
+triangles on a page overlap.
 */
 struct Texture_atlas
 {

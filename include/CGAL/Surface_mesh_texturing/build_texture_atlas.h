@@ -110,8 +110,7 @@ inline void measure_atlas(const Texture_atlas& atlas, Texture_atlas_report& repo
     SMP::internal::Uv_triangle uv;
     for(int c = 0; c < 3; ++c) {
       const auto d = mesh.points[mesh.triangles[t][c]] - mesh.points[mesh.triangles[t][0]];
-      corner[c] = SMP::Conformal_triangle::Point_3(d.x() * report.texels_per_unit, d.y() * report.texels_per_unit,
-                                   d.z() * report.texels_per_unit);
+      corner[c] = CGAL::ORIGIN + report.texels_per_unit * d;
       const Point_2& p = mesh.uv[mesh.wedges[t][c]];
       uv[c] = SMP::internal::Uv_point(p.x() * width, p.y() * height);
     }
@@ -232,8 +231,9 @@ inline bool Texture_atlas_builder::pack()
     shapes.push_back({map.uv, map.chart.mesh.triangles});
   Packing_options packing = m_options.packing;
   packing.progress = [this](double part) { return proceed(0.8, 1., part); };
-  m_packing = m_options.packer == Atlas_packer::RASTER ? pack_charts<Raster_packer>(shapes, packing)
-                                                       : pack_charts<Horizon_packer>(shapes, packing);
+  m_packing = m_options.packer == Atlas_packer::RASTER
+                ? pack_charts<Raster_packer>(shapes, packing)
+                : pack_charts<Horizon_packer>(shapes, packing);
   if(m_result.error.empty())
     m_result.error = m_packing.error;
   m_result.report.seconds_pack = watch.seconds();

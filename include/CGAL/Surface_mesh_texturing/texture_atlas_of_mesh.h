@@ -24,8 +24,8 @@ Builds the texture atlas of a mesh of any type: see the other overload.
 \param uvmap a model of `WritablePropertyMap` with the halfedge descriptor as key and a point with
        two coordinates as value: gets for each halfedge of a face the texture coordinate of the
        corner at its target. Coordinates of all pages lie in \f$ [0, 1]^2 \f$.
-\param chartmap a model of `WritablePropertyMap` with the face descriptor as key and `std::size_t` as
-       value: gets the chart of each face; the page of a chart is `atlas.page[chart]`
+\param chartmap a model of `WritablePropertyMap` with the face descriptor as key and `std::size_t`
+       as value: gets the chart of each face; the page of a chart is `atlas.page[chart]`
 \param options the options; the triangles of `charts` and `density` come in the order of
        `faces(mesh)`
 

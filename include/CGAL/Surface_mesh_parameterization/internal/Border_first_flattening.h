@@ -111,7 +111,8 @@ inline void Border_first_flattening::assemble()
     for(int c = 0; c < 3; ++c) {
       const double cotangent = triangle.cotangent(c), w = 0.5 * cotangent;
       m_angle_sum[m_mesh.triangles[t][c]] += std::atan2(1., cotangent);
-      const std::uint32_t p = m_mesh.triangles[t][(c + 1) % 3], q = m_mesh.triangles[t][(c + 2) % 3];
+      const std::uint32_t p = m_mesh.triangles[t][(c + 1) % 3];
+      const std::uint32_t q = m_mesh.triangles[t][(c + 2) % 3];
       const std::int32_t i = m_rank[p], j = m_rank[q];
       if(next[p] == q) // longer by what gives triangles without area theirs
         m_length[p] = std::sqrt(squared_distance(m_mesh.points[p], m_mesh.points[q]))

@@ -18,8 +18,9 @@ namespace internal {
 // Whether the images of no two border edges have a point in common, the vertex between two
 // successive ones aside. Then a map of a disk whose triangles all have a positive area is
 // one-to-one: see `Surface_mesh_parameterization::certify_map()`.
-inline bool is_simple_border(const std::vector<Surface_mesh_multiresolution::Triangle_indices>& triangles,
-                             const std::vector<Simple_cartesian<double>::Point_2>& uv)
+inline bool
+is_simple_border(const std::vector<Surface_mesh_multiresolution::Triangle_indices>& triangles,
+                 const std::vector<Simple_cartesian<double>::Point_2>& uv)
 {
   namespace SMP = Surface_mesh_parameterization;
   typedef std::array<Surface_mesh_multiresolution::Vertex_index, 2> Edge;
