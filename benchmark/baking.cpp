@@ -12,6 +12,7 @@
 #include "timing.h"
 
 #include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Surface_mesh_multiresolution/Level_extractor.h>
 #include <CGAL/Surface_mesh_multiresolution/build_textured_progressive_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/conformal_map.h>
 #include <CGAL/Surface_mesh_texturing/bake_by_rays.h>
