@@ -2,7 +2,7 @@
 # Copyright (c) 2026  The HLSCM for CGAL authors.
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# Installs what is missing, builds everything and runs all tests.
+# Installs what is missing, builds all but the benchmarks, and runs all tests.
 #
 # Usage: scripts/test.sh [ARGUMENT of ctest]...      for instance: scripts/test.sh -L core
 
