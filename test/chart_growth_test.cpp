@@ -210,7 +210,9 @@ TEST(Chart_growth, charts_are_disks_within_the_bound)
     SCOPED_TRACE(name + ", seed " + std::to_string(seed));
     Chart_growth_options options;
     options.effort = 30.;
-    EXPECT_EQ(error_of_charts(mesh, grow_charts(mesh, options), options), "");
+    // Rounding may flip triangles without area
+    const bool may_be_bad = name.find("zero-area") == 0 || name.find("duplicate") == 0;
+    EXPECT_EQ(error_of_charts(mesh, grow_charts(mesh, options), options, may_be_bad), "");
   }
 }
 
@@ -223,7 +225,8 @@ TEST(Chart_growth, charts_keep_a_tight_bound)
   options.effort = 5.;
   for(const auto& [name, mesh] : surfaces(seed)) {
     SCOPED_TRACE(name + ", seed " + std::to_string(seed));
-    EXPECT_EQ(error_of_charts(mesh, grow_charts(mesh, options), options), "");
+    const bool may_be_bad = name.find("zero-area") == 0 || name.find("duplicate") == 0;
+    EXPECT_EQ(error_of_charts(mesh, grow_charts(mesh, options), options, may_be_bad), "");
   }
   const Indexed_triangle_mesh sphere = test_support::sphere(3);
   EXPECT_GT(grow_charts(sphere, options).charts.number_of_charts,

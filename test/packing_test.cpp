@@ -177,8 +177,9 @@ std::string utilisation_error(const Charts& charts, const Packing_options& optio
   const double all = double(options.width * options.height * result.pages);
   if(std::abs(area / all - result.utilisation) > 1e-9)
     return "the utilisation is " + std::to_string(area / all);
-  // Triangles that come within a thousandth of a texel may count as touching it
-  if(std::abs(double(texels) / all - result.texel_utilisation) > 0.005)
+  // Triangles that come within a thousandth of a texel may count as touching it: on a small page a
+  // diagonal through the corners of texels makes almost one percent
+  if(std::abs(double(texels) / all - result.texel_utilisation) > 0.01)
     return "the utilisation of texels is " + std::to_string(double(texels) / all) + ", not "
            + std::to_string(result.texel_utilisation);
   return {};

@@ -150,6 +150,12 @@ inline double aligning_angle(const std::vector<Vector_2d>& points)
   return angle;
 }
 
+// Whether the edges of the triangle cancel each other; its area may be 0 up to rounding only.
+inline bool has_repeated_vertex(const Surface_mesh_multiresolution::Triangle_indices& t)
+{
+  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
+
 // The outline of a chart with finite coordinates, lengths divided by `unit`.
 inline Chart_outline chart_outline(const Chart_shape& chart, double unit)
 {
@@ -172,7 +178,7 @@ inline Chart_outline chart_outline(const Chart_shape& chart, double unit)
   result.parts.push_back(uncancelled_edges(chart.triangles, points));
   std::vector<Vector_2d> corners;
   for(std::size_t t = 0; t < areas.size(); ++t)
-    if(!((sum < 0. ? -areas[t] : areas[t]) > 0.))
+    if(has_repeated_vertex(chart.triangles[t]) || !((sum < 0. ? -areas[t] : areas[t]) > 0.))
       result.parts.push_back(edges_of(chart.triangles[t], points));
   for(const auto& part : result.parts)
     for(const Outline_edge& e : part) {
