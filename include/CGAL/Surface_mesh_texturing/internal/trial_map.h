@@ -6,6 +6,7 @@
 
 #include <CGAL/Surface_mesh_parameterization/border_first_map.h>
 #include <CGAL/Surface_mesh_texturing/Chart_distortion.h>
+#include <CGAL/Surface_mesh_texturing/Face_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/Triangle_adjacency.h>
 
 #include <CGAL/ch_graham_andrew.h>
