@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_SEAM_STRAIGHTENER_H
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_SEAM_STRAIGHTENER_H
 
+#include <CGAL/Surface_mesh_texturing/Face_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/Band_search.h>
 #include <CGAL/Surface_mesh_texturing/internal/seam_arcs.h>
 

@@ -9,6 +9,7 @@
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/Triangle_adjacency.h>
 
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/ch_graham_andrew.h>
 
 #include <algorithm>
@@ -78,13 +79,14 @@ inline bool border_meets_itself(std::vector<Border_edge> edges, const std::vecto
 
 inline double hull_area(const std::vector<Border_edge>& border, const std::vector<Trial_uv>& uv)
 {
-  std::vector<Trial_uv> points, hull;
+  typedef Exact_predicates_inexact_constructions_kernel::Point_2 Exact_point; // for predicates
+  std::vector<Exact_point> points, hull;
   for(const Border_edge& e : border)
-    points.push_back(uv[e[0]]);
+    points.push_back(Exact_point(uv[e[0]].x(), uv[e[0]].y()));
   ch_graham_andrew(points.begin(), points.end(), std::back_inserter(hull));
   double twice = 0.;
   for(std::size_t i = 0; i < hull.size(); ++i) {
-    const Trial_uv &p = hull[i], &q = hull[(i + 1) % hull.size()];
+    const Exact_point &p = hull[i], &q = hull[(i + 1) % hull.size()];
     twice += p.x() * q.y() - p.y() * q.x();
   }
   return 0.5 * twice;
