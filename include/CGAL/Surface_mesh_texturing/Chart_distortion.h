@@ -52,12 +52,11 @@ struct Chart_distortion
 
 namespace internal {
 
-// The value that the given part of the weights does not exceed. Reorders the pairs (value, weight).
-inline double weighted_quantile(std::vector<std::pair<float, float>>& values, double part)
+// The value that the given part of the weights does not exceed, of sorted pairs (value, weight).
+inline double weighted_quantile(const std::vector<std::pair<float, float>>& values, double part)
 {
   if(values.empty())
     return 1.;
-  std::sort(values.begin(), values.end());
   double all = 0., sum = 0.;
   for(const auto& v : values)
     all += v.second;
@@ -101,6 +100,8 @@ measure_chart_distortion(const Surface_mesh_multiresolution::Indexed_triangle_me
     scales.push_back({float(uv_area / area), float(area)});
     ratios.push_back({float(half + std::sqrt(half * half - 1.)), float(area)});
   }
+  std::sort(ratios.begin(), ratios.end());
+  std::sort(scales.begin(), scales.end());
   result.quasi_conformal = internal::weighted_quantile(ratios, 0.99);
   result.area_scale
     = internal::weighted_quantile(scales, 0.99) / internal::weighted_quantile(scales, 0.01);

@@ -134,9 +134,11 @@ inline Mapped_chart map_chart(Chart_mesh chart, const Texture_atlas_options& opt
   if(!scale_to_surface(measure_chart_distortion(mesh, result.uv), result.uv))
     return result;
   const auto flips = count_flips(mesh.triangles, result.uv);
-  if(flips.first + flips.second > 0)
+  auto left = flips;
+  if(flips.first + flips.second > 0) {
     SMP::repair_flipped_faces(mesh, result.uv);
-  const auto left = count_flips(mesh.triangles, result.uv);
+    left = count_flips(mesh.triangles, result.uv);
+  }
   result.report.repaired_flips = flips.first - (std::min)(flips.first, left.first);
   result.report.distortion = measure_chart_distortion(mesh, result.uv);
   result.report.is_one_to_one = left.first == 0 && is_simple_border(mesh.triangles, result.uv);
