@@ -114,14 +114,15 @@ Flip_repair_report repair_flipped_faces(const TriangleMesh& mesh, VertexUVMap uv
 /*!
 \ingroup PkgHLSCMMeasures
 
-The same without pins for a mesh that is two arrays, with the parameter `uv[v]` of each vertex.
+The same for a mesh that is two arrays, with the parameter `uv[v]` of each vertex.
 */
 inline Flip_repair_report
 repair_flipped_faces(const Surface_mesh_multiresolution::Indexed_triangle_mesh& mesh,
                      std::vector<Simple_cartesian<double>::Point_2>& uv,
+                     const std::vector<bool>& is_pinned,
                      const Flip_repair_options& options = Flip_repair_options())
 {
-  CGAL_precondition(uv.size() == mesh.points.size());
+  CGAL_precondition(uv.size() == mesh.points.size() && is_pinned.size() == uv.size());
   const auto start = std::chrono::steady_clock::now();
   const internal::Flip_repair::Shape_of_face shape_of_face
     = internal::shapes_of_triangles(mesh, options.weights);
@@ -129,8 +130,7 @@ repair_flipped_faces(const Surface_mesh_multiresolution::Indexed_triangle_mesh& 
   for(const auto& p : uv)
     z.push_back({p.x(), p.y()});
   const std::vector<std::complex<double>> before = z;
-  const std::vector<bool> is_fixed(z.size(), false); // must live as long
-  internal::Flip_repair repair(mesh.triangles, is_fixed, shape_of_face, z);
+  internal::Flip_repair repair(mesh.triangles, is_pinned, shape_of_face, z);
   Flip_repair_report report = repair.run(options);
   report.energy_before = internal::energy_of_map(mesh.triangles, shape_of_face, before);
   report.energy_after += report.energy_before;
@@ -139,6 +139,16 @@ repair_flipped_faces(const Surface_mesh_multiresolution::Indexed_triangle_mesh& 
       uv[v] = Simple_cartesian<double>::Point_2(z[v].real(), z[v].imag());
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
+}
+
+/// \ingroup PkgHLSCMMeasures
+/// The same without pins.
+inline Flip_repair_report
+repair_flipped_faces(const Surface_mesh_multiresolution::Indexed_triangle_mesh& mesh,
+                     std::vector<Simple_cartesian<double>::Point_2>& uv,
+                     const Flip_repair_options& options = Flip_repair_options())
+{
+  return repair_flipped_faces(mesh, uv, std::vector<bool>(uv.size(), false), options);
 }
 
 } // namespace Surface_mesh_parameterization

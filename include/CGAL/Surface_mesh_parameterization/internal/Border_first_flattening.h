@@ -6,17 +6,18 @@
 
 #include <CGAL/Multigrid/Sparse_cholesky.h>
 #include <CGAL/Surface_mesh_parameterization/Conformal_operator.h>
+#include <CGAL/Surface_mesh_parameterization/internal/Border_curve.h>
 #include <CGAL/Surface_mesh_parameterization/internal/Chart.h>
+#include <CGAL/Surface_mesh_parameterization/internal/Scale_patch.h>
 
 #include <Eigen/SparseCholesky>
 #ifdef CGAL_HLSCM_USE_CHOLMOD
 #include <Eigen/CholmodSupport>
 #endif
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -27,11 +28,15 @@ namespace internal {
 // areas (Springborn, Schröder, Pinkall 2008; boundary first flattening: Sawhney and Crane 2017,
 // section 4). With the logarithm u of the scale, 0 on the border, and the cotangent Laplacian A:
 //
-//     A_II u_I = -Omega_I          Omega: 2 pi minus the angles at an inner vertex
-//     k'_B = k_B + A_BI u_I        k: pi minus the angles at a border vertex
+//     A_II u_I + A_IB u_B = -Omega_I     Omega: 2 pi minus the angles at an inner vertex
+//     k' = k + A_BI u_I + A_BB u_B       k: pi minus the angles at a border vertex
 //
-// The border curve with these turning angles and the given lengths, closed by the least change of
-// lengths, is extended to the inner vertices by A_II x_I = -A_IB x_B.
+// The border curve with these turning angles and the lengths scaled by exp(u), closed by the least
+// change of lengths, is extended to the inner vertices by A_II x_I = -A_IB x_B.
+//
+// Where the curve would cross itself in a small loop (the surface may turn by more than a full
+// angle at the tip of a seam), the border is opened: near the loop the turning angles are
+// prescribed instead of the scale (section 4 too: either may be, at each vertex).
 class Border_first_flattening
 {
 public:
@@ -40,7 +45,8 @@ public:
 
   // `chart`: a disk, with its mesh
   explicit Border_first_flattening(const Chart& chart)
-    : m_mesh(chart.mesh), m_loop(chart.borders[0]), m_rank(m_mesh.points.size(), 0)
+    : m_chart(chart), m_mesh(chart.mesh), m_loop(chart.borders[0]),
+      m_rank(m_mesh.points.size(), 0)
   {
     constexpr std::int32_t border = -1;
     for(const auto v : m_loop)
@@ -59,10 +65,7 @@ public:
       if(m_factorization.info() != Eigen::Success)
         return {};
     }
-    Values z(m_mesh.points.size());
-    lay_out_border(turning_angles(), z);
-    extend(z);
-    return z;
+    return extend(open_loops());
   }
 
 private:
@@ -72,25 +75,27 @@ private:
   typedef Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> Factorization;
 #endif
 
-  // An entry of A between an inner vertex and one on the border.
+  // A weight of A between a border vertex and another vertex, of one triangle.
   struct Link
   {
-    std::int32_t inside;
-    std::uint32_t border;
-    double value;
+    std::uint32_t border, other;
+    double weight;
   };
 
   void assemble();
-  std::vector<double> turning_angles();
-  void lay_out_border(const std::vector<double>& turning, Values& z) const;
-  void extend(Values& z);
+  Border_curve border_curve();
+  Border_curve open_loops();
+  bool open(const Border_curve& curve, const std::vector<Border_loop>& loops);
+  Values extend(const Border_curve& curve);
 
+  const Chart& m_chart;
   const Chart::Mesh& m_mesh;
   const std::vector<Chart::Vertex_index>& m_loop;
   std::vector<std::int32_t> m_rank; // among the inner vertices, or -1
   std::size_t m_number_inside = 0;
   std::vector<double> m_angle_sum;
   std::vector<double> m_length;            // of the border edge that begins at a vertex
+  std::vector<double> m_scale;             // its logarithm u, of each vertex
   Eigen::SparseMatrix<double> m_laplacian; // A_II, the lower triangle
   std::vector<Link> m_links;
   Factorization m_factorization;
@@ -103,6 +108,7 @@ inline void Border_first_flattening::assemble()
   entries.reserve(6 * m_mesh.triangles.size());
   m_angle_sum.assign(m_mesh.points.size(), 0.);
   m_length.assign(m_mesh.points.size(), 0.);
+  m_scale.assign(m_mesh.points.size(), 0.);
   std::vector<std::uint32_t> next(m_mesh.points.size(), Surface_mesh_multiresolution::no_vertex);
   for(std::size_t i = 0; i < m_loop.size(); ++i)
     next[m_loop[i]] = m_loop[(i + 1) % m_loop.size()];
@@ -119,84 +125,117 @@ inline void Border_first_flattening::assemble()
                     + (triangle.is_mollified() ? Conformal_triangle::mollification : 0.);
       if(i >= 0)
         entries.push_back(Entry(i, i, w));
+      else
+        m_links.push_back({p, q, w});
       if(j >= 0)
         entries.push_back(Entry(j, j, w));
+      else
+        m_links.push_back({q, p, w});
       if(i >= 0 && j >= 0)
         entries.push_back(Entry((std::max)(i, j), (std::min)(i, j), -w));
-      else if(i >= 0)
-        m_links.push_back({i, q, -w});
-      else if(j >= 0)
-        m_links.push_back({j, p, -w});
     }
   }
   m_laplacian.resize(Eigen::Index(m_number_inside), Eigen::Index(m_number_inside));
   m_laplacian.setFromTriplets(entries.begin(), entries.end());
 }
 
-// How much the border curve turns at each vertex of the loop.
-inline std::vector<double> Border_first_flattening::turning_angles()
+// The curve for the scale on the border, to which the scale inside is adapted.
+inline Border_curve Border_first_flattening::border_curve()
 {
-  std::vector<double> k(m_mesh.points.size());
-  Eigen::VectorXd defect(m_number_inside), u;
-  for(std::size_t v = 0; v < k.size(); ++v)
-    if(m_rank[v] >= 0)
-      defect[m_rank[v]] = 2. * CGAL_PI - m_angle_sum[v];
-    else
-      k[v] = CGAL_PI - m_angle_sum[v];
   if(m_number_inside > 0) {
-    u = m_factorization.solve(-defect);
+    Eigen::VectorXd right(m_number_inside);
+    for(std::size_t v = 0; v < m_rank.size(); ++v)
+      if(m_rank[v] >= 0)
+        right[m_rank[v]] = m_angle_sum[v] - 2. * CGAL_PI;
     for(const Link& link : m_links)
-      k[link.border] += link.value * u[link.inside];
+      if(m_rank[link.other] >= 0)
+        right[m_rank[link.other]] += link.weight * m_scale[link.border];
+    const Eigen::VectorXd u = m_factorization.solve(right);
+    for(std::size_t v = 0; v < m_rank.size(); ++v)
+      if(m_rank[v] >= 0)
+        m_scale[v] = u[m_rank[v]];
   }
-  std::vector<double> result;
+  std::vector<double> k(m_mesh.points.size()), turning, length;
   for(const auto v : m_loop)
-    result.push_back(k[v]);
-  return result;
+    k[v] = CGAL_PI - m_angle_sum[v];
+  for(const Link& link : m_links)
+    k[link.border] += link.weight * (m_scale[link.border] - m_scale[link.other]);
+  for(std::size_t i = 0; i < m_loop.size(); ++i) {
+    const std::uint32_t v = m_loop[i], w = m_loop[(i + 1) % m_loop.size()];
+    turning.push_back(k[v]);
+    length.push_back(m_length[v] * std::exp(0.5 * (m_scale[v] + m_scale[w])));
+  }
+  return Border_curve(std::move(turning), length);
 }
 
-// The closed curve with these turning angles. Its lengths l' minimise the sum of (l' - l)^2 / l.
-inline void Border_first_flattening::lay_out_border(const std::vector<double>& turning,
-                                                    Values& z) const
+// The curve with its small loops opened, as far as that goes.
+inline Border_curve Border_first_flattening::open_loops()
+{
+  constexpr int rounds = 8;
+  Border_curve curve = border_curve();
+  for(int i = 0; i < rounds; ++i) {
+    const std::vector<Border_loop> loops = curve.loops(m_loop.size() / 4);
+    if(loops.empty() || !open(curve, loops))
+      break;
+    curve = border_curve();
+  }
+  return curve;
+}
+
+// Changes the scale near these loops such that the curve turns more at one vertex of each; returns
+// whether that could be done.
+inline bool Border_first_flattening::open(const Border_curve& curve,
+                                          const std::vector<Border_loop>& loops)
 {
   const std::size_t n = m_loop.size();
-  std::vector<Complex> step(n);
-  double direction = 0., xx = 0., xy = 0., yy = 0.;
-  Complex gap(0.);
-  for(std::size_t i = 0; i < n; ++i) { // the edge from vertex i to the next one
-    const double length = m_length[m_loop[i]];
-    step[i] = std::polar(length, direction);
-    direction += turning[(i + 1) % n];
-    const Complex t = length > 0. ? step[i] / length : Complex(0.);
-    gap += step[i];
-    xx += length * t.real() * t.real();
-    xy += length * t.real() * t.imag();
-    yy += length * t.imag() * t.imag();
+  std::vector<double> change(n, 0.);
+  std::vector<bool> is_free(n, false);
+  std::size_t radius = 0;
+  for(const Border_loop& loop : loops) {
+    const std::size_t margin = (std::min)(loop.size / 2 + 2, n / 8);
+    const std::size_t pivot = curve.sharpest_vertex(loop);
+    const double angle = curve.opening(loop, pivot, margin);
+    if(angle == 0.)
+      continue;
+    change[pivot % n] += angle;
+    for(std::size_t i = 0; i < loop.size + 2 * margin; ++i)
+      is_free[(loop.first + n - margin + i) % n] = true;
+    radius = (std::max)(radius, loop.size + 2 * margin);
   }
-  const double det = xx * yy - xy * xy;
-  const double x = det > 0. ? (yy * gap.real() - xy * gap.imag()) / det : 0.;
-  const double y = det > 0. ? (xx * gap.imag() - xy * gap.real()) / det : 0.;
-  Complex place(0.);
-  for(std::size_t i = 0; i < n; ++i) {
-    z[m_loop[i]] = place;
-    const double length = std::abs(step[i]);
-    if(length > 0.)
-      place += step[i] * (1. - (x * step[i].real() + y * step[i].imag()) / length);
-  }
+  std::vector<std::uint32_t> vertices;
+  std::vector<double> change_there;
+  for(std::size_t i = 0; i < n; ++i)
+    if(is_free[i]) {
+      vertices.push_back(m_loop[i]);
+      change_there.push_back(change[i]);
+    }
+  if(vertices.empty())
+    return false;
+  const std::vector<double> scale
+    = Scale_patch(m_chart, vertices, radius).scale_change(change_there);
+  for(std::size_t i = 0; i < scale.size(); ++i)
+    m_scale[vertices[i]] += scale[i];
+  return !scale.empty();
 }
 
-inline void Border_first_flattening::extend(Values& z)
+inline Border_first_flattening::Values Border_first_flattening::extend(const Border_curve& curve)
 {
+  Values z(m_mesh.points.size());
+  for(std::size_t i = 0; i < m_loop.size(); ++i)
+    z[m_loop[i]] = Complex(curve.point(i).x(), curve.point(i).y());
   if(m_number_inside == 0)
-    return;
+    return z;
   Eigen::MatrixX2d f = Eigen::MatrixX2d::Zero(Eigen::Index(m_number_inside), 2);
-  for(const Link& link : m_links) {
-    f(link.inside, 0) -= link.value * z[link.border].real();
-    f(link.inside, 1) -= link.value * z[link.border].imag();
-  }
+  for(const Link& link : m_links)
+    if(m_rank[link.other] >= 0) {
+      f(m_rank[link.other], 0) += link.weight * z[link.border].real();
+      f(m_rank[link.other], 1) += link.weight * z[link.border].imag();
+    }
   const Eigen::MatrixX2d x = m_factorization.solve(f);
   for(std::size_t v = 0; v < z.size(); ++v)
     if(m_rank[v] >= 0)
       z[v] = Complex(x(m_rank[v], 0), x(m_rank[v], 1));
+  return z;
 }
 
 } // namespace internal

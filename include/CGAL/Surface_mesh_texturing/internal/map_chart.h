@@ -112,10 +112,39 @@ inline std::vector<Point_2> conformal_uv(const Indexed_triangle_mesh& mesh,
   return SMP::conformal_map(mesh, solver).uv;
 }
 
+// The vertices with an edge that has one triangle.
+inline std::vector<bool> border_vertices(const Indexed_triangle_mesh& mesh)
+{
+  const Triangle_adjacency adjacency(mesh.triangles);
+  std::vector<bool> result(mesh.points.size(), false);
+  for(std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    for(int c = 0; c < 3; ++c)
+      if(adjacency.opposite(t, c) == no_vertex)
+        result[mesh.triangles[t][c]] = result[mesh.triangles[t][(c + 1) % 3]] = true;
+  return result;
+}
+
+// Repairs flipped triangles: without moving the border, which could then meet itself, if that is
+// enough. Returns the numbers of those that are left. Where much would have to move, the chart had
+// better be cut.
+inline std::pair<std::size_t, std::size_t> repair_flips(const Indexed_triangle_mesh& mesh,
+                                                        std::vector<Point_2>& uv)
+{
+  namespace SMP = Surface_mesh_parameterization;
+  SMP::Flip_repair_options repair;
+  repair.last_rings = 32;
+  repair.largest_patch = 5000;
+  SMP::repair_flipped_faces(mesh, uv, border_vertices(mesh), repair);
+  const auto left = count_flips(mesh.triangles, uv);
+  if(left.first + left.second == 0)
+    return left;
+  SMP::repair_flipped_faces(mesh, uv, repair);
+  return count_flips(mesh.triangles, uv);
+}
+
 // Maps a chart and says whether the map is one-to-one and within the bound.
 inline Mapped_chart map_chart(Chart_mesh chart, const Texture_atlas_options& options)
 {
-  namespace SMP = Surface_mesh_parameterization;
   Mapped_chart result;
   result.chart = std::move(chart);
   const Indexed_triangle_mesh& mesh = result.chart.mesh;
@@ -131,19 +160,21 @@ inline Mapped_chart map_chart(Chart_mesh chart, const Texture_atlas_options& opt
   result.uv = conformal_uv(mesh, options);
   if(result.uv.empty())
     return result;
-  if(!scale_to_surface(measure_chart_distortion(mesh, result.uv), result.uv))
+  result.report.distortion = measure_chart_distortion(mesh, result.uv);
+  const bool is_free = bool(options.charts); // of the bound
+  if(!scale_to_surface(result.report.distortion, result.uv)
+     || !(is_free || result.report.distortion.is_within(options.bound)))
     return result;
   const auto flips = count_flips(mesh.triangles, result.uv);
   auto left = flips;
   if(flips.first + flips.second > 0) {
-    SMP::repair_flipped_faces(mesh, result.uv);
-    left = count_flips(mesh.triangles, result.uv);
+    left = repair_flips(mesh, result.uv);
+    result.report.distortion = measure_chart_distortion(mesh, result.uv);
   }
   result.report.repaired_flips = flips.first - (std::min)(flips.first, left.first);
-  result.report.distortion = measure_chart_distortion(mesh, result.uv);
   result.report.is_one_to_one = left.first == 0 && is_simple_border(mesh.triangles, result.uv);
   result.is_valid = result.report.is_one_to_one
-                 && (options.charts || result.report.distortion.is_within(options.bound));
+                 && (is_free || result.report.distortion.is_within(options.bound));
   return result;
 }
 

@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_TRIAL_MAP_H
 
 #include <CGAL/Surface_mesh_parameterization/border_first_map.h>
+#include <CGAL/Surface_mesh_parameterization/internal/crossing_edges.h>
 #include <CGAL/Surface_mesh_texturing/Chart_distortion.h>
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/Triangle_adjacency.h>
@@ -12,11 +13,8 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/ch_graham_andrew.h>
 
-#include <algorithm>
 #include <array>
 #include <iterator>
-#include <limits>
-#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -34,47 +32,19 @@ struct Trial_map
   double fill = 0.;           // the part of its convex hull that the chart fills in the plane
 };
 
-// Whether the segments pq and rs have a point in common.
-inline bool segments_meet(const Trial_uv& p, const Trial_uv& q, const Trial_uv& r,
-                          const Trial_uv& s)
-{
-  const auto side = [](const Trial_uv& a, const Trial_uv& b, const Trial_uv& c) {
-    const double d = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-    return (d > 0.) - (d < 0.);
-  };
-  return side(p, q, r) * side(p, q, s) <= 0 && side(r, s, p) * side(r, s, q) <= 0
-      && (std::max)(p.x(), q.x()) >= (std::min)(r.x(), s.x())
-      && (std::max)(r.x(), s.x()) >= (std::min)(p.x(), q.x())
-      && (std::max)(p.y(), q.y()) >= (std::min)(r.y(), s.y())
-      && (std::max)(r.y(), s.y()) >= (std::min)(p.y(), q.y());
-}
-
 typedef std::array<Surface_mesh_multiresolution::Vertex_index, 2> Border_edge;
 
-// Whether two edges that share no vertex meet in the plane, found by a sweep.
-inline bool border_meets_itself(std::vector<Border_edge> edges, const std::vector<Trial_uv>& uv)
+// Whether two edges that share no vertex meet in the plane, up to rounding.
+inline bool border_meets_itself(const std::vector<Border_edge>& edges,
+                                const std::vector<Trial_uv>& uv)
 {
-  for(Border_edge& e : edges)
-    if(uv[e[1]].x() < uv[e[0]].x())
-      std::swap(e[0], e[1]);
-  std::sort(edges.begin(), edges.end(), [&uv](const Border_edge& e, const Border_edge& f) {
-    return uv[e[0]].x() < uv[f[0]].x();
-  });
-  std::vector<Border_edge> active;
-  for(const Border_edge& e : edges) {
-    std::size_t kept = 0;
-    for(const Border_edge& f : active) {
-      if(uv[f[1]].x() < uv[e[0]].x())
-        continue;
-      active[kept++] = f;
-      if(e[0] != f[0] && e[0] != f[1] && e[1] != f[0] && e[1] != f[1]
-         && segments_meet(uv[e[0]], uv[e[1]], uv[f[0]], uv[f[1]]))
-        return true;
-    }
-    active.resize(kept);
-    active.push_back(e);
-  }
-  return false;
+  bool result = false;
+  Surface_mesh_parameterization::internal::visit_crossing_edges(
+    edges, uv, [&result](const Border_edge&, const Border_edge&) {
+      result = true;
+      return false;
+    });
+  return result;
 }
 
 inline double hull_area(const std::vector<Border_edge>& border, const std::vector<Trial_uv>& uv)
