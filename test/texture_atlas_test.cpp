@@ -72,6 +72,30 @@ TEST(Texture_atlas, is_one_to_one_on_every_surface)
   }
 }
 
+// 14,400 triangles that go through a level of 1,500
+TEST(Texture_atlas, is_valid_when_charts_are_tried_on_a_level_first)
+{
+  const Indexed_triangle_mesh mesh = with_noise(torus(120, 60), 0.02, seed);
+  SMT::Texture_atlas_options options = small_texture();
+  options.trial_faces = 1500;
+  double last = 0.;
+  options.progress = [&last](double part) {
+    EXPECT_GE(part, last);
+    last = part;
+    return true;
+  };
+  const SMT::Texture_atlas_result result = SMT::build_texture_atlas(mesh, options);
+  ASSERT_EQ(result.error, "");
+  EXPECT_EQ(last, 1.);
+  EXPECT_EQ(error_in_atlas(mesh, result.atlas), "") << seed_text;
+  for(const SMT::Chart_report& chart : result.report.charts)
+    EXPECT_TRUE(chart.faces == 1 || chart.distortion.is_within(SMT::Distortion_bound()));
+  for(const double stop : {0.05, 0.22, 0.3}) { // within the level's part
+    options.progress = [stop](double part) { return part < stop; };
+    EXPECT_EQ(SMT::build_texture_atlas(mesh, options).error, "cancelled") << stop;
+  }
+}
+
 TEST(Texture_atlas, has_charts_of_the_size_that_they_have_on_the_surface)
 {
   const Indexed_triangle_mesh mesh = torus(60, 30);

@@ -35,7 +35,11 @@ flattening: Sawhney and Crane 2017, section 4), by one sparse Cholesky factoriza
 cotangent Laplacian of the inner vertices, which takes about half the time of the complex one of
 `Conformal_method::DIRECT`.
 
-The map may have flipped triangles, and its border may meet itself. Bad data (coordinates that are
+Where the border would cross itself in a loop of at most a quarter of its edges, as at the tip of a
+seam at which the surface has more than a full angle, it is turned apart: near the loop the border
+keeps its turning angles instead of its lengths (mixed conditions: section 4 of the same).
+
+The map may have flipped triangles, and its border may meet itself still. Bad data (coordinates that are
 not finite, no disk) give a result with `error` set.
 */
 inline Border_first_map border_first_map(Surface_mesh_multiresolution::Indexed_triangle_mesh mesh)

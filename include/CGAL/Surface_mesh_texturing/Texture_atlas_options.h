@@ -33,6 +33,10 @@ struct Texture_atlas_options
   double least_fill = 0.75;
   /// Triangles of the level on which the charts are found.
   std::size_t coarse_faces = 4000;
+  /// Meshes of more than four times as many triangles are made coarser to about so many first; the
+  /// charts are found, mapped and, where need be, cut again there, since few of them then have to
+  /// be cut again on the fine mesh.
+  std::size_t trial_faces = 60000;
   /// The charts, if they are given; those that are no disks are cut.
   std::optional<Face_charts> charts;
   /// How charts are mapped: by default by `border_first_map()`, whose area scale varies least, as

@@ -166,9 +166,19 @@ public:
 
 private:
   bool segment();
+  Segmentation_result find_charts(const Indexed_triangle_mesh& mesh, double begin, double end);
+  Segmentation_result try_charts(const Indexed_triangle_mesh& mesh);
   bool map();
   bool pack();
   void fill();
+
+  // The charts of a segmentation, whose error, if any, becomes that of the atlas.
+  Face_charts found(Segmentation_result result)
+  {
+    if(m_result.error.empty())
+      m_result.error = std::move(result.error);
+    return std::move(result.charts);
+  }
 
   // Tells that a part of a stage, which begins and ends at these parts of the whole, is done.
   bool proceed(double begin, double end, double part)
@@ -194,21 +204,50 @@ inline bool Texture_atlas_builder::segment()
   const Surface_mesh_parameterization::internal::Stopwatch watch;
   if(m_options.charts) {
     m_charts = cut_to_disks(m_mesh, *m_options.charts);
+  } else if(m_mesh.triangles.size() <= 4 * m_options.trial_faces) {
+    m_charts = found(find_charts(m_mesh, 0., 0.4));
   } else {
-    Chart_growth_options growth;
-    growth.bound = m_options.bound;
-    growth.max_charts = m_options.max_charts;
-    growth.least_fill = m_options.least_fill;
-    Segmentation_options segmentation;
-    segmentation.coarse_faces = m_options.coarse_faces;
-    segmentation.progress = [this](double part) { return proceed(0., 0.4, part); };
-    Segmentation_result result = segment_into_charts(m_mesh, segmentation, growth);
-    m_charts = std::move(result.charts);
-    if(m_result.error.empty())
-      m_result.error = std::move(result.error);
+    Segmentation_options to_trial;
+    to_trial.coarse_faces = m_options.trial_faces;
+    to_trial.progress = [this](double part) { // the level is there at half of it
+      return part <= 0.5 ? proceed(0., 0.2, 2. * part) : proceed(0.4, 0.4, 1.);
+    };
+    m_charts = found(segment_coarse_to_fine(
+      m_mesh, to_trial, [this](const Indexed_triangle_mesh& trial) { return try_charts(trial); }));
   }
   m_result.report.seconds_segment = watch.seconds();
   return m_result.error.empty() && proceed(0.4, 0.4, 0.);
+}
+
+inline Segmentation_result Texture_atlas_builder::find_charts(const Indexed_triangle_mesh& mesh,
+                                                              double begin, double end)
+{
+  Chart_growth_options growth;
+  growth.bound = m_options.bound;
+  growth.max_charts = m_options.max_charts;
+  growth.least_fill = m_options.least_fill;
+  Segmentation_options segmentation;
+  segmentation.coarse_faces = m_options.coarse_faces;
+  segmentation.progress = [=](double part) { return proceed(begin, end, part); };
+  return segment_into_charts(mesh, segmentation, growth);
+}
+
+// The charts of a coarser mesh after those that are not valid there have been cut again.
+inline Segmentation_result Texture_atlas_builder::try_charts(const Indexed_triangle_mesh& mesh)
+{
+  constexpr double margin = 0.95; // for what the fine mesh adds
+  Segmentation_result result = find_charts(mesh, 0.2, 0.3);
+  if(!result.error.empty())
+    return result;
+  Texture_atlas_options options = m_options;
+  options.bound.area_scale = (std::max)(1., margin * m_options.bound.area_scale);
+  std::size_t recut;
+  result.charts = charts_of_maps(mesh, map_charts(chart_meshes(mesh, result.charts), options,
+                                                  [this](double part) {
+                                                    return proceed(0.3, 0.4, part);
+                                                  }, recut));
+  result.error = m_result.error;
+  return result;
 }
 
 inline bool Texture_atlas_builder::map()
