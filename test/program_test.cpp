@@ -743,7 +743,8 @@ TEST_F(Program, knows_what_a_mesh_is)
         {"genus", 0},
         {"orientable", true},
         {"manifold", true},
-        {"can_be_parameterized", true}}},
+        {"can_be_parameterized", true},
+        {"can_have_an_atlas", true}}},
       {"band",
        band(20, false),
        {{"components", 1},
@@ -758,14 +759,16 @@ TEST_F(Program, knows_what_a_mesh_is)
         {"euler_characteristic", 0},
         {"genus", nullptr},
         {"orientable", false},
-        {"can_be_parameterized", false}}},
+        {"can_be_parameterized", false},
+        {"can_have_an_atlas", false}}},
       {"torus",
        torus(9, false),
        {{"components", 1},
         {"borders", 0},
         {"euler_characteristic", 0},
         {"genus", 1},
-        {"can_be_parameterized", false}}},
+        {"can_be_parameterized", false},
+        {"can_have_an_atlas", true}}},
       {"open_torus", torus(9, true), {{"borders", 1}, {"euler_characteristic", -1}, {"genus", 1}}},
       {"fan", fan(100), {{"vertices", 101}, {"edges", 200}, {"faces", 100}, {"borders", 1}}}};
   for(const Case& c : cases) {
@@ -779,7 +782,8 @@ TEST_F(Program, knows_what_a_mesh_is)
   }
 }
 
-// What makes `parameterize` refuse a mesh is an obstacle of `info`, in the same words.
+// What makes `parameterize` refuse a mesh is an obstacle of `info`, in the same words; and `atlas`
+// takes what `info` says that it does.
 TEST_F(Program, agrees_with_itself)
 {
   for(const Bad_file& bad : bad_files()) {
@@ -792,7 +796,9 @@ TEST_F(Program, agrees_with_itself)
       EXPECT_EQ(info.err, refused.err);
       continue;
     }
-    const Json first = Json::parse(info.out)["obstacles"][0];
+    const Json json = Json::parse(info.out), first = json["obstacles"][0];
+    const Outcome atlas = run({"atlas", in, "-o", path("atlas"), "--texture", "256"});
+    EXPECT_EQ(atlas.exit_code == 0, json["can_have_an_atlas"].get<bool>()) << in << atlas.err;
     EXPECT_EQ(refused.err, "hlscm: error: " + in + ": " + first["what"].get<std::string>() + ", "
                                + first["remedy"].get<std::string>() + "\n");
     EXPECT_NE(text.out.find(first["what"].get<std::string>()), std::string::npos);

@@ -27,7 +27,8 @@ void add_atlas_options(CLI::App& app, Program_options& o)
   add_number(app, "--max-area-scale", 1, 1e9, atlas.bound.area_scale,
              "the most that areas in a chart may be scaled to others, on 98 % of it (default 4)");
   add_number(app, "--max-quasi-conformal", 1, 1e9, atlas.bound.quasi_conformal,
-             "the most that lengths at a point may be scaled to others (default 2)");
+             "the most that lengths at a point may be scaled to others there, on 99 % of a chart "
+             "(default 2)");
   add_count(app, "--max-charts", std::size_t(1), many, atlas.max_charts,
             "as many charts at most, even if they are distorted more");
   app.add_option("--charts", atlas.charts,
