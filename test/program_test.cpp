@@ -3,7 +3,7 @@
 
 // Runs the program hlscm, whose path is HLSCM_PROGRAM, on generated files.
 
-#include <support/program_runs.h>
+#include <support/textured_soups.h>
 
 #include <CGAL/IO/PLY.h>
 #include <CGAL/IO/polygon_soup_io.h>
@@ -56,29 +56,9 @@ struct Result
 
 Result read_obj(const fs::path& path)
 {
-  Result result;
-  std::ifstream file(path);
-  for(std::string line; std::getline(file, line);) {
-    std::istringstream words(line);
-    std::string keyword;
-    words >> keyword;
-    if(keyword == "v") {
-      auto& p = result.points.emplace_back();
-      words >> p[0] >> p[1] >> p[2];
-    } else if(keyword == "vt") {
-      auto& p = result.uv.emplace_back();
-      words >> p[0] >> p[1];
-    } else if(keyword == "f") {
-      auto& face = result.faces.emplace_back();
-      std::size_t v, t;
-      char slash;
-      while(words >> v >> slash >> t) {
-        EXPECT_EQ(v, t);
-        face.push_back(v - 1);
-      }
-    }
-  }
-  return result;
+  const Textured_soup soup = read_textured_obj(path);
+  EXPECT_EQ(soup.surface.faces, soup.uv_faces);
+  return {soup.surface.points, soup.uv, soup.surface.faces};
 }
 
 // Largest distance of corresponding texture coordinates.
