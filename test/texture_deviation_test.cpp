@@ -134,7 +134,8 @@ std::vector<Case> cases()
     p = Point_2(p.x() + uniform(random, -1., 1.), p.y() + uniform(random, -1., 1.));
   result.push_back({"folded map" + seed_text, textured(noisy, noise, decimate(noisy))});
   result.push_back({"random collapses" + seed_text,
-                    textured(noisy, projection(plane), random_collapses(noisy, noisy.points.size() - 400, seed))});
+                    textured(noisy, projection(plane),
+                             random_collapses(noisy, noisy.points.size() - 400, seed))});
   result.push_back({"map to a point", textured(noisy, Uvs(plane.points.size(), Point_2(1, 2)),
                                                decimate(noisy))});
   return result;

@@ -44,7 +44,7 @@ void add_atlas_options(CLI::App& app, Program_options& o)
       {{"raster", SMT::Atlas_packer::RASTER}, {"horizon", SMT::Atlas_packer::HORIZON}}, atlas.packer,
       "raster: charts in any gap where they fit; horizon: from below, as in 2002 (default raster)");
   add_number(app, "--packing-time", 0, 1e6, atlas.packing_time,
-             "seconds to look for a better packing, on a usual machine (default 0)");
+             "seconds to look for a better packing, on a usual machine (default none)");
   add_choice<std::optional<SMP::Conformal_method>>(
       app, "--method",
       {{"border-first", std::nullopt},

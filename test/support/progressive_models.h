@@ -26,7 +26,8 @@ inline Progressive_mesh random_collapses(const Indexed_triangle_mesh& mesh,
 {
   Random random(seed);
   Vertex_rings rings(mesh);
-  Progressive_mesh pm = CGAL::Surface_mesh_multiresolution::trivial_progressive_mesh(mesh.points.size());
+  Progressive_mesh pm
+    = CGAL::Surface_mesh_multiresolution::trivial_progressive_mesh(mesh.points.size());
   pm.triangles = mesh.triangles;
   std::vector<bool> is_gone(mesh.points.size(), false);
   for(std::size_t trial = 0; trial < 30 * mesh.points.size(); ++trial) {
