@@ -45,7 +45,7 @@ public:
   template <class Real>
   void solve(const MG::Complex_vector<Real>& f, MG::Complex_vector<Real>& x)
   {
-    const side_by_side::Stopwatch stopwatch;
+    const timing::Stopwatch stopwatch;
     MG::Sparse_cholesky<>::solve(f, x);
     m_seconds += stopwatch.seconds();
     ++m_solutions;
@@ -77,7 +77,7 @@ double seconds_per_evaluation(const Mesh& mesh)
   double best = 1;
   for(int i = 0; i < repetitions; ++i) {
     SMM::Flat_collapse_engine<> engine(chart.mesh, chart.rings, {});
-    const side_by_side::Stopwatch stopwatch;
+    const timing::Stopwatch stopwatch;
     engine.run(options);
     best = std::min(best, stopwatch.seconds() / double(engine.number_of_evaluations()));
   }

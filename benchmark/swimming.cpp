@@ -11,6 +11,7 @@
 
 #include "charts/chart_io.h"
 #include "machine.h"
+#include "timing.h"
 
 #include <CGAL/Surface_mesh_multiresolution/Level_extractor.h>
 #include <CGAL/Surface_mesh_multiresolution/build_textured_progressive_mesh.h>
@@ -28,7 +29,6 @@
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -214,10 +214,9 @@ private:
   void print_row(const char* map, double percent, std::size_t flips_before, std::size_t flips,
                  const Measure& measure) const
   {
-    const auto start = std::chrono::steady_clock::now();
+    const timing::Stopwatch stopwatch;
     const SMM::Texture_deviation d = measure();
-    const double seconds
-      = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds = stopwatch.seconds();
     const auto print_percent = [&d](const SMM::Surface_error& e) {
       std::cout << ',' << 100. * d.relative(e.maximum) << ',' << 100. * d.relative(e.mean);
     };

@@ -4,10 +4,11 @@
 #ifndef HLSCM_BENCHMARK_TRAFFIC_H
 #define HLSCM_BENCHMARK_TRAFFIC_H
 
+#include "timing.h"
+
 #include <CGAL/Multigrid/Hermitian_matrix.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 #include <vector>
 
@@ -23,12 +24,11 @@ inline double copy_bandwidth()
     double result = 0;
     for(char i = 0; i < 5; ++i) {
       from[std::size_t(i)] = i;
-      const auto start = std::chrono::steady_clock::now();
+      const timing::Stopwatch stopwatch;
       std::memcpy(to.data(), from.data(), from.size());
       const volatile char used = to[std::size_t(i)];
       (void)used;
-      const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-      result = std::max(result, 2. * double(from.size()) / time.count());
+      result = std::max(result, 2. * double(from.size()) / stopwatch.seconds());
     }
     return result;
   }();

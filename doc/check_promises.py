@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026  The HLSCM for CGAL authors.
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checks that every test that the manual names as the proof of a promise exists.
+"""Checks that every test that the manual names as the proof of a promise exists, and that the text
+of every link stands on one line: doxygen shows what follows one that does not as it is in the source,
+and says nothing.
 
 Usage: check_promises.py REPOSITORY
 
-Prints one line for each that does not, and returns 1 if there is one.
+Prints one line for each that is wrong, and returns 1 if there is one.
 """
 
 import re
@@ -14,6 +16,7 @@ from pathlib import Path
 
 GTEST = re.compile(r"^TEST(?:_F|_P)?\(\s*(\w+)\s*,\s*(\w+)\s*\)", re.MULTILINE)
 TYPED = re.compile(r"^TYPED_TEST\(\s*(\w+)\s*,\s*(\w+)\s*\)", re.MULTILINE)
+BROKEN_LINK = re.compile(r'\\ref \w+ "[^"\n]*\n')
 CTEST = re.compile(r"add_test\(NAME ([\w.]+)")
 
 
@@ -34,6 +37,13 @@ def promised_tests(manual):
     return re.findall(r"`(\w+\.[\w.*]+)`", "\n".join(row[2] for row in rows))
 
 
+def broken_links(repository):
+    for folder, pattern in [("doc", "*.txt"), ("doc", "*.h"), ("include", "*.h")]:
+        for path in sorted((repository / folder).rglob(pattern)):
+            for match in BROKEN_LINK.finditer(path.read_text()):
+                yield f"{path.relative_to(repository)}: {match.group().rstrip()}"
+
+
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
@@ -47,7 +57,10 @@ def main():
         print(f"doc/hlscm_manual.txt names the test {name}, which does not exist")
     if not promised:
         print("doc/hlscm_manual.txt names no tests")
-    return 1 if missing or not promised else 0
+    broken = list(broken_links(repository))
+    for link in broken:
+        print(f"a link whose text does not end on its line: {link}")
+    return 1 if missing or broken or not promised else 0
 
 
 if __name__ == "__main__":

@@ -2,9 +2,10 @@
 # Copyright (c) 2026  The HLSCM for CGAL authors.
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# Installs what is missing, builds the program hlscm, parameterizes MESH with it and makes levels of
-# detail of the result, then a texture atlas of MESH and a light model with a normal map, one tenth
-# as large; without MESH, a real one of 25,888 triangles from Debian's package libcgal-demo.
+# Installs what is missing, builds the program hlscm, and makes with it a texture atlas of MESH, a
+# light model with a normal map, one tenth as large, and levels of detail; before that, if MESH has a
+# border and no handles, its map as a whole. Without MESH, a real one of 25,888 triangles from
+# Debian's package libcgal-demo.
 #
 # Usage: scripts/run.sh [MESH]
 
@@ -36,23 +37,29 @@ rm -rf "$output"
 mkdir -p "$output"
 
 hlscm="$build/bin/hlscm"
-say "parameterizing $mesh"
-"$hlscm" parameterize "$mesh" -o "$output/$name.obj" \
-  --report "$output/$name.json" --pictures "$output"
+fact() { # the value of a key that says what the mesh is
+  "$hlscm" info --json "$mesh" | python3 -c 'import json, sys; print(json.load(sys.stdin)[sys.argv[1]])' "$1"
+}
 
-say "making levels of detail"
-"$hlscm" levels "$output/$name.obj" -o "$output/levels" --pictures "$output/levels"
+map="$output/light/atlas.obj"
+if [ "$(fact can_be_parameterized)" = True ]; then
+  say "parameterizing $mesh"
+  map="$output/$name.obj"
+  "$hlscm" parameterize "$mesh" -o "$map" --report "$output/$name.json" --pictures "$output"
+fi
 
 say "making a texture atlas, a light model and its normal map"
-faces="$("$hlscm" info --json "$mesh" | python3 -c 'import json, sys; print(json.load(sys.stdin)["faces"])')"
+faces="$(fact faces)"
 "$hlscm" bake "$mesh" -o "$output/light" --faces "$((faces / 10 + 1))" --pictures "$output/light"
+
+say "making levels of detail"
+"$hlscm" levels "$map" -o "$output/levels" --pictures "$output/levels"
 
 cat <<END
 
-Mesh with texture coordinates: $output/$name.obj
-Report:                        $output/$name.json
-Levels of detail:              $output/levels/level_*.obj, levels.glb, mesh.pm
+Mesh with texture coordinates: $map
 Texture atlas:                 $output/light/atlas.obj, atlas.glb
-Light model with a normal map: $output/light/light.obj, light.glb, normal.png, report.json
-Pictures:                      $output/*.png, $output/levels/*.png, $output/light/*.png
+Light model with a normal map: $output/light/light.obj, light.glb, normal.png
+Levels of detail:              $output/levels/level_*.obj, levels.glb, mesh.pm
+Reports and pictures:          $output and its folders, *.json and *.png
 END

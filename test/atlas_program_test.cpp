@@ -8,8 +8,12 @@
 #include <stb/stb_image.h>
 
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <numeric>
+#include <tuple>
+
+#include <sys/resource.h>
 
 namespace program_test {
 
@@ -173,6 +177,44 @@ std::vector<std::size_t> charts_of(const Textured_soup& soup)
     charts.push_back(find(face[0]));
   }
   return charts;
+}
+
+// The texels of a page, for a raster with this side, in which samples of the edges of a chart lie,
+// and that chart.
+using Texel_owners = std::map<std::array<std::size_t, 3>, std::size_t>;
+
+// Empty if samples of the edges of two charts never lie in one texel, nor with fewer than `padding`
+// between them, of a raster with this side.
+std::string error_in_padding(const Obj_model& model, std::size_t side, std::size_t padding)
+{
+  const std::vector<std::size_t> chart = charts_of(model.soup);
+  Texel_owners owners;
+  for(std::size_t i = 0; i < 3 * chart.size(); ++i) {
+    const auto& face = model.soup.uv_faces[i / 3];
+    const auto &a = model.soup.uv[face[i % 3]], &b = model.soup.uv[face[(i + 1) % 3]];
+    const double steps
+        = 1 + std::ceil(4 * double(side) * std::hypot(b[0] - a[0], b[1] - a[1]));
+    for(double k = 0; k <= steps; ++k) {
+      const double u = a[0] + k / steps * (b[0] - a[0]), v = a[1] + k / steps * (b[1] - a[1]);
+      const auto owner = owners.insert({{model.material[i / 3], std::size_t(u * double(side)),
+                                         std::size_t(v * double(side))}, chart[i / 3]}).first;
+      if(owner->second != chart[i / 3]) {
+        return "two charts in one texel";
+      }
+    }
+  }
+  for(const auto& [texel, owner] : owners) {
+    for(std::size_t i = 0; i <= 2 * padding; ++i) {
+      for(std::size_t j = 0; j <= 2 * padding; ++j) {
+        const auto other = owners.find({texel[0], texel[1] + i - padding, texel[2] + j - padding});
+        if(other != owners.end() && other->second != owner) {
+          return "two charts near texel " + std::to_string(texel[1]) + ", "
+                 + std::to_string(texel[2]);
+        }
+      }
+    }
+  }
+  return "";
 }
 
 // The length of the edges at which the texture coordinates of two faces differ.
@@ -429,6 +471,106 @@ TEST_F(Atlas, is_what_the_report_says)
   for(const Json& file : report["files"]) {
     EXPECT_EQ(fs::file_size(file["name"].get<std::string>()), file["bytes"]);
   }
+}
+
+TEST_F(Atlas, is_within_the_bound_that_is_asked_for)
+{
+  const std::string in = write("in.off", off(wavy_torus(16)));
+  const Json usual = call_well("atlas", in, "usual", {"--texture", "256"});
+  const Json strict = call_well("atlas", in, "strict",
+                                {"--texture", "256", "--max-area-scale", "1.5",
+                                 "--max-quasi-conformal", "1.25"});
+  const Json few = call_well("atlas", in, "few",
+                             {"--texture", "256", "--max-area-scale", "1.5", "--max-charts", "4"});
+  ASSERT_TRUE(usual.is_object() && strict.is_object() && few.is_object());
+  for(const auto& [report, area_scale, quasi_conformal] :
+      {std::make_tuple(usual, 4., 2.), std::make_tuple(strict, 1.5, 1.25)}) {
+    for(const Json& chart : report["charts"]) {
+      EXPECT_LE(chart["area_scale"].get<double>(), area_scale);
+      EXPECT_LE(chart["quasi_conformal"].get<double>(), quasi_conformal);
+    }
+  }
+  EXPECT_GT(strict["number_of_charts"], usual["number_of_charts"]);
+  EXPECT_LE(few["number_of_charts"], 4);
+  for(const char* name : {"usual", "strict", "few"}) {
+    EXPECT_EQ(error_in_texture(read_model(folder / name / "atlas.obj"), 256), "") << name;
+  }
+}
+
+TEST_F(Atlas, is_mapped_and_packed_as_is_asked_for)
+{
+  const std::string in = write("in.off", off(wavy_torus(16)));
+  std::map<std::string, Json> reports;
+  for(Texts options : std::vector<Texts>{
+          {"--packer", "raster"}, {"--packer", "horizon"}, {"--packing-time", "0.05"},
+          {"--method", "border-first"}, {"--method", "spectral"}, {"--method", "hlscm"},
+          {"--method", "cascadic"}}) {
+    const std::string name = options[0] + " " + options[1];
+    options.insert(options.end(), {"--texture", "256"});
+    const Json report = call_well("atlas", in, "out", options);
+    ASSERT_TRUE(report.is_object()) << name;
+    const Obj_model model = read_model(folder / "out/atlas.obj");
+    EXPECT_EQ(error_in_texture(model, 256), "") << name;
+    EXPECT_EQ(error_in_padding(model, 256, 2), "") << name; // by default
+    for(const Json& chart : report["charts"]) {
+      EXPECT_TRUE(chart["one_to_one"].get<bool>()) << name;
+      EXPECT_LE(chart["area_scale"].get<double>(), 4) << name;
+    }
+    reports[name] = report;
+  }
+  const Json& usual = reports["--packer raster"];
+  EXPECT_EQ(usual["charts"], reports["--method border-first"]["charts"]);
+  EXPECT_NE(usual["charts"], reports["--method spectral"]["charts"]);
+  EXPECT_NE(usual["charts"], reports["--method hlscm"]["charts"]);
+  EXPECT_LE(reports["--packer horizon"]["utilisation"], usual["utilisation"]);
+  EXPECT_GE(reports["--packing-time 0.05"]["utilisation"], usual["utilisation"]);
+}
+
+TEST_F(Atlas, keeps_charts_apart_on_smaller_copies_of_the_texture)
+{
+  const std::string in = write("in.off", off(wavy_torus(12)));
+  ASSERT_TRUE(call_well("atlas", in, "padded", {"--texture", "256", "--padding", "9"}).is_object());
+  EXPECT_EQ(error_in_padding(read_model(folder / "padded/atlas.obj"), 256, 9), "");
+  ASSERT_TRUE(call_well("atlas", in, "mip",
+                        {"--texture", "256", "--padding", "1", "--mip-levels", "3"}).is_object());
+  EXPECT_EQ(error_in_padding(read_model(folder / "mip/atlas.obj"), 256 / 8, 1), "");
+  const Outcome full = call("atlas", in, "none", {"--texture", "16", "--padding", "9"});
+  EXPECT_EQ(full.exit_code, 1);
+  EXPECT_EQ(error_in_message(full.err, in, {"do not fit on 1 page"}), "");
+}
+
+TEST_F(Atlas, fills_several_pages)
+{
+  const Soup surface = wavy_torus(16);
+  const std::string in = write("in.off", off(surface));
+  const Texts bound{"--texture", "128", "--max-area-scale", "1.5", "--pages"};
+  const auto with_pages = [&](const std::string& pages) {
+    Texts options = bound;
+    options.push_back(pages);
+    return call_well("atlas", in, "out_" + pages, options);
+  };
+  const Json one = with_pages("1"), report = with_pages("3");
+  ASSERT_TRUE(one.is_object() && report.is_object());
+  EXPECT_EQ(report["pages"], 3);
+  EXPECT_GT(report["texels_per_unit"], one["texels_per_unit"]);
+  std::set<std::size_t> pages;
+  for(const Json& chart : report["charts"]) {
+    pages.insert(chart["page"].get<std::size_t>());
+  }
+  EXPECT_EQ(pages, (std::set<std::size_t>{0, 1, 2}));
+  const Obj_model model = read_model(folder / "out_3/atlas.obj");
+  EXPECT_EQ(std::set<std::size_t>(model.material.begin(), model.material.end()), pages);
+  EXPECT_EQ(error_in_texture(model, 128), "");
+  EXPECT_EQ(error_in_padding(model, 128, 2), "");
+  const std::string mtl = read_file(folder / "out_3/atlas.mtl");
+  for(const char* material : {"newmtl page_1\n", "newmtl page_2\n", "newmtl page_3\n"}) {
+    EXPECT_NE(mtl.find(material), std::string::npos) << mtl;
+  }
+  const std::string glb = read_file(folder / "out_3/atlas.glb");
+  EXPECT_EQ(error_in_glb(glb, surface.faces.size(), false), "");
+  const Json gltf = json_of_glb(glb);
+  EXPECT_EQ(gltf["materials"].size(), 3u);
+  EXPECT_EQ(gltf["images"].size(), 1u); // one checkerboard for all
 }
 
 TEST_F(Atlas, takes_charts_that_are_given)
@@ -703,6 +845,46 @@ TEST_F(Atlas, bakes_for_a_model_of_any_origin)
   EXPECT_FALSE(fs::exists(folder / "none"));
 }
 
+// What options do is in the other tests; here, that each that is listed is known.
+TEST_F(Atlas, has_the_options_that_help_lists)
+{
+  const std::string in = write("in.obj", obj(cut_torus(8, 2)));
+  ASSERT_EQ(call("atlas", in, "first", {"--texture", "64"}).exit_code, 0);
+  const std::vector<Texts> of_both{
+      {"--texture", "32", "--padding", "0", "--mip-levels", "1", "--max-area-scale", "2",
+       "--max-quasi-conformal", "1.5", "--max-charts", "3", "--pages", "2", "--packer", "horizon",
+       "--method", "spectral", "--threads", "1", "--ply", "--pictures", path("pictures")},
+      {"--texture", "64", "--charts", "uv", "--packer", "raster", "--packing-time", "0.001",
+       "--method", "border-first", "--report", path("other.json")},
+      {"--texture", "64", "--one-disk", "--method", "cascadic", "--quiet"}};
+  const std::vector<Texts> of_bake{
+      {"--faces", "50", "--samples", "3", "--space", "object", "--bits", "16", "--displacement"},
+      {"--error", "1%", "--space", "tangent", "--bits", "8", "--colors", path("first/checker.png")},
+      {"--target", path("first/atlas.obj")}};
+  for(const std::string command : {"atlas", "bake"}) {
+    std::set<std::string> listed, known{"--help", "--output"};
+    for(std::size_t i = 0; i < of_both.size(); ++i) {
+      Texts options = of_both[i];
+      if(command == "bake") {
+        options.insert(options.end(), of_bake[i].begin(), of_bake[i].end());
+      }
+      const Outcome outcome = call(command, in, "out", options);
+      EXPECT_EQ(outcome.exit_code, 0) << command << " " << i << ": " << outcome.err;
+      EXPECT_EQ(outcome.out.empty(), options[2] == "--one-disk") << outcome.out;
+      std::copy_if(options.begin(), options.end(), std::inserter(known, known.end()),
+                   [](const std::string& text) { return text.rfind("--", 0) == 0; });
+    }
+    std::istringstream help(run({command, "--help"}).out);
+    for(std::string line; std::getline(help, line);) {
+      const std::size_t option = line.find("--");
+      if(line.rfind("  -", 0) == 0 && option != std::string::npos) {
+        listed.insert(line.substr(option, line.find_first_of(" \n", option) - option));
+      }
+    }
+    EXPECT_EQ(listed, known) << command;
+  }
+}
+
 TEST_F(Atlas, refuses_what_it_cannot_do)
 {
   const std::string good = write("in.off", off(cube()));
@@ -728,6 +910,7 @@ TEST_F(Atlas, refuses_what_it_cannot_do)
          {off(with_face(Soup{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}},
                              {{0, 1, 2}}}, {0, 3, 4})), "separate fans"},
          {off(band(7, true)), "one side only"},
+         {off(moved(cube(), 1e39, 0)), "too large for the numbers of 32 bits"},
          {off(Soup{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 3}}}), "corners"},
          {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 nan 0\n3 0 1 2\n", "not finite"},
          {"", "empty"}};
@@ -773,21 +956,79 @@ TEST_F(Atlas, loses_no_file_when_it_fails)
   EXPECT_EQ(read_file(folder / "out/mine"), "and so was this");
 }
 
+TEST_F(Atlas, refuses_unwritable_outputs_before_it_begins)
+{
+  const std::string in = write("in.off", off(cube()));
+  const std::string file = write("file", "was here before");
+  const std::string patches = write("out.patches", std::string(24, '1'));
+  struct Case
+  {
+    std::string folder;
+    Texts options;
+    std::string name, words;
+  };
+  const std::vector<Case> cases{
+      {file, {}, file, "this is a file"},
+      {path("file/out"), {}, path("file/out"), "cannot be created"},
+      {"/proc/none", {}, "/proc/none", "cannot be created"},
+      {path("out"), {"--report", path("no/r.json")}, path("no/r.json"), "cannot be written"},
+      {path("out"), {"--report", path("out/atlas.obj")}, path("out/atlas.obj"), "two outputs"},
+      {path("out"), {"--report", in}, in, "the output is the input"},
+      {path("out"), {"--charts", patches, "--report", patches}, patches, "the output is the input"},
+      {path("out"), {"--pictures", file}, file, "this is a file"},
+      {path("out"), {"--pictures", path("file/p")}, path("file/p"), "cannot be created"}};
+  for(const Case& c : cases) {
+    for(const std::string command : {"atlas", "bake"}) {
+      Texts arguments{command, in, "-o", c.folder};
+      arguments.insert(arguments.end(), c.options.begin(), c.options.end());
+      if(command == "bake") {
+        arguments.insert(arguments.end(), {"--faces", "4"});
+      }
+      const Outcome outcome = run(arguments);
+      EXPECT_EQ(outcome.exit_code, 1) << c.name;
+      EXPECT_EQ(error_in_message(outcome.err, c.name, {c.words}), "");
+    }
+  }
+  EXPECT_EQ(names(), (std::set<std::string>{"file", "in.off", "out.patches"}));
+  EXPECT_EQ(read_file(in), off(cube()));
+  EXPECT_EQ(read_file(file), "was here before");
+}
+
+TEST_F(Atlas, leaves_nothing_when_the_disk_is_full)
+{
+  const std::string in = write("in.off", off(wavy_torus(20)));
+  const auto limit_file_size = [] {
+    const rlimit limit{20000, 20000};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  };
+  for(Texts arguments : {Texts{"atlas"}, Texts{"bake", "--faces", "400"}}) {
+    arguments.insert(arguments.end(), {in, "-o", path("out"), "--texture", "128"});
+    const Outcome outcome = finish(start(arguments, limit_file_size));
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_EQ(error_in_message(outcome.err, path("out/atlas.obj"), {"writing failed"}), "");
+    EXPECT_EQ(names(), std::set<std::string>{"in.off"});
+  }
+}
+
 TEST_F(Atlas, leaves_nothing_when_it_is_interrupted)
 {
   const std::string in = write("in.off", off(wavy_torus(250)));
-  for(const int milliseconds : {20, 300, 1500}) {
-    const pid_t child = start({"bake", in, "-o", path("out"), "--faces", "2000"});
-    usleep(useconds_t(1000 * milliseconds));
-    kill(child, SIGINT);
-    const Outcome outcome = finish(child);
-    if(outcome.exit_code == -SIGINT) {
-      continue; // before the program listened
+  for(const Texts& command : {Texts{"atlas"}, Texts{"bake", "--faces", "2000"}}) {
+    for(const int milliseconds : {20, 300, 1500}) {
+      Texts arguments = command;
+      arguments.insert(arguments.end(), {in, "-o", path("out"), "--pictures", path("pictures")});
+      const pid_t child = start(arguments);
+      usleep(useconds_t(1000 * milliseconds));
+      kill(child, milliseconds == 300 ? SIGTERM : SIGINT);
+      const Outcome outcome = finish(child);
+      if(outcome.exit_code == -SIGINT) {
+        continue; // before the program listened
+      }
+      EXPECT_EQ(outcome.exit_code, 1) << milliseconds;
+      EXPECT_EQ(outcome.err, "hlscm: cancelled\n");
+      EXPECT_LT(outcome.seconds, 1.5);
+      EXPECT_EQ(names(), std::set<std::string>{"in.off"}) << command[0] << " " << milliseconds;
     }
-    EXPECT_EQ(outcome.exit_code, 1) << milliseconds;
-    EXPECT_EQ(outcome.err, "hlscm: cancelled\n");
-    EXPECT_LT(outcome.seconds, 1.5);
-    EXPECT_EQ(names(), std::set<std::string>{"in.off"}) << milliseconds;
   }
 }
 

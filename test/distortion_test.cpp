@@ -24,16 +24,6 @@ using SMP::Distortion_measures;
 
 typedef std::complex<double> Complex;
 
-// The map p -> f(x + iy) of a planar mesh.
-template <class F>
-Parameters map_of(const Indexed_triangle_mesh& mesh, const F& f)
-{
-  Parameters uv;
-  for(const Point_3& p : mesh.points)
-    uv.push_back(f(Complex(p.x(), p.y())));
-  return uv;
-}
-
 bool has_overlap(const Indexed_triangle_mesh& arrays, const Parameters& uv)
 {
   Surface_mesh mesh = to_surface_mesh(arrays);

@@ -35,15 +35,6 @@ using SMP::Map_certificate;
 typedef std::complex<double> Complex;
 typedef Surface_mesh::Face_index Face_index;
 
-template <class F>
-Parameters map_of(const Indexed_triangle_mesh& mesh, const F& f)
-{
-  Parameters uv;
-  for(const Point_3& p : mesh.points)
-    uv.push_back(f(Complex(p.x(), p.y())));
-  return uv;
-}
-
 Parameters identity(const Indexed_triangle_mesh& mesh)
 {
   return map_of(mesh, [](Complex w) { return w; });

@@ -273,6 +273,12 @@ TEST_F(Levels, refuse_what_they_cannot_do)
   EXPECT_EQ(report_over_input.exit_code, 1);
   EXPECT_EQ(error_in_message(report_over_input.err, good, {"the output is the input"}), "");
   EXPECT_EQ(names(), (std::set<std::string>{"closed.off", "file", "in.off", "nan.obj", "twice.obj"}));
+  // A GLB file has numbers of 32 bits
+  const std::string huge = write("huge.off", off(moved(grid(8, hilly), 1e39, 0)));
+  const Outcome beyond_floats = levels(huge, "out");
+  EXPECT_EQ(beyond_floats.exit_code, 1);
+  EXPECT_EQ(error_in_message(beyond_floats.err, huge, {"numbers of 32 bits"}), "");
+  EXPECT_EQ(levels(huge, "out", {"--format", "obj"}).exit_code, 0);
   // More than can be removed is a warning
   const std::string genus_1 = write("torus.obj", obj(cut_torus(6, 2)));
   const Outcome few = levels(genus_1, "out", {"--faces", "1"});

@@ -3,7 +3,7 @@
 
 // Runs the program hlscm, whose path is HLSCM_PROGRAM, on generated files.
 
-#include <support/program_runs.h>
+#include <support/textured_soups.h>
 
 #include <CGAL/IO/PLY.h>
 #include <CGAL/IO/polygon_soup_io.h>
@@ -56,29 +56,9 @@ struct Result
 
 Result read_obj(const fs::path& path)
 {
-  Result result;
-  std::ifstream file(path);
-  for(std::string line; std::getline(file, line);) {
-    std::istringstream words(line);
-    std::string keyword;
-    words >> keyword;
-    if(keyword == "v") {
-      auto& p = result.points.emplace_back();
-      words >> p[0] >> p[1] >> p[2];
-    } else if(keyword == "vt") {
-      auto& p = result.uv.emplace_back();
-      words >> p[0] >> p[1];
-    } else if(keyword == "f") {
-      auto& face = result.faces.emplace_back();
-      std::size_t v, t;
-      char slash;
-      while(words >> v >> slash >> t) {
-        EXPECT_EQ(v, t);
-        face.push_back(v - 1);
-      }
-    }
-  }
-  return result;
+  const Textured_soup soup = read_textured_obj(path);
+  EXPECT_EQ(soup.surface.faces, soup.uv_faces);
+  return {soup.surface.points, soup.uv, soup.surface.faces};
 }
 
 // Largest distance of corresponding texture coordinates.
@@ -743,7 +723,8 @@ TEST_F(Program, knows_what_a_mesh_is)
         {"genus", 0},
         {"orientable", true},
         {"manifold", true},
-        {"can_be_parameterized", true}}},
+        {"can_be_parameterized", true},
+        {"can_have_an_atlas", true}}},
       {"band",
        band(20, false),
        {{"components", 1},
@@ -758,14 +739,16 @@ TEST_F(Program, knows_what_a_mesh_is)
         {"euler_characteristic", 0},
         {"genus", nullptr},
         {"orientable", false},
-        {"can_be_parameterized", false}}},
+        {"can_be_parameterized", false},
+        {"can_have_an_atlas", false}}},
       {"torus",
        torus(9, false),
        {{"components", 1},
         {"borders", 0},
         {"euler_characteristic", 0},
         {"genus", 1},
-        {"can_be_parameterized", false}}},
+        {"can_be_parameterized", false},
+        {"can_have_an_atlas", true}}},
       {"open_torus", torus(9, true), {{"borders", 1}, {"euler_characteristic", -1}, {"genus", 1}}},
       {"fan", fan(100), {{"vertices", 101}, {"edges", 200}, {"faces", 100}, {"borders", 1}}}};
   for(const Case& c : cases) {
@@ -779,7 +762,8 @@ TEST_F(Program, knows_what_a_mesh_is)
   }
 }
 
-// What makes `parameterize` refuse a mesh is an obstacle of `info`, in the same words.
+// What makes `parameterize` refuse a mesh is an obstacle of `info`, in the same words; and `atlas`
+// takes what `info` says that it does.
 TEST_F(Program, agrees_with_itself)
 {
   for(const Bad_file& bad : bad_files()) {
@@ -792,7 +776,9 @@ TEST_F(Program, agrees_with_itself)
       EXPECT_EQ(info.err, refused.err);
       continue;
     }
-    const Json first = Json::parse(info.out)["obstacles"][0];
+    const Json json = Json::parse(info.out), first = json["obstacles"][0];
+    const Outcome atlas = run({"atlas", in, "-o", path("atlas"), "--texture", "256"});
+    EXPECT_EQ(atlas.exit_code == 0, json["can_have_an_atlas"].get<bool>()) << in << atlas.err;
     EXPECT_EQ(refused.err, "hlscm: error: " + in + ": " + first["what"].get<std::string>() + ", "
                                + first["remedy"].get<std::string>() + "\n");
     EXPECT_NE(text.out.find(first["what"].get<std::string>()), std::string::npos);

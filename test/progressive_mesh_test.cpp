@@ -7,6 +7,7 @@
 #include <support/indexed_mesh_files.h>
 #include <support/mesh_generators.h>
 #include <support/mesh_properties.h>
+#include <support/progressive_models.h>
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
@@ -36,7 +37,6 @@ namespace SMM = CGAL::Surface_mesh_multiresolution;
 namespace SMS = CGAL::Surface_mesh_simplification;
 using namespace test_support;
 using SMM::internal::Ring_defect;
-using SMM::internal::Vertex_rings;
 
 typedef CGAL::Simple_cartesian<double> Kernel;
 typedef CGAL::Surface_mesh<Kernel::Point_3> Surface_mesh;
@@ -75,29 +75,6 @@ Progressive_mesh decimate(Indexed_triangle_mesh mesh, Engine engine, std::size_t
   return SMM::Flat_collapse_engine<>(mesh, Vertex_rings(mesh), is_locked)
     .run(flat_options(engine == Engine::STRICT ? SMM::Collapse_order::STRICT
                                                : SMM::Collapse_order::BATCHED, target_vertices));
-}
-
-// Random halfedge collapses as long as topology allows any; geometry is ignored.
-Progressive_mesh random_collapses(const Indexed_triangle_mesh& mesh, std::size_t target_vertices,
-                                  std::uint64_t collapse_seed)
-{
-  Random random(collapse_seed);
-  Vertex_rings rings(mesh);
-  Progressive_mesh pm = SMM::trivial_progressive_mesh(mesh.points.size());
-  pm.triangles = mesh.triangles;
-  std::vector<bool> is_gone(mesh.points.size(), false);
-  for(std::size_t trial = 0; trial < 30 * mesh.points.size(); ++trial) {
-    if(pm.number_of_vertices_after(pm.collapses.size()) <= target_vertices)
-      break;
-    const auto v = Vertex_index(uniform_index(random, mesh.points.size()));
-    const auto k = std::uint32_t(uniform_index(random, rings.degree(v)));
-    if(is_gone[v] || !rings.is_collapse_valid(v, k))
-      continue;
-    pm.collapses.push_back({v, rings.ring(v)[k]});
-    rings.collapse(v, k);
-    is_gone[v] = true;
-  }
-  return pm;
 }
 
 std::vector<bool> random_locks(std::size_t size, double part, std::uint64_t lock_seed)

@@ -236,20 +236,55 @@ TEST(Texture_atlas, is_the_same_for_every_type_of_mesh)
   EXPECT_EQ(atlas_of(polyhedron).second.size(), chart.size()); // of other first corners
 }
 
+TEST(Texture_atlas, max_charts_has_precedence_over_the_bound)
+{
+  SMT::Texture_atlas_options options = small_texture();
+  options.bound.area_scale = 1.3;
+  for(const Indexed_triangle_mesh& mesh : {torus(30, 15), sphere(3)}) {
+    options.max_charts = 0;
+    const std::size_t needed = SMT::build_texture_atlas(mesh, options).report.charts.size();
+    for(const std::size_t most : {std::size_t(4), needed - 1, needed + 10}) {
+      options.max_charts = most;
+      const SMT::Texture_atlas_result result = SMT::build_texture_atlas(mesh, options);
+      ASSERT_EQ(result.error, "");
+      EXPECT_EQ(error_in_atlas(mesh, result.atlas), "");
+      EXPECT_LE(result.report.charts.size(), most);
+      bool is_within = true;
+      for(const SMT::Chart_report& chart : result.report.charts)
+        is_within = is_within && chart.distortion.is_within(options.bound);
+      EXPECT_TRUE(is_within || most < needed);
+      EXPECT_FALSE(is_within && most == 4);
+    }
+  }
+}
+
 TEST(Texture_atlas, says_what_is_wrong_with_a_mesh)
 {
-  Indexed_triangle_mesh empty;
-  EXPECT_NE(SMT::build_texture_atlas(empty).error.find("no faces"), std::string::npos);
+  const auto expect_error = [](const Indexed_triangle_mesh& mesh, const std::string& words) {
+    SMT::Texture_atlas_options options = small_texture();
+    EXPECT_NE(SMT::build_texture_atlas(mesh, options).error.find(words), std::string::npos);
+    options.charts.emplace(); // one, which is looked at only if the mesh is well
+    options.charts->chart.assign(mesh.triangles.size(), 0);
+    options.charts->seams.assign(mesh.triangles.size(), 0);
+    EXPECT_NE(SMT::build_texture_atlas(mesh, options).error.find(words), std::string::npos);
+  };
+  expect_error({}, "no triangles");
   Indexed_triangle_mesh isolated = grid(3, 3);
   isolated.points.emplace_back(0., 0., 1.);
-  EXPECT_NE(SMT::build_texture_atlas(isolated).error.find("vertex 16"), std::string::npos);
+  expect_error(isolated, "vertex 16");
   Indexed_triangle_mesh infinite = grid(3, 3);
   infinite.points[5] = Point_3(0., std::numeric_limits<double>::quiet_NaN(), 0.);
-  EXPECT_NE(SMT::build_texture_atlas(infinite).error.find("vertex 5"), std::string::npos);
+  expect_error(infinite, "vertex 5");
   Indexed_triangle_mesh fin = grid(1, 1);
   fin.points.emplace_back(0.5, 0.5, 1.);
   fin.triangles.push_back({0, 3, 4});
-  EXPECT_NE(SMT::build_texture_atlas(fin).error, "");
+  expect_error(fin, "vertex");
+  Indexed_triangle_mesh beyond = grid(3, 3);
+  beyond.triangles[7][2] = 16;
+  expect_error(beyond, "triangle 7");
+  Indexed_triangle_mesh folded = grid(3, 3);
+  folded.triangles[8][1] = folded.triangles[8][0];
+  expect_error(folded, "triangle 8");
 }
 
 TEST(Texture_atlas, can_be_cancelled)

@@ -6,6 +6,7 @@
 
 #include <support/chart_generators.h>
 #include <support/mesh_generators.h>
+#include <support/progressive_models.h>
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
@@ -49,27 +50,6 @@ Progressive_mesh decimate(Indexed_triangle_mesh mesh, const std::vector<bool>& i
 }
 
 // Random halfedge collapses as long as topology allows any; geometry is ignored.
-Progressive_mesh random_collapses(const Indexed_triangle_mesh& mesh, std::size_t number)
-{
-  Random random(seed);
-  SMM::internal::Vertex_rings rings(mesh);
-  Progressive_mesh pm = SMM::trivial_progressive_mesh(mesh.points.size());
-  pm.triangles = mesh.triangles;
-  std::vector<bool> is_gone(mesh.points.size(), false);
-  for(std::size_t trial = 0; trial < 30 * mesh.points.size(); ++trial) {
-    if(pm.collapses.size() == number)
-      break;
-    const auto v = Vertex_index(uniform_index(random, mesh.points.size()));
-    const auto k = std::uint32_t(uniform_index(random, rings.degree(v)));
-    if(is_gone[v] || !rings.is_collapse_valid(v, k))
-      continue;
-    pm.collapses.push_back({v, rings.ring(v)[k]});
-    rings.collapse(v, k);
-    is_gone[v] = true;
-  }
-  return pm;
-}
-
 Textured_progressive_mesh textured(const Indexed_triangle_mesh& mesh, const Uvs& uv,
                                    Progressive_mesh pm)
 {
@@ -154,7 +134,8 @@ std::vector<Case> cases()
     p = Point_2(p.x() + uniform(random, -1., 1.), p.y() + uniform(random, -1., 1.));
   result.push_back({"folded map" + seed_text, textured(noisy, noise, decimate(noisy))});
   result.push_back({"random collapses" + seed_text,
-                    textured(noisy, projection(plane), random_collapses(noisy, 400))});
+                    textured(noisy, projection(plane),
+                             random_collapses(noisy, noisy.points.size() - 400, seed))});
   result.push_back({"map to a point", textured(noisy, Uvs(plane.points.size(), Point_2(1, 2)),
                                                decimate(noisy))});
   return result;

@@ -4,8 +4,8 @@
 #ifndef HLSCM_BENCHMARK_SIDE_BY_SIDE_CGAL_PEERS_H
 #define HLSCM_BENCHMARK_SIDE_BY_SIDE_CGAL_PEERS_H
 
+#include "../timing.h"
 #include "Measurement.h"
-#include "Stopwatch.h"
 #include "child_process.h"
 #include "pins.h"
 
@@ -74,7 +74,7 @@ Measurement run_cgal_lscm(Surface_mesh& mesh, const Pins& pins, Uv_map uvmap)
   typedef SMP::LSCM_parameterizer_3<Surface_mesh, Pins_parameterizer, SolverTraits> Parameterizer;
   auto is_parameterized = mesh.add_property_map<Vertex, bool>("v:is_parameterized", false).first;
   const Halfedge border = border_halfedge(mesh);
-  const Stopwatch stopwatch;
+  const timing::Stopwatch stopwatch;
   Parameterizer parameterizer{Pins_parameterizer(pins)};
   const SMP::Error_code code = parameterizer.parameterize(
       mesh, border, uvmap, get(boost::vertex_index, mesh), is_parameterized);

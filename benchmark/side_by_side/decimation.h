@@ -6,8 +6,8 @@
 
 #include "../charts/chart_io.h"
 #include "../charts/indexed_mesh.h"
+#include "../timing.h"
 #include "Measurement.h"
-#include "Stopwatch.h"
 #include "child_process.h"
 
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
@@ -93,7 +93,7 @@ inline Measurement run_decimation(const std::string& chart_path, Decimation_engi
   measurement.numbers = {{"faces", double(mesh.triangles.size())},
                          {"vertices", double(mesh.points.size())},
                          {"mesh_memory_mb", peak_memory_mb()}};
-  const Stopwatch stopwatch;
+  const timing::Stopwatch stopwatch;
   const SMM::Progressive_mesh pm = decimate(mesh, engine);
   measurement.numbers.insert({{"seconds_total", stopwatch.seconds()},
                               {"peak_memory_mb", peak_memory_mb()},

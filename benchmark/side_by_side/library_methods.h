@@ -4,8 +4,8 @@
 #ifndef HLSCM_BENCHMARK_SIDE_BY_SIDE_LIBRARY_METHODS_H
 #define HLSCM_BENCHMARK_SIDE_BY_SIDE_LIBRARY_METHODS_H
 
+#include "../timing.h"
 #include "Measurement.h"
-#include "Stopwatch.h"
 #include "child_process.h"
 #include "pins.h"
 
@@ -26,7 +26,7 @@ Measurement run_library_by(Surface_mesh& mesh, const Pins& pins, Uv_map uvmap,
   auto is_parameterized = mesh.add_property_map<Vertex, bool>("v:is_parameterized", false).first;
   const Halfedge border = border_halfedge(mesh);
   const double system_before = system_seconds();
-  const Stopwatch stopwatch;
+  const timing::Stopwatch stopwatch;
   Parameterizer parameterizer(options);
   parameterizer.set_pins({pins.begin(), pins.end()});
   const SMP::Error_code code = parameterizer.parameterize(

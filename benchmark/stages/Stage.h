@@ -5,7 +5,7 @@
 #define HLSCM_BENCHMARK_STAGES_STAGE_H
 
 #include "../side_by_side/Measurement.h"
-#include "../side_by_side/Stopwatch.h"
+#include "../timing.h"
 #include "../traffic.h"
 
 #include <deque>
@@ -60,7 +60,7 @@ inline double page_fault_seconds()
       const std::unique_ptr<char[]> memory(new char[bytes]);
       volatile char* byte = memory.get();
       const double before = page_faults_so_far();
-      const side_by_side::Stopwatch stopwatch;
+      const timing::Stopwatch stopwatch;
       for(std::size_t at = 0; at < bytes; at += page)
         byte[at] = 1;
       result = std::min(result, stopwatch.seconds() / (page_faults_so_far() - before));
@@ -79,7 +79,7 @@ public:
   Stage& run(const std::string& name, const Work& work)
   {
     const double faults = page_faults_so_far();
-    const side_by_side::Stopwatch stopwatch;
+    const timing::Stopwatch stopwatch;
     work();
     Stage stage;
     stage.seconds = stopwatch.seconds();

@@ -27,7 +27,8 @@ void add_atlas_options(CLI::App& app, Program_options& o)
   add_number(app, "--max-area-scale", 1, 1e9, atlas.bound.area_scale,
              "the most that areas in a chart may be scaled to others, on 98 % of it (default 4)");
   add_number(app, "--max-quasi-conformal", 1, 1e9, atlas.bound.quasi_conformal,
-             "the most that lengths at a point may be scaled to others (default 2)");
+             "the most that lengths at a point may be scaled to others there, on 99 % of a chart "
+             "(default 2)");
   add_count(app, "--max-charts", std::size_t(1), many, atlas.max_charts,
             "as many charts at most, even if they are distorted more");
   app.add_option("--charts", atlas.charts,
@@ -43,7 +44,7 @@ void add_atlas_options(CLI::App& app, Program_options& o)
       {{"raster", SMT::Atlas_packer::RASTER}, {"horizon", SMT::Atlas_packer::HORIZON}}, atlas.packer,
       "raster: charts in any gap where they fit; horizon: from below, as in 2002 (default raster)");
   add_number(app, "--packing-time", 0, 1e6, atlas.packing_time,
-             "seconds to look for a better packing, on a usual machine (default 0)");
+             "seconds to look for a better packing, on a usual machine (default none)");
   add_choice<std::optional<SMP::Conformal_method>>(
       app, "--method",
       {{"border-first", std::nullopt},

@@ -131,9 +131,6 @@ void add_bake_lines(const Bake_report& bake, std::ostringstream& text)
 std::vector<std::string> Atlas_report::all_warnings() const
 {
   std::vector<std::string> all = warnings;
-  if(atlas) {
-    all.insert(all.end(), atlas->warnings.begin(), atlas->warnings.end());
-  }
   if(overlapping_texels > 0) {
     all.push_back("texels in more than one triangle: " + std::to_string(overlapping_texels));
   }

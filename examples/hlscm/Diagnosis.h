@@ -68,6 +68,9 @@ struct Obstacle
 /// What keeps a mesh from being a surface, the obstacle to remove first at the front.
 std::vector<Obstacle> surface_obstacles(const Diagnosis& diagnosis);
 
+/// What keeps it from having an atlas: the same, but for vertices of no face, which are left out.
+std::vector<Obstacle> atlas_obstacles(Diagnosis diagnosis);
+
 /// All obstacles; empty for a chart.
 std::vector<Obstacle> obstacles(const Diagnosis& diagnosis);
 

@@ -83,6 +83,12 @@ std::vector<Obstacle> surface_obstacles(const Diagnosis& d)
   return all;
 }
 
+std::vector<Obstacle> atlas_obstacles(Diagnosis d)
+{
+  d.isolated = Finding();
+  return surface_obstacles(d);
+}
+
 std::vector<Obstacle> obstacles(const Diagnosis& d)
 {
   std::vector<Obstacle> all = surface_obstacles(d);

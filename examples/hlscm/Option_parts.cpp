@@ -52,7 +52,7 @@ CLI::Option* add_number(CLI::App& app, const std::string& name, double low, doub
   return app.add_option(name, value, help)->check(CLI::Validator(check, ""))->type_name("NUMBER");
 }
 
-void add_method(CLI::App& app, SMP::Conformal_method& method, const std::string& usual)
+void add_method(CLI::App& app, SMP::Conformal_method& method)
 {
   add_choice<SMP::Conformal_method>(
       app, "--method",
@@ -65,7 +65,7 @@ void add_method(CLI::App& app, SMP::Conformal_method& method, const std::string&
       "hlscm: multigrid; spectral: the same without pins, by the eigenvalue problem of "
       "Mullen et al.; cascadic: coarse to fine once, as in the paper of "
       "Ray and Levy; lscm: conjugate gradient on the finest level alone; direct: sparse "
-      "Cholesky of the whole (default " + usual + ")");
+      "Cholesky of the whole (default hlscm)");
 }
 
 void add_threads(CLI::App& app, unsigned int& threads)

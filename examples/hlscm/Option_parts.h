@@ -60,8 +60,7 @@ CLI::Option* add_count(CLI::App& app, const std::string& name, Number low, Numbe
   return app.add_option(name, value, help)->check(CLI::Range(low, high, "N"));
 }
 
-void add_method(CLI::App& app, CGAL::Surface_mesh_parameterization::Conformal_method& method,
-                const std::string& usual);
+void add_method(CLI::App& app, CGAL::Surface_mesh_parameterization::Conformal_method& method);
 
 void add_threads(CLI::App& app, unsigned int& threads);
 

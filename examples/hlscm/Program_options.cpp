@@ -51,7 +51,7 @@ void set_schedule(const std::string& text, SMP::HLSCM_options& options)
 
 void add_solver_options(CLI::App& app, SMP::HLSCM_options& o)
 {
-  add_method(app, o.method, "hlscm");
+  add_method(app, o.method);
   add_choice<SMP::Conformal_weights>(
       app, "--weights",
       {{"exact", SMP::Conformal_weights::EXACT}, {"cgal", SMP::Conformal_weights::CGAL_LSCM}},

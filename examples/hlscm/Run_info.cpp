@@ -75,6 +75,11 @@ void print_text(const std::string& file, const Diagnosis& d,
   for(const Obstacle& reason : reasons) {
     std::cout << "  " << reason.what << ": " << reason.remedy << "\n";
   }
+  const std::vector<Obstacle> against_atlas = atlas_obstacles(d);
+  row("can have an atlas") << (against_atlas.empty() ? "yes" : "no") << "\n";
+  for(const Obstacle& reason : against_atlas) {
+    std::cout << "  " << reason.what << ": " << reason.remedy << "\n";
+  }
 }
 
 void print_json(const std::string& file, const Diagnosis& d,
@@ -99,6 +104,7 @@ void print_json(const std::string& file, const Diagnosis& d,
   const std::vector<Obstacle> reasons = obstacles(d);
   json["warnings"] = warnings;
   json["can_be_parameterized"] = reasons.empty();
+  json["can_have_an_atlas"] = atlas_obstacles(d).empty();
   json["obstacles"] = Json::array();
   for(const Obstacle& reason : reasons) {
     json["obstacles"].push_back({{"what", reason.what}, {"remedy", reason.remedy}});

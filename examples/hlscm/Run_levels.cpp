@@ -249,6 +249,9 @@ int run_levels(const Program_options& options)
   Level_outputs outputs(options);
   Levels_report report;
   const Progressive_model model = make_model(options, progress, report);
+  if(wants(options, Level_format::GLB)) {
+    refuse_beyond_floats(options.input, model.points);
+  }
   report.faces = model.progressive_mesh.triangles.size();
   report.vertices = model.points.size();
   report.wedges = model.number_of_wedges();

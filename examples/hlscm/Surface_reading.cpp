@@ -49,13 +49,13 @@ Polygon_soup read_surface(const std::string& input, Progress_bar& progress,
 {
   Read_mesh read = read_mesh(input, progress);
   warnings.insert(warnings.end(), read.warnings.begin(), read.warnings.end());
-  Diagnosis diagnosis = diagnose(read.soup, progress);
-  const std::size_t isolated = diagnosis.isolated.count;
-  diagnosis.isolated = Finding();
-  refuse_obstacles(input, surface_obstacles(diagnosis));
-  if(isolated > 0) {
+  const Diagnosis diagnosis = diagnose(read.soup, progress);
+  refuse_obstacles(input, atlas_obstacles(diagnosis));
+  refuse_beyond_floats(input, read.soup.points);
+  if(diagnosis.isolated) {
     drop_isolated_vertices(read.soup);
-    warnings.push_back("vertices of no face are left out: " + std::to_string(isolated));
+    warnings.push_back("vertices of no face are left out: "
+                       + std::to_string(diagnosis.isolated.count));
   }
   return std::move(read.soup);
 }

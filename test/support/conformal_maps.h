@@ -26,6 +26,16 @@ typedef SMP::HLSCM_parameterizer_3<Surface_mesh> Parameterizer;
 typedef Parameterizer::Point_2 Point_2;
 typedef std::vector<std::complex<double>> Parameters;
 
+// The map p -> f(x + iy) of a planar mesh.
+template <class F>
+Parameters map_of(const Indexed_triangle_mesh& mesh, const F& f)
+{
+  Parameters uv;
+  for(const Point_3& p : mesh.points)
+    uv.push_back(f(std::complex<double>(p.x(), p.y())));
+  return uv;
+}
+
 // What came of a run: among others the parameters in the order of vertices(mesh), `untouched` where
 // none were set.
 struct Outcome

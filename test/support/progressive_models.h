@@ -4,7 +4,7 @@
 #ifndef HLSCM_TEST_SUPPORT_PROGRESSIVE_MODELS_H
 #define HLSCM_TEST_SUPPORT_PROGRESSIVE_MODELS_H
 
-// Textured progressive meshes, with and without seams, of random collapses.
+// Progressive meshes of random collapses; textured ones, with and without seams.
 
 #include <support/mesh_generators.h>
 
@@ -16,8 +16,33 @@
 
 namespace test_support {
 
+using CGAL::Surface_mesh_multiresolution::Progressive_mesh;
 using CGAL::Surface_mesh_multiresolution::Textured_progressive_mesh;
 using CGAL::Surface_mesh_multiresolution::internal::Vertex_rings;
+
+// Random halfedge collapses as long as topology allows any; geometry is ignored.
+inline Progressive_mesh random_collapses(const Indexed_triangle_mesh& mesh,
+                                         std::size_t target_vertices, std::uint64_t seed)
+{
+  Random random(seed);
+  Vertex_rings rings(mesh);
+  Progressive_mesh pm
+    = CGAL::Surface_mesh_multiresolution::trivial_progressive_mesh(mesh.points.size());
+  pm.triangles = mesh.triangles;
+  std::vector<bool> is_gone(mesh.points.size(), false);
+  for(std::size_t trial = 0; trial < 30 * mesh.points.size(); ++trial) {
+    if(pm.number_of_vertices_after(pm.collapses.size()) <= target_vertices)
+      break;
+    const auto v = Vertex_index(uniform_index(random, mesh.points.size()));
+    const auto k = std::uint32_t(uniform_index(random, rings.degree(v)));
+    if(is_gone[v] || !rings.is_collapse_valid(v, k))
+      continue;
+    pm.collapses.push_back({v, rings.ring(v)[k]});
+    rings.collapse(v, k);
+    is_gone[v] = true;
+  }
+  return pm;
+}
 
 // A mesh of wedges before the numbering coarse first, each wedge with its vertex.
 struct Wedge_arrays

@@ -30,6 +30,7 @@ enum class Progressive_mesh_precision
 /// How a progressive mesh is written.
 struct Progressive_mesh_write_options
 {
+  /// Whether coordinates are rounded or kept to the last bit.
   Progressive_mesh_precision precision = Progressive_mesh_precision::QUANTIZED;
   /// The bits of each coordinate, 1 to 30. Points lie on a lattice of 2^bits - 1 steps along the
   /// longest side of the bounding box, so that none is farther than half a step from where it was

@@ -6,6 +6,7 @@
 
 #include <CGAL/Surface_mesh_parameterization/Flip_repair_options.h>
 #include <CGAL/Surface_mesh_parameterization/Flip_repair_report.h>
+#include <CGAL/Surface_mesh_parameterization/internal/Progress.h>
 #include <CGAL/Surface_mesh_parameterization/internal/repair_map.h>
 
 #include <CGAL/boost/graph/properties.h>
@@ -123,7 +124,7 @@ repair_flipped_faces(const Surface_mesh_multiresolution::Indexed_triangle_mesh& 
                      const Flip_repair_options& options = Flip_repair_options())
 {
   CGAL_precondition(uv.size() == mesh.points.size() && is_pinned.size() == uv.size());
-  const auto start = std::chrono::steady_clock::now();
+  const internal::Stopwatch watch;
   const internal::Flip_repair::Shape_of_face shape_of_face
     = internal::shapes_of_triangles(mesh, options.weights);
   std::vector<std::complex<double>> z;
@@ -137,7 +138,7 @@ repair_flipped_faces(const Surface_mesh_multiresolution::Indexed_triangle_mesh& 
   for(std::size_t v = 0; v < z.size(); ++v)
     if(z[v] != before[v])
       uv[v] = Simple_cartesian<double>::Point_2(z[v].real(), z[v].imag());
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  report.seconds = watch.seconds();
   return report;
 }
 

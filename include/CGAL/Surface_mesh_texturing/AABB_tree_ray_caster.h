@@ -4,15 +4,10 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_AABB_TREE_RAY_CASTER_H
 #define CGAL_SURFACE_MESH_TEXTURING_AABB_TREE_RAY_CASTER_H
 
+#include <CGAL/Surface_mesh_multiresolution/internal/aabb_tree.h>
 #include <CGAL/Surface_mesh_texturing/Along_rays.h>
 #include <CGAL/Surface_mesh_texturing/internal/ray_triangle.h>
 
-#include <CGAL/AABB_tree.h>
-#if __has_include(<CGAL/AABB_traits_3.h>)
-#include <CGAL/AABB_traits_3.h>
-#else
-#include <CGAL/AABB_traits.h>
-#endif
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <cstdint>
@@ -89,11 +84,7 @@ private:
     Id m_id = 0;
   };
 
-#if __has_include(<CGAL/AABB_traits_3.h>)
-  typedef AABB_tree<AABB_traits_3<Kernel, Primitive>> Tree;
-#else
-  typedef AABB_tree<AABB_traits<Kernel, Primitive>> Tree;
-#endif
+  typedef Surface_mesh_multiresolution::internal::Aabb_tree<Kernel, Primitive> Tree;
 
   const std::vector<Point_3>& m_points;
   const std::vector<Triangle_indices>& m_triangles;

@@ -20,8 +20,8 @@ namespace Surface_mesh_texturing {
 /*!
 \ingroup PkgHLSCMTexturing
 
-How far a chart may be distorted. Both bounds are on 98 % of the area of the chart, so that a few
-triangles at a tip do not decide.
+How far a chart may be distorted. Both bounds leave one or two percent of the area of the chart out,
+so that a few triangles at a tip do not decide.
 */
 struct Distortion_bound
 {

@@ -26,7 +26,8 @@ struct Texture_atlas_options
   /// one-to-one.
   Distortion_bound bound;
   /// The number of charts to come down to, beyond the bound on distortion if need be; 0 for as few
-  /// as the bound allows.
+  /// as the bound allows. There are more only where a map would not be one-to-one otherwise, and of
+  /// a surface with more components.
   std::size_t max_charts = 0;
   /// The part of its convex hull in the plane that a chart fills at least, as far as charts can be
   /// told apart: less means fewer charts, and more of the texture left empty.

@@ -8,7 +8,6 @@
 #include <CGAL/Surface_mesh_texturing/Chart_distortion.h>
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
 namespace CGAL {
@@ -21,7 +20,7 @@ struct Chart_report
   std::size_t faces = 0;         ///< its triangles
   double border_length = 0.;     ///< of its border and of the seams within it, in units of the mesh
   Chart_distortion distortion;   ///< of its map
-  std::size_t repaired_flips = 0;///< triangles that were flipped in the least squares map
+  std::size_t repaired_flips = 0;///< triangles that were flipped before its map was repaired
   bool is_one_to_one = true;     ///< whether its map is one-to-one, by exact predicates
   std::size_t page = 0;          ///< its texture
 };
@@ -46,7 +45,6 @@ struct Texture_atlas_report
   double seconds_pack = 0.;    ///< time of the packing
   double seconds_total = 0.;   ///< time of all
   bool cancelled = false;      ///< whether the progress function said stop
-  std::vector<std::string> warnings; ///< what the user should know, as sentences
 };
 
 } // namespace Surface_mesh_texturing

@@ -178,7 +178,7 @@ Baked_map bake(const Textured_triangle_mesh& light, const Correspondence& corres
   const std::size_t bands = raster.number_of_bands();
   for(std::size_t first = 0; first < bands; first += bands_between_progress) {
     if(options.progress && !options.progress(double(first) / double(bands))) {
-      map.error = "stopped on request";
+      map.error = "cancelled";
       map.image = Texture_image();
       return map;
     }

@@ -15,6 +15,7 @@
 
 #include <CGAL/assertions.h>
 
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,13 +34,12 @@ struct Texture_atlas_result
 
 namespace internal {
 
-// What is wrong with a mesh that is to be cut into charts, as a sentence.
+// What is wrong with a mesh whose charts are given, as a sentence; as the segmentation says it of
+// others.
 inline std::string surface_error(const Indexed_triangle_mesh& mesh)
 {
   namespace SMM = Surface_mesh_multiresolution;
-  if(mesh.triangles.empty())
-    return "the mesh has no faces";
-  const std::string error = SMM::internal::point_error(mesh.points);
+  const std::string error = error_of_arrays(mesh);
   if(!error.empty())
     return error;
   std::vector<Vertex_index> source(mesh.points.size());
@@ -131,8 +131,9 @@ inline void measure_atlas(const Texture_atlas& atlas, Texture_atlas_report& repo
 Cuts a surface into charts, maps each of them conformally, and packs them into textures.
 
 Every chart is a disk whose map is one-to-one and whose distortion is within `options.bound`: charts
-for which that is not so on the fine mesh are cut again. The charts of a chart given by the user are
-only cut where their maps are not one-to-one. The atlas does not depend on the unit of length.
+for which that is not so on the fine mesh are cut again. Charts that are given, and as many as
+`options.max_charts`, are only cut where their maps are not one-to-one. The atlas does not depend on
+the unit of length.
 
 `mesh` may be closed, of any genus, and have several components and borders. Bad data (vertices
 without a face or with several fans of faces, coordinates that are not finite) give a result with
@@ -157,8 +158,7 @@ public:
 
   Texture_atlas_result run()
   {
-    m_result.error = surface_error(m_mesh);
-    if(m_result.error.empty() && segment() && map() && pack())
+    if(segment() && map() && pack())
       fill();
     m_result.report.seconds_total = m_watch.seconds();
     return std::move(m_result);
@@ -169,6 +169,7 @@ private:
   Segmentation_result find_charts(const Indexed_triangle_mesh& mesh, double begin, double end);
   Segmentation_result try_charts(const Indexed_triangle_mesh& mesh);
   bool map();
+  void map_charts_with(const Texture_atlas_options& options, double begin, double end);
   bool pack();
   void fill();
 
@@ -203,8 +204,10 @@ inline bool Texture_atlas_builder::segment()
 {
   const Surface_mesh_parameterization::internal::Stopwatch watch;
   if(m_options.charts) {
-    m_charts = cut_to_disks(m_mesh, *m_options.charts);
-  } else if(m_mesh.triangles.size() <= 4 * m_options.trial_faces) {
+    m_result.error = surface_error(m_mesh);
+    if(m_result.error.empty())
+      m_charts = cut_to_disks(m_mesh, *m_options.charts);
+  } else if(m_options.max_charts > 0 || m_mesh.triangles.size() <= 4 * m_options.trial_faces) {
     m_charts = found(find_charts(m_mesh, 0., 0.4));
   } else {
     Segmentation_options to_trial;
@@ -253,13 +256,28 @@ inline Segmentation_result Texture_atlas_builder::try_charts(const Indexed_trian
 inline bool Texture_atlas_builder::map()
 {
   const Surface_mesh_parameterization::internal::Stopwatch watch;
-  m_maps = map_charts(chart_meshes(m_mesh, m_charts), m_options,
-                      [this](double part) { return proceed(0.4, 0.8, part); },
-                      m_result.report.recut_charts);
+  const std::size_t most = m_options.charts ? 0 : m_options.max_charts;
+  const bool is_full = most > 0 && m_charts.number_of_charts >= most;
+  if(!is_full)
+    map_charts_with(m_options, 0.4, most > 0 ? 0.6 : 0.8);
+  if(is_full || (most > 0 && m_maps.size() > most)) { // no charts are left for the bound
+    Texture_atlas_options unbounded = m_options;
+    unbounded.bound.area_scale = unbounded.bound.quasi_conformal
+      = (std::numeric_limits<double>::max)();
+    map_charts_with(unbounded, 0.6, 0.8);
+  }
   for(Mapped_chart& chart : m_maps)
     scale_by_density(m_options.density, chart);
   m_result.report.seconds_map = watch.seconds();
   return m_result.error.empty();
+}
+
+inline void Texture_atlas_builder::map_charts_with(const Texture_atlas_options& options,
+                                                   double begin, double end)
+{
+  m_maps = map_charts(chart_meshes(m_mesh, m_charts), options,
+                      [&](double part) { return proceed(begin, end, part); },
+                      m_result.report.recut_charts);
 }
 
 inline bool Texture_atlas_builder::pack()

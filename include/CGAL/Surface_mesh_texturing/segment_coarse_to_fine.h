@@ -6,11 +6,11 @@
 
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
 #include <CGAL/Surface_mesh_multiresolution/build_progressive_mesh.h>
+#include <CGAL/Surface_mesh_parameterization/internal/Progress.h>
 #include <CGAL/Surface_mesh_texturing/cut_to_disks.h>
 #include <CGAL/Surface_mesh_texturing/internal/Sorted_mesh.h>
 #include <CGAL/Surface_mesh_texturing/refine_charts.h>
 
-#include <chrono>
 #include <functional>
 #include <string>
 #include <utility>
@@ -108,35 +108,25 @@ public:
     if(!m_result.error.empty())
       return m_result;
     const Progressive_mesh pm = decimate(sorted);
-    m_result.decimation_seconds = lap();
+    m_result.decimation_seconds = m_watch.lap();
     if(!m_result.error.empty() || is_cancelled(0.5))
       return m_result;
     const Face_charts coarse = segment(coarse_mesh(mesh, pm));
-    m_result.coarse_seconds = lap();
+    m_result.coarse_seconds = m_watch.lap();
     if(!m_result.error.empty() || is_cancelled(0.7))
       return m_result;
     m_result.charts = sorted.charts_of_original(
       refine_charts(pm, mesh.points, pm.collapses.size(), coarse, m_options.straightening));
-    m_result.refinement_seconds = lap();
+    m_result.refinement_seconds = m_watch.lap();
     return m_result;
   }
 
 private:
-  typedef std::chrono::steady_clock Clock;
-
-  double lap()
-  {
-    const Clock::time_point now = Clock::now();
-    const double seconds = std::chrono::duration<double>(now - m_last).count();
-    m_last = now;
-    return seconds;
-  }
-
   bool is_cancelled(double part)
   {
     if(!m_options.progress || m_options.progress(part))
       return false;
-    m_result.error = "stopped before the charts were complete";
+    m_result.error = "cancelled";
     return true;
   }
 
@@ -176,7 +166,7 @@ private:
   const Segmentation_options& m_options;
   const SegmentCoarse& m_segment_coarse;
   Segmentation_result m_result;
-  Clock::time_point m_last = Clock::now();
+  Surface_mesh_parameterization::internal::Stopwatch m_watch;
 };
 
 } // namespace internal

@@ -4,11 +4,8 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_NEAREST_START_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_NEAREST_START_H
 
+#include <CGAL/Surface_mesh_multiresolution/internal/aabb_tree.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/nearest_on_surface.h>
-
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
 
 #include <algorithm>
 #include <vector>
@@ -22,8 +19,8 @@ class Nearest_start
 {
   typedef Simple_cartesian<double> Kernel;
   typedef std::vector<Kernel::Triangle_3> Triangles;
-  typedef AABB_triangle_primitive<Kernel, Triangles::const_iterator> Primitive;
-  typedef AABB_tree<AABB_traits<Kernel, Primitive>> Tree;
+  typedef Aabb_triangle_primitive<Kernel, Triangles::const_iterator> Primitive;
+  typedef Aabb_tree<Kernel, Primitive> Tree;
 
 public:
   // `from` has the wedges, `to` is the surface, with at least one triangle that has an area.

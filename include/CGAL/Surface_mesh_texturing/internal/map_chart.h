@@ -161,7 +161,7 @@ inline Mapped_chart map_chart(Chart_mesh chart, const Texture_atlas_options& opt
   if(result.uv.empty())
     return result;
   result.report.distortion = measure_chart_distortion(mesh, result.uv);
-  const bool is_free = options.charts || options.max_charts > 0; // of the bound
+  const bool is_free = bool(options.charts); // of the bound
   if(!scale_to_surface(result.report.distortion, result.uv)
      || !(is_free || result.report.distortion.is_within(options.bound)))
     return result;
