@@ -6,10 +6,10 @@
 
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/mesh_arrays.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/point_error.h>
 
 #include <CGAL/boost/graph/helpers.h>
 
-#include <cmath>
 #include <functional>
 #include <string>
 #include <utility>
@@ -60,15 +60,6 @@ inline std::string ring_error(const Vertex_rings& rings, const std::vector<Verte
   if(rings.defect() == Ring_defect::REPEATED_HALFEDGE)
     return vertex + " has two edges to the same vertex; repair the mesh first";
   return "the faces at " + vertex + " do not form one fan; split the vertex first";
-}
-
-inline std::string point_error(const std::vector<Indexed_triangle_mesh::Point_3>& points)
-{
-  for(std::size_t v = 0; v < points.size(); ++v)
-    for(int c = 0; c < 3; ++c)
-      if(!std::isfinite(points[v][c]))
-        return "vertex " + std::to_string(v) + " has a coordinate that is not a finite number";
-  return {};
 }
 
 // The arrays of a mesh without its collapses, or what is wrong with it.

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_GROW_CHARTS_H
 #define CGAL_SURFACE_MESH_TEXTURING_GROW_CHARTS_H
 
+#include <CGAL/Surface_mesh_multiresolution/internal/point_error.h>
 #include <CGAL/Surface_mesh_texturing/Chart_distortion.h>
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/Chart_search.h>
@@ -69,10 +70,9 @@ inline std::string growth_error(const Indexed_triangle_mesh& mesh,
 {
   if(mesh.triangles.empty())
     return "the mesh has no triangles";
-  for(std::size_t v = 0; v < mesh.points.size(); ++v)
-    for(int c = 0; c < 3; ++c)
-      if(!std::isfinite(mesh.points[v][c]))
-        return "vertex " + std::to_string(v) + " has a coordinate that is not a finite number";
+  const std::string error = Surface_mesh_multiresolution::internal::point_error(mesh.points);
+  if(!error.empty())
+    return error;
   if(!(options.bound.area_scale > 1.) || !(options.bound.quasi_conformal > 1.))
     return "a distortion bound is not larger than 1";
   if(!(options.bound_part > 0. && options.bound_part <= 1.))
