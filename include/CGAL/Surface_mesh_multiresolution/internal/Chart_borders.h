@@ -79,8 +79,8 @@ public:
 private:
   typedef std::array<Point_2, 3> Triangle;
 
-  // Cells for each corner: most triangles near a border lie in one.
-  static constexpr double cells_per_corner = 4.;
+  // Cells for each corner: most triangles near a border lie in one, and few others near corners.
+  static constexpr double cells_per_corner = 16.;
 
   // By how much of a cell rounding may be wrong, and more.
   static constexpr double slack = 1e-6;
@@ -130,6 +130,7 @@ private:
   }
 
   void set(std::vector<Chart_border_corner> corners);
+  std::vector<std::uint8_t> cells_empty_around() const;
   void remove_covered(const std::vector<Triangle_indices>& triangles,
                       const std::vector<Point_2>& uv);
   std::pair<std::int32_t, std::int32_t> columns_in_row(const Triangle& t, std::int32_t row) const;
@@ -199,28 +200,52 @@ inline void Chart_borders::set(std::vector<Chart_border_corner> corners)
     m_corners[next[cell(corner.uv)]++] = corner;
 }
 
+// For each cell whether there is no corner in it and those around it.
+inline std::vector<std::uint8_t> Chart_borders::cells_empty_around() const
+{
+  const std::size_t columns = std::size_t(m_size[0]), rows = std::size_t(m_size[1]);
+  std::vector<std::uint8_t> result(columns * rows, 1);
+  for(std::size_t row = 0; row < rows; ++row)
+    for(std::size_t column = 0; column < columns; ++column) {
+      if(m_begin[row * columns + column] == m_begin[row * columns + column + 1])
+        continue;
+      for(std::size_t r = row - (row > 0); r <= (std::min)(row + 1, rows - 1); ++r)
+        for(std::size_t c = column - (column > 0); c <= (std::min)(column + 1, columns - 1); ++c)
+          result[r * columns + c] = 0;
+    }
+  return result;
+}
+
 inline void Chart_borders::remove_covered(const std::vector<Triangle_indices>& triangles,
                                           const std::vector<Point_2>& uv)
 {
   if(m_corners.empty())
     return;
   constexpr std::size_t block = 16384;
-  constexpr std::uint32_t occupied = std::uint32_t(-1);
-  // Of each wedge its cell if there is no corner in it: most triangles lie in one such cell
-  std::vector<std::uint32_t> empty_cell(uv.size());
+  // Most triangles lie in a cell and those around it without any corner, which a number for each
+  // wedge tells: that of its cell, in rows with a gap between them, and whether all are empty.
+  const std::vector<std::uint8_t> is_empty = cells_empty_around();
+  const std::uint32_t stride = std::uint32_t(m_size[0]) + 2;
+  std::vector<std::uint32_t> place(uv.size());
   Blocked_execution::blocked_for(uv.size(), block, [&](std::size_t begin, std::size_t end) {
     for(std::size_t w = begin; w < end; ++w) {
-      const std::size_t i = cell(uv[w]);
-      empty_cell[w] = m_begin[i] == m_begin[i + 1] ? std::uint32_t(i) : occupied;
+      const std::uint32_t column = std::uint32_t(cell(uv[w].x(), 0));
+      const std::uint32_t row = std::uint32_t(cell(uv[w].y(), 1));
+      place[w] = 2 * (row * stride + column) + is_empty[std::size_t(row) * m_size[0] + column];
     }
   });
+  const auto is_beside = [stride](std::uint32_t a, std::uint32_t b) {
+    const std::uint32_t d = a > b ? a - b : b - a;
+    return d <= 1 || (d >= stride - 1 && d <= stride + 1);
+  };
   std::vector<std::vector<std::uint32_t>> covered(
     Blocked_execution::number_of_blocks(triangles.size(), block));
   Blocked_execution::blocked_for(triangles.size(), block, [&](std::size_t begin, std::size_t end) {
     for(std::size_t t = begin; t < end; ++t) {
       const Triangle_indices& wedges = triangles[t];
-      const std::uint32_t common = empty_cell[wedges[0]];
-      if(common == empty_cell[wedges[1]] && common == empty_cell[wedges[2]] && common != occupied)
+      const std::uint32_t at = place[wedges[0]];
+      if(at % 2 == 1 && is_beside(at / 2, place[wedges[1]] / 2)
+         && is_beside(at / 2, place[wedges[2]] / 2))
         continue;
       const Triangle triangle = {uv[wedges[0]], uv[wedges[1]], uv[wedges[2]]};
       for_each_near(triangle, [&](std::size_t i) {
