@@ -117,6 +117,8 @@ private:
   {
     explicit Worker(const Flat_surface& surface) : profile(surface) {}
 
+    // The vertices that it alone may remove for now
+    Vertex_index low = 0, high = no_vertex;
     Flat_collapse_profile profile;
     Vertex_star star;
     std::size_t evaluations = 0;
@@ -157,13 +159,19 @@ private:
 
   Flat_surface surface() const { return Flat_surface(m_mesh, m_rings); }
   // Whether topology and the size of a ring allow the collapse of v into its ring vertex k.
-  bool is_possible(Vertex_index v, std::uint32_t k) const
+  bool is_possible(const Worker& worker, Vertex_index v, std::uint32_t k) const
   {
     if(!m_rings.is_collapse_valid(v, k) || m_rings.needs_new_spill(v, k))
       return false;
     if constexpr(Texture::is_textured)
-      return m_texture.is_possible(v, k);
+      return m_texture.is_possible(v, k, worker.low, worker.high);
+    (void)worker;
     return true;
+  }
+  void begin_pass()
+  {
+    if constexpr(Texture::is_textured)
+      m_texture.begin_pass();
   }
   // Where w is in the ring of v: the degree of v if it is not.
   std::uint32_t position(Vertex_index v, Vertex_index w) const
@@ -340,7 +348,7 @@ Flat_collapse_engine<Cost, Filter, Texture>::best_target(Worker& worker, Vertex_
     if(best.cost == no_cost || !check_topology)
       return best;
     const std::uint32_t k = position(v, best.vertex);
-    if(is_possible(v, k))
+    if(is_possible(worker, v, k))
       return best;
     costs[k] = no_cost;
   }
@@ -374,7 +382,7 @@ try_collapse(Worker& worker, Vertex_index v, float limit, Collapses& collapses)
     return false;
   if(!(cost_of(worker, v, k) <= limit))
     return false;
-  if(!is_possible(v, k)) {
+  if(!is_possible(worker, v, k)) {
     evaluate(worker, v, true);
     return false;
   }
@@ -461,6 +469,8 @@ void Flat_collapse_engine<Cost, Filter, Texture>::run_block(const std::vector<Ve
                                                    float threshold, Block& block)
 {
   Worker worker(surface());
+  worker.low = block.low;
+  worker.high = block.high;
   for(std::size_t i = block.begin; i < block.end && block.collapses.size() < block.wanted; ++i) {
     const Vertex_index v = alive[i];
     prefetch(alive, i, block.end);
@@ -482,6 +492,7 @@ run_pass(const std::vector<Vertex_index>& alive, float threshold, std::size_t wa
 {
   std::vector<Block> blocks = cut_into_blocks(alive, wanted, pm.batch_ends.size() % 2 == 1);
   const std::size_t before = pm.collapses.size();
+  begin_pass();
   for(std::size_t first = 0; first < blocks.size() && progress(pm);
       first += blocks_between_reports) {
     const std::size_t last = (std::min)(first + blocks_between_reports, blocks.size());
@@ -541,8 +552,13 @@ run_strict(const Flat_collapse_options& options, Progressive_mesh& pm)
   };
   for(Vertex_index v = 0; v < n && goes_on(); ++v)
     enqueue(v);
+  std::size_t next_pass = n / 2; // vertices left
   while(!queue.empty() && n - pm.collapses.size() > options.target_vertices
         && !progress.is_cancelled() && goes_on()) {
+    if(n - pm.collapses.size() <= next_pass) {
+      begin_pass();
+      next_pass /= 2;
+    }
     const auto [cost, v] = queue.top();
     queue.pop();
     if(m_state[v].is_gone || cost != m_best_cost[v]) // an entry that a later one replaced

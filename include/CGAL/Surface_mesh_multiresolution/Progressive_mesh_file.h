@@ -137,7 +137,7 @@ A mesh that is not what the invariants of `Textured_progressive_mesh` say, has a
 manifold, a wedge of more than 16384 neighbours at some level, more than 2^29 triangles, or a
 coordinate that is not a finite number, is refused with an error.
 
-Linear time. Memory: about 170 bytes a wedge beside the mesh.
+Linear time. Memory: about 160 bytes a wedge beside the mesh.
 */
 inline Progressive_mesh_bytes
 encode_progressive_mesh(const Textured_progressive_mesh& mesh,

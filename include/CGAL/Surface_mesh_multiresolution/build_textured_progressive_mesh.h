@@ -35,6 +35,10 @@ struct Textured_progressive_mesh_options
   /// How much the texture deviation at the removed vertex (Cohen, Olano, Manocha 1998) counts
   /// beside volume, border and shape, as a length beside lengths; 0 leaves it out.
   double texture_deviation_weight = 0.;
+  /// Whether the borders of charts stay simple in the texture, and apart from each other: no
+  /// collapse takes a border over a corner of a border, across a notch or a gutter. Where charts
+  /// touch or overlap in the input, nothing is kept apart.
+  bool keep_chart_borders_simple = true;
   /// For each vertex whether it must stay; empty for none.
   std::vector<bool> is_locked;
   /// Told the part done in [0, 1] from time to time; returning false stops early.
@@ -92,7 +96,9 @@ inline Wedge_collapses decimate_textured(const Textured_triangle_mesh& mesh,
   std::vector<bool> is_locked(options.is_locked.size());
   for(std::size_t v = 0; v < is_locked.size(); ++v)
     is_locked[v] = options.is_locked[source[v]];
-  const Texture_layer texture(mesh, sorted, source, rings, options.texture_deviation_weight);
+  Texture_layer texture(mesh, sorted, source, rings, options.texture_deviation_weight);
+  if(options.keep_chart_borders_simple)
+    texture.keep_borders_simple(mesh);
   Flat_collapse_engine<Hierarchy_collapse_cost<>, Hierarchy_collapse_filter, Texture_layer> engine(
     sorted, std::move(rings), is_locked, hierarchy_collapse_cost(),
     hierarchy_collapse_filter(options.angular_defect_bound), texture);
@@ -124,9 +130,10 @@ Returns a progressive mesh of `mesh` all levels of which share its texture coord
 
 Vertices on seams and borders leave only along them, on both sides of a seam at once, and those
 where seams meet or end stay: every level has the topology of the input, and each chart stays what
-it is, a disk if it was one. No triangle turns over in the texture. What the collapses cost is the
-default of `build_progressive_mesh()`, at seams together with the square root of the area that the
-texture of a chart loses or gains.
+it is, a disk if it was one. No triangle turns over in the texture, and no border of a chart comes
+to cross a border (`keep_chart_borders_simple`). What the collapses cost is the default of
+`build_progressive_mesh()`, at seams together with the square root of the area that the texture of a
+chart loses or gains.
 
 `mesh` may have any size and place, several components and borders. Bad data (vertices without a
 face or with several fans of faces, coordinates that are not finite) give a result with `error` set.
@@ -170,9 +177,10 @@ Returns the progressive mesh of one chart from the collapses with which it was p
 spares the decimation: `pm` is what `HLSCM_parameterizer_3::progressive_mesh()` returns, `points`
 and `uv` belong to its vertices, of which those that are near in space should be near in memory.
 
-Collapses that turn triangles over in the texture are left out, and those that are no longer
-possible without them. Then decimation goes on to the coarsest level that `options` ask for, of
-which `order` and `angular_defect_bound` count for this part only.
+Collapses that turn triangles over in the texture or take its border over one of its corners are
+left out, and those that are no longer possible without them. Then decimation goes on to the
+coarsest level that `options` ask for, of which `order` and `angular_defect_bound` count for this
+part only.
 
 Bad data: as above. Linear time.
 */
@@ -197,7 +205,8 @@ build_textured_progressive_mesh(const Progressive_mesh& pm,
                    + " has a texture coordinate that is not a finite number";
   internal::Replay replay;
   if(result.error.empty())
-    result.error = replay.run(pm, points, uv, options.target_vertices, options.is_locked);
+    result.error = replay.run(pm, points, uv, options.target_vertices, options.is_locked,
+                              options.keep_chart_borders_simple);
   if(!result.error.empty())
     return result;
   fine.progressive_mesh.collapses = std::move(replay.collapses);

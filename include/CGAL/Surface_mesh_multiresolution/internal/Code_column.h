@@ -221,8 +221,22 @@ public:
   template <Column_code code>
   std::uint32_t next()
   {
+    return number_at<code>((std::min)(m_at >> 3, m_size));
+  }
+
+  // The same without a look at the end, where bad data may pass it by 57 bits a number.
+  template <Column_code code>
+  std::uint32_t next_unbounded()
+  {
+    return number_at<code>(m_at >> 3);
+  }
+
+private:
+  // The number that begins in this byte.
+  template <Column_code code>
+  std::uint32_t number_at(std::size_t byte)
+  {
     const std::uint64_t one = 1;
-    const std::size_t byte = (std::min)(m_at >> 3, m_size);
     const std::uint64_t window = load_64_bits(m_data + byte) >> (m_at & 7u);
     if(code == Column_code::RICE) {
       const int q = trailing_zeros(window | (one << rice_escape));
@@ -240,7 +254,6 @@ public:
     return std::uint32_t((((one << q) - 1) << k) + r);
   }
 
-private:
   const char* m_data = nullptr;
   std::size_t m_size = 0, m_at = 0; // bytes, bits
   std::uint64_t m_mask = 0;

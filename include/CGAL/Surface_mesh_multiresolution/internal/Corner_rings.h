@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_CORNER_RINGS_H
 
 #include <CGAL/Surface_mesh_multiresolution/Indexed_triangle_mesh.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/Uninitialized_vector.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/Vertex_rings.h>
 
 #include <algorithm>
@@ -61,7 +62,7 @@ public:
   void reserve(std::size_t vertices, std::size_t triangles)
   {
     m_first.reserve(vertices);
-    m_next.reserve(4 * triangles);
+    m_next.reserve(3 * triangles);
     m_triangles.reserve(triangles);
   }
 
@@ -69,8 +70,10 @@ public:
   void make_room(std::size_t vertices, std::size_t triangles)
   {
     m_first.resize(vertices);
-    m_next.resize(4 * triangles);
+    m_next.resize(3 * triangles);
     m_triangles.resize(triangles);
+    m_room_for_vertices = vertices;
+    m_room_for_triangles = triangles;
   }
 
   // Gives back the room that is left.
@@ -95,7 +98,7 @@ public:
   Corner prefetch_next(Corner corner, const Prefetch_vertex& prefetch_vertex) const
   {
     prefetch_vertex(at(previous(corner)));
-    const Corner after = m_next[corner];
+    const Corner after = following(corner);
     if(after == no_corner)
       return corner;
     prefetch_corner(after);
@@ -105,8 +108,9 @@ public:
   // Makes the next vertex and calls use(w) for the neighbours beside the parent that tell where it
   // may be: all of a vertex inside, the one on the border of a border vertex. Returns false if
   // there is no such split; the triangles then have the new vertex in some places of its parent.
+  // `use` is copied and assigned: a copy of it stays in registers.
   template <class Use>
-  bool split(const Ring_split& split, Use&& use);
+  bool split(const Ring_split& split, Use& use);
 
   // Goes back to the first triangles, with ancestor(v) in the place of each vertex v. It cannot be
   // split any more.
@@ -132,12 +136,25 @@ private:
   static Corner next(Corner corner) { return corner % 4 == 2 ? corner - 2 : corner + 1; }
   static Corner previous(Corner corner) { return corner % 4 == 0 ? corner + 2 : corner - 1; }
 
-  Vertex_index at(Corner corner) const { return m_triangles[corner / 4][corner % 4]; }
+  // 3 (corner / 4) + corner % 4: the place of a corner in arrays without gaps
+  static std::size_t flat(Corner corner) { return corner - corner / 4; }
+
+  Vertex_index at(Corner corner) const
+  {
+    return reinterpret_cast<const Vertex_index*>(m_triangles.data())[flat(corner)];
+  }
+  void set(Corner corner, Vertex_index v)
+  {
+    reinterpret_cast<Vertex_index*>(m_triangles.data())[flat(corner)] = v;
+  }
+  // The next corner of the same vertex
+  Corner following(Corner corner) const { return m_next[flat(corner)]; }
+  void set_following(Corner corner, Corner next) { m_next[flat(corner)] = next; }
   Corner first(Vertex_index v) const { return m_first[v] & ~border_flag; }
 
   void prefetch_corner(Corner corner) const
   {
-    internal::prefetch(&m_next[corner]);
+    internal::prefetch(&m_next[flat(corner)]);
     internal::prefetch(&m_triangles[corner / 4]);
   }
 
@@ -146,8 +163,8 @@ private:
 
   bool has_room(std::size_t triangles) const
   {
-    return m_number_of_vertices < m_first.size()
-        && m_number_of_triangles + triangles <= m_triangles.size();
+    return m_number_of_vertices < m_room_for_vertices
+        && m_number_of_triangles + triangles <= m_room_for_triangles;
   }
 
   // The next corners of the new ones are for the caller to set.
@@ -159,13 +176,13 @@ private:
 
   void insert_after(Corner corner, Corner inserted)
   {
-    m_next[inserted] = m_next[corner];
-    m_next[corner] = inserted;
+    set_following(inserted, following(corner));
+    set_following(corner, inserted);
   }
 
   void insert_first(Corner corner, Corner inserted)
   {
-    m_next[inserted] = corner;
+    set_following(inserted, corner);
     set_first(at(corner), inserted);
   }
 
@@ -173,7 +190,7 @@ private:
   // the last corner that moved, `after` the one that followed it.
   void link_right(Corner right, Corner last, Corner after)
   {
-    m_next[right + 2] = after;
+    set_following(right + 2, after);
     if(after != no_corner)
       insert_after(next(after), right + 1);
     else
@@ -192,8 +209,9 @@ private:
   // The arrays may have more room than this.
   std::size_t m_number_of_vertices = 0, m_number_of_triangles = 0;
   std::vector<Triangle_indices> m_triangles;
-  std::vector<Corner> m_next;  // of the same vertex; `no_corner` at the end of an open ring
-  std::vector<Corner> m_first; // of each vertex, with `border_flag` if its ring is open
+  std::size_t m_room_for_vertices = 0, m_room_for_triangles = 0; // without divisions
+  Uninitialized_vector<Corner> m_next;  // of the same vertex; `no_corner` ends an open ring
+  Uninitialized_vector<Corner> m_first; // of each vertex, with `border_flag` if its ring is open
 };
 
 inline Ring_defect Corner_rings::build(std::vector<Triangle_indices> triangles,
@@ -202,10 +220,10 @@ inline Ring_defect Corner_rings::build(std::vector<Triangle_indices> triangles,
   m_triangles = std::move(triangles);
   m_number_of_triangles = m_triangles.size();
   m_number_of_vertices = number_of_vertices;
-  m_next.assign(4 * m_triangles.size(), no_corner);
+  m_next.assign(3 * m_triangles.size(), no_corner);
   m_first.assign(number_of_vertices, no_corner);
   std::vector<Corner> corners;
-  for(Corner c = 0; c < m_next.size(); ++c)
+  for(Corner c = 0; c < 4 * m_triangles.size(); ++c)
     if(c % 4 != 3)
       corners.push_back(c);
   // The corners that halfedges leave, sorted by halfedge
@@ -217,14 +235,14 @@ inline Ring_defect Corner_rings::build(std::vector<Triangle_indices> triangles,
   for(std::size_t i = 1; i < halfedges.size(); ++i)
     if(halfedges[i].first == halfedges[i - 1].first)
       return Ring_defect::REPEATED_HALFEDGE;
-  std::vector<bool> has_predecessor(m_next.size(), false);
+  std::vector<bool> has_predecessor(4 * m_triangles.size(), false);
   std::vector<std::uint32_t> degree(number_of_vertices, 0);
   for(const Corner c : corners) {
     const std::uint64_t wanted = halfedge(at(c), at(previous(c)));
     const auto found = std::lower_bound(halfedges.begin(), halfedges.end(),
                                         std::make_pair(wanted, Corner(0)));
     if(found != halfedges.end() && found->first == wanted) {
-      m_next[c] = found->second;
+      set_following(c, found->second);
       has_predecessor[found->second] = true;
     }
     ++degree[at(c)];
@@ -242,7 +260,7 @@ inline Ring_defect Corner_rings::build(std::vector<Triangle_indices> triangles,
     Corner c = first(v);
     do {
       ++reached;
-      c = m_next[c];
+      c = following(c);
     } while(c != no_corner && c != first(v));
     if(reached != degree[v])
       return Ring_defect::SEVERAL_FANS;
@@ -253,7 +271,7 @@ inline Ring_defect Corner_rings::build(std::vector<Triangle_indices> triangles,
 }
 
 template <class Use>
-bool Corner_rings::split(const Ring_split& split, Use&& use)
+bool Corner_rings::split(const Ring_split& split, Use& use)
 {
   if(split.kind == Split_kind::INSIDE)
     return split_inside(split, use);
@@ -270,32 +288,34 @@ bool Corner_rings::split_inside(const Ring_split& split, Use& use)
     return false;
   const bool is_open = is_border(t);
   Corner before = is_open ? no_corner : first(t);
-  Corner from = is_open ? first(t) : m_next[before];
+  Corner from = is_open ? first(t) : following(before);
   for(std::uint32_t i = 0; i < split.skipped; ++i) {
     before = from;
-    from = m_next[from];
+    from = following(from);
     if(from == no_corner)
       return false;
   }
-  use(at(next(from)));
+  Use neighbors = use;
+  neighbors(at(next(from)));
   Corner last = from, after = from;
   for(std::uint32_t i = 0; i < split.moved; ++i) {
     if(after == no_corner || after == before)
       return false;
-    m_triangles[after / 4][after % 4] = v;
-    use(at(previous(after)));
+    set(after, v);
+    neighbors(at(previous(after)));
     last = after;
-    after = m_next[after];
+    after = following(after);
   }
+  use = neighbors;
   const Corner left = add_triangle(v, t, at(next(from)));
   const Corner right = add_triangle(v, at(previous(last)), t);
   m_first[m_number_of_vertices++] = left;
-  m_next[left] = from;
-  m_next[last] = right;
-  m_next[right] = left;
+  set_following(left, from);
+  set_following(last, right);
+  set_following(right, left);
   if(before != no_corner)
-    m_next[before] = left + 1;
-  m_next[left + 1] = right + 2;
+    set_following(before, left + 1);
+  set_following(left + 1, right + 2);
   if(!is_open || before == no_corner)
     set_first(t, left + 1);
   insert_after(next(from), left + 2);
@@ -315,16 +335,16 @@ bool Corner_rings::split_begin(const Ring_split& split, Use& use)
   for(std::uint32_t i = 0; i < split.moved; ++i) {
     if(after == no_corner)
       return false;
-    m_triangles[after / 4][after % 4] = v;
+    set(after, v);
     last = after;
-    after = m_next[after];
+    after = following(after);
   }
   const bool moves = last != no_corner;
   const Corner right = add_triangle(v, moves ? at(previous(last)) : at(next(from)), t);
   m_first[m_number_of_vertices++] = (moves ? from : right) | border_flag;
-  m_next[right] = no_corner;
+  set_following(right, no_corner);
   if(moves)
-    m_next[last] = right;
+    set_following(last, right);
   set_first(t, right + 2);
   link_right(right, last, after);
   return true;
@@ -341,23 +361,23 @@ bool Corner_rings::split_end(const Ring_split& split, Use& use)
     if(from == no_corner)
       return false;
     before = from;
-    from = m_next[from];
+    from = following(from);
   }
   std::uint32_t moved = 0;
   Corner last = before;
-  for(Corner corner = from; corner != no_corner; corner = m_next[corner]) {
+  for(Corner corner = from; corner != no_corner; corner = following(corner)) {
     if(++moved > max_walk)
       return false;
-    m_triangles[corner / 4][corner % 4] = v;
+    set(corner, v);
     last = corner;
   }
   use(at(previous(last)));
   const Corner left = add_triangle(v, t, moved > 0 ? at(next(from)) : at(previous(before)));
   m_first[m_number_of_vertices++] = left | border_flag;
-  m_next[left] = from;
-  m_next[left + 1] = no_corner;
+  set_following(left, from);
+  set_following(left + 1, no_corner);
   if(before != no_corner)
-    m_next[before] = left + 1;
+    set_following(before, left + 1);
   else
     set_first(t, left + 1);
   if(moved > 0)
@@ -394,12 +414,12 @@ inline Ring_split Corner_rings::find_split(Vertex_index t, Vertex_index b, Verte
 inline void Corner_rings::list_ring(Vertex_index v, std::vector<Vertex_index>& ring) const
 {
   ring.clear();
-  const Corner begin = is_border(v) ? first(v) : m_next[first(v)];
+  const Corner begin = is_border(v) ? first(v) : following(first(v));
   Corner corner = begin, last = begin;
   do {
     ring.push_back(at(next(corner)));
     last = corner;
-    corner = m_next[corner];
+    corner = following(corner);
   } while(corner != begin && corner != no_corner);
   if(corner == no_corner)
     ring.push_back(at(previous(last)));

@@ -108,7 +108,7 @@ private:
   }
   bool is_second(Vertex_index w) const { return w > 0 && m_mesh.vertex[w] == m_mesh.vertex[w - 1]; }
   void set_values();
-  void put_values(Vertex_index w, const std::array<std::uint32_t, 5>& predicted);
+  void put_values(Vertex_index w, const Wedge_values& predicted);
   void append_section(std::uint32_t splits, const std::string& bytes);
   void append_values(std::string& bytes) const;
   std::string put_base();
@@ -122,7 +122,7 @@ private:
   Corner_rings m_rings;
   Rings_ahead m_ahead;
   Parent_prediction m_parents;
-  std::vector<Wedge_values> m_values;
+  Uninitialized_vector<Wedge_values> m_values;
   std::vector<std::array<std::uint32_t, 5>> m_low_values; // if there are
   std::vector<Vertex_index> m_ring;                       // memory
   Columns m_columns;
@@ -133,7 +133,7 @@ private:
 inline void Progressive_mesh_encoder::set_values()
 {
   const std::size_t n = m_mesh.number_of_wedges();
-  m_values.resize(n);
+  m_values.assign(n, Wedge_values());
   m_low_values.resize(m_codec.has_low() ? n : 0);
   for(std::size_t w = 0; w < n; ++w)
     for(int c = 0; c < 5; ++c) {
@@ -146,8 +146,7 @@ inline void Progressive_mesh_encoder::set_values()
 }
 
 // Residuals are the shorter way round if values have fewer than 32 bits.
-inline void Progressive_mesh_encoder::put_values(Vertex_index w,
-                                                 const std::array<std::uint32_t, 5>& predicted)
+inline void Progressive_mesh_encoder::put_values(Vertex_index w, const Wedge_values& predicted)
 {
   for(int c = is_second(w) ? 3 : 0; c < 5; ++c) {
     const std::uint32_t mask = m_codec.mask(c), sign = (mask >> 1) + 1;
@@ -193,11 +192,11 @@ inline std::string Progressive_mesh_encoder::put_base()
       triangles[t][c] = ancestor(triangles[t][c], m_header.base.wedges);
       corners.push_back(zigzag(triangles[t][c] - last[c]));
     }
-  std::array<std::uint32_t, 5> before = {};
+  Wedge_values before = {};
   for(Vertex_index w = 0; w < m_header.base.wedges; ++w) {
     m_columns.pairs.push_back(is_second(w));
     put_values(w, before);
-    std::copy_n(m_values[w].begin(), 5, before.begin());
+    before = m_values[w];
   }
   std::string bytes;
   append_little_endian(bytes, ends.size(), 4);
@@ -239,9 +238,11 @@ inline std::string Progressive_mesh_encoder::put_split(Vertex_index w)
   m_columns.deltas.push_back(code.delta);
   m_columns.skipped.push_back(split.skipped);
   m_columns.moved.push_back(zigzag(split.moved - expected_moved));
-  Value_prediction prediction(m_values, t);
+  Value_prediction<Wedge_values> prediction(m_values, t);
   m_rings.split(split, prediction);
-  put_values(w, prediction.mean());
+  Wedge_values predicted;
+  prediction.store_mean(predicted);
+  put_values(w, predicted);
   return {};
 }
 

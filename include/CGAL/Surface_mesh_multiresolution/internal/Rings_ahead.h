@@ -36,8 +36,8 @@ public:
   }
 
 private:
-  // The corners of a ring that are asked for one after the other: more than most splits pass.
-  static constexpr std::size_t corners_ahead = 6;
+  // The corners of a ring that are asked for one after the other: about as many as splits pass.
+  static constexpr std::size_t corners_ahead = 4;
 
   // That of split i + 1 + j.
   std::array<Corner_rings::Corner, corners_ahead + 1> m_cursors = {};

@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_TEXTURE_LAYER_H
 
 #include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/Chart_borders.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/Triangles_at_vertices.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/Vertex_rings.h>
 
@@ -51,6 +52,15 @@ public:
                 const std::vector<Vertex_index>& source, const Vertex_rings& rings,
                 double deviation_weight);
 
+  // From here on no border of a chart may be taken over a corner of another or of its own.
+  void keep_borders_simple(const Textured_triangle_mesh& texture);
+
+  // To be called before each pass, by one thread.
+  void begin_pass()
+  {
+    m_borders.update([this](const Chart_border_corner& corner) { return is_gone(corner.wedge); });
+  }
+
   // Tells where the rings are while the engine changes them.
   void set_rings(const Vertex_rings& rings) { m_rings = &rings; }
 
@@ -77,10 +87,11 @@ public:
     return float(result);
   }
 
-  // Whether charts stay disks and no triangle turns over in the texture.
-  bool is_possible(Vertex_index v, std::uint32_t k) const
+  // Whether charts stay disks, no triangle turns over in the texture and borders stay simple. In
+  // this pass the caller is the only one that removes the vertices from `low` to `high`.
+  bool is_possible(Vertex_index v, std::uint32_t k, Vertex_index low, Vertex_index high) const
   {
-    return leaves_charts(v, k) && leaves_orientations(v, k);
+    return leaves_charts(v, k) && leaves_orientations(v, k) && leaves_borders(v, k, low, high);
   }
 
   // Notes the collapse of v into its ring vertex k. To be called before the rings change.
@@ -132,10 +143,14 @@ private:
   Vertex_index wedge_behind(Vertex_index v, Vertex_index neighbor) const;
   Vertex_index other_end(Vertex_index v, Vertex_index t) const;
   void replace_spoke(Vertex_index v, Vertex_index neighbor, Vertex_index other);
+  template <class Use>
+  void for_each_shortcut(Vertex_index v, std::uint32_t k, const Use& use) const;
+  bool is_gone(Vertex_index wedge) const { return m_kept_wedge[wedge] != no_vertex; }
   double seam_shift(Vertex_index v, std::uint32_t k) const;
   double deviation(Vertex_index v, std::uint32_t k) const;
   bool leaves_charts(Vertex_index v, std::uint32_t k) const;
   bool leaves_orientations(Vertex_index v, std::uint32_t k) const;
+  bool leaves_borders(Vertex_index v, std::uint32_t k, Vertex_index low, Vertex_index high) const;
 
   double double_area(Vertex_index p, Vertex_index q, Vertex_index r) const
   {
@@ -151,6 +166,7 @@ private:
   std::vector<Spoke> m_spokes;
   std::vector<Vertex_index> m_kept_wedge; // of each wedge that is gone
   std::vector<float> m_deviation;         // of each vertex: what is lost already
+  Chart_borders m_borders;                // as the pass began; none if they need not stay simple
 };
 
 inline Texture_layer::Texture_layer(const Textured_triangle_mesh& texture,
@@ -295,25 +311,36 @@ void Texture_layer::for_each_change(Vertex_index v, std::uint32_t k, const Use& 
   }
 }
 
-// The area by which the collapse moves the seam in the charts, the larger of both, in the units of
-// the surface.
-inline double Texture_layer::seam_shift(Vertex_index v, std::uint32_t k) const
+// Calls use(wedge of v, of t, of s) for each chart whose border goes from t to s instead of over v
+// after the collapse into ring vertex k, which is t. Precondition: v is on a seam or border.
+template <class Use>
+void Texture_layer::for_each_shortcut(Vertex_index v, std::uint32_t k, const Use& use) const
 {
   const Vertex_index* r = m_rings->ring(v);
   const std::uint32_t d = m_rings->degree(v);
   const Vertex_index t = r[k], s = other_end(v, t);
+  const Target_wedges target = target_wedges(v, k);
+  if(!has_spokes(v)) {
+    use(m_wedge[v], target.behind, wedge_behind(s, s == r[0] ? r[1] : v));
+    return;
+  }
   const std::uint32_t j = std::uint32_t(std::find(r, r + d, s) - r);
-  const double length = squared_distance(m_points[v], m_points[t]);
+  use(find_spoke(v, t)->wedge, target.behind, wedge_behind(s, v));
+  use(find_spoke(v, s)->wedge, target.ahead, wedge_behind(s, r[j + 1 == d ? 0 : j + 1]));
+}
+
+// The area by which the collapse moves the seam in the charts, the larger of both, in the units of
+// the surface.
+inline double Texture_layer::seam_shift(Vertex_index v, std::uint32_t k) const
+{
+  const double length = squared_distance(m_points[v], m_points[m_rings->ring(v)[k]]);
   double result = 0.;
-  const auto add = [&](Vertex_index wedge_v, Vertex_index wedge_t, Vertex_index wedge_s) {
+  for_each_shortcut(v, k, [&](Vertex_index wedge_v, Vertex_index wedge_t, Vertex_index wedge_s) {
     const double uv_length = squared_distance(m_uv[wedge_v], m_uv[wedge_t]);
     const double area = 0.5 * std::abs(double_area(wedge_v, wedge_t, wedge_s));
     if(uv_length > 0.)
       result = (std::max)(result, area * length / uv_length);
-  };
-  const Target_wedges target = target_wedges(v, k);
-  add(find_spoke(v, t)->wedge, target.behind, wedge_behind(s, v));
-  add(find_spoke(v, s)->wedge, target.ahead, wedge_behind(s, r[j + 1 == d ? 0 : j + 1]));
+  });
   return result;
 }
 
@@ -364,6 +391,43 @@ inline bool Texture_layer::leaves_orientations(Vertex_index v, std::uint32_t k) 
   bool result = true;
   for_each_change(v, k, [&](const Change& c) {
     result &= !has_turned_over(double_area(c.v, c.a, c.b), double_area(c.t, c.a, c.b));
+  });
+  return result;
+}
+
+inline void Texture_layer::keep_borders_simple(const Textured_triangle_mesh& texture)
+{
+  std::vector<Chart_border_corner> corners;
+  const auto add = [&](Vertex_index wedge, Vertex_index v) {
+    if(wedge != no_vertex)
+      corners.push_back({m_uv[wedge], wedge, v});
+  };
+  for(Vertex_index v = 0; v < m_wedge.size(); ++v) {
+    for(std::uint32_t i = 0; i < number_of_spokes(v); ++i)
+      add(spoke(v, i).wedge, v);
+    if(!has_spokes(v) && m_rings->is_border(v))
+      add(m_wedge[v], v);
+  }
+  m_borders = Chart_borders(std::move(corners), texture.wedges, m_uv);
+}
+
+// Corners are only ever removed: those that are there as the pass begins are all that there can be
+// when the collapse takes place, in whatever order the threads collapse. Of those that this thread
+// may remove in this pass, and no other, it knows which are gone. What the others have done by now
+// is not looked at, so that the number of threads makes no difference.
+inline bool Texture_layer::leaves_borders(Vertex_index v, std::uint32_t k, Vertex_index low,
+                                          Vertex_index high) const
+{
+  if(m_borders.number_of_corners() == 0 || (!has_spokes(v) && !m_rings->is_border(v)))
+    return true;
+  bool result = true;
+  for_each_shortcut(v, k, [&](Vertex_index wedge_v, Vertex_index wedge_t, Vertex_index wedge_s) {
+    result = result
+          && m_borders.is_free({wedge_v, wedge_t, wedge_s}, m_uv,
+                               [&](const Chart_border_corner& corner) {
+                                 return low <= corner.vertex && corner.vertex < high
+                                     && is_gone(corner.wedge);
+                               });
   });
   return result;
 }

@@ -7,6 +7,7 @@
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/build_progressive_mesh.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/Chart_borders.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/Vertex_rings.h>
 
 #include <algorithm>
@@ -20,7 +21,8 @@ namespace Surface_mesh_multiresolution {
 namespace internal {
 
 // The collapses of a progressive mesh once more, without those that turn triangles over in the
-// texture, and those that are no longer possible without them.
+// texture or take a border over a corner of one, and those that are no longer possible without
+// them.
 class Replay
 {
 public:
@@ -34,7 +36,8 @@ public:
   std::string run(const Progressive_mesh& pm,
                   const std::vector<Textured_triangle_mesh::Point_3>& points,
                   const std::vector<Textured_triangle_mesh::Point_2>& uv,
-                  std::size_t target_vertices, const std::vector<bool>& is_locked)
+                  std::size_t target_vertices, const std::vector<bool>& is_locked,
+                  bool keep_borders_simple)
   {
     m_rings = Vertex_rings({points, pm.triangles});
     std::vector<Vertex_index> all(points.size());
@@ -43,14 +46,25 @@ public:
     if(!error.empty())
       return error;
     std::vector<bool> is_gone(points.size(), false);
+    if(keep_borders_simple)
+      m_borders = Chart_borders(border_corners(uv), pm.triangles, uv);
+    std::size_t next_update = points.size() / 2; // vertices left
+    const auto is_gone_corner = [&is_gone](const Chart_border_corner& corner) {
+      return bool(is_gone[corner.wedge]);
+    };
     auto batch_end = pm.batch_ends.begin();
     for(std::size_t i = 0; i < pm.collapses.size(); ++i) {
       const auto [removed, kept] = pm.collapses[i];
       prefetch(pm.collapses, i, uv);
       if(points.size() - collapses.size() > target_vertices
-         && (is_locked.empty() || !is_locked[removed]) && try_collapse(removed, kept, uv)) {
+         && (is_locked.empty() || !is_locked[removed])
+         && try_collapse(removed, kept, uv, is_gone_corner)) {
         collapses.push_back(pm.collapses[i]);
         is_gone[removed] = true;
+        if(points.size() - collapses.size() <= next_update) {
+          m_borders.update(is_gone_corner);
+          next_update /= 2;
+        }
       }
       if(batch_end != pm.batch_ends.end() && *batch_end == i + 1) {
         if(!collapses.empty() && (batch_ends.empty() || batch_ends.back() < collapses.size()))
@@ -81,11 +95,24 @@ private:
     }
   }
 
-  bool try_collapse(Vertex_index v, Vertex_index t, const Uv& uv)
+  std::vector<Chart_border_corner> border_corners(const Uv& uv) const
+  {
+    std::vector<Chart_border_corner> corners;
+    for(Vertex_index v = 0; v < uv.size(); ++v)
+      if(m_rings.is_border(v))
+        corners.push_back({uv[v], v, v});
+    return corners;
+  }
+
+  template <class IsGone>
+  bool try_collapse(Vertex_index v, Vertex_index t, const Uv& uv, const IsGone& is_gone)
   {
     const Vertex_index* r = m_rings.ring(v);
     const std::uint32_t k = std::uint32_t(std::find(r, r + m_rings.degree(v), t) - r);
     if(k == m_rings.degree(v) || !m_rings.is_collapse_valid(v, k) || turns_over(v, t, uv))
+      return false;
+    const Vertex_index s = r[k == 0 ? m_rings.degree(v) - 1 : 0]; // the other end if t is one
+    if(m_rings.is_border(v) && !m_borders.is_free({v, t, s}, uv, is_gone))
       return false;
     m_rings.collapse(v, k);
     return true;
@@ -124,6 +151,7 @@ private:
   }
 
   Vertex_rings m_rings;
+  Chart_borders m_borders; // none if they need not stay simple
 };
 
 } // namespace internal

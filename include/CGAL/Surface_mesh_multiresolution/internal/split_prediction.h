@@ -8,10 +8,12 @@
 
 #include <CGAL/Surface_mesh_multiresolution/Indexed_triangle_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/Code_column.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/Uninitialized_vector.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 namespace CGAL {
@@ -84,46 +86,116 @@ private:
 // The corners that a split moves most often, as most vertices that are removed have six neighbours.
 constexpr std::uint32_t expected_moved = 3;
 
-// x, y, z, u, v as integers; what follows is 0 and fills half a line of a cache.
-struct alignas(32) Wedge_values : std::array<std::uint32_t, 8>
+// x, y, z, u, v as integers; what follows is 0, so that one load or store takes all.
+template <class T>
+struct alignas(8 * sizeof(T)) Wedge_row : std::array<T, 8>
 {};
+
+typedef Wedge_row<std::uint32_t> Wedge_values;
+typedef Wedge_row<std::uint16_t> Short_wedge_values; // where 16 bits are enough, in half the memory
+
+// Sums of eight numbers side by side. Compilers that know vectors are told that this is one: left
+// to themselves they take it apart.
+class Wedge_value_sums
+{
+public:
+  Wedge_value_sums() : m_values() {}
+
+  template <class T>
+  void add(const Wedge_row<T>& row)
+  {
+    Lanes other;
+    load(row, other);
+    m_values += other;
+  }
+
+  // Stores parent + (sums - count * parent) * factor / 2^20, rounded to nearest.
+  template <class T>
+  void store_mean(const Wedge_row<T>& parent, std::uint32_t count, std::uint32_t factor,
+                  Wedge_values& result) const;
+
+private:
+#if defined(__GNUC__)
+  typedef std::uint32_t Lanes __attribute__((vector_size(32)));
+
+  template <class T>
+  static void load(const Wedge_row<T>& row, Lanes& lanes)
+  {
+    typedef T Row __attribute__((vector_size(8 * sizeof(T))));
+    Row numbers;
+    std::memcpy(&numbers, &row, sizeof numbers);
+    lanes = __builtin_convertvector(numbers, Lanes);
+  }
+#else
+  struct Lanes : std::array<std::uint32_t, 8>
+  {
+    void operator+=(const Lanes& other)
+    {
+      for(int c = 0; c < 8; ++c)
+        (*this)[c] += other[c];
+    }
+  };
+
+  template <class T>
+  static void load(const Wedge_row<T>& row, Lanes& lanes)
+  {
+    std::copy(row.begin(), row.end(), lanes.begin());
+  }
+#endif
+
+  Lanes m_values;
+};
+
+template <class T>
+void Wedge_value_sums::store_mean(const Wedge_row<T>& parent, std::uint32_t count,
+                                  std::uint32_t factor, Wedge_values& result) const
+{
+#if defined(__GNUC__) && defined(__AVX512DQ__) && defined(__AVX512VL__) // has the product
+  typedef std::int32_t Signed __attribute__((vector_size(32)));
+  typedef std::int64_t Wide __attribute__((vector_size(64)));
+  Lanes mean;
+  load(parent, mean);
+  const Signed difference = Signed(m_values - count * mean);
+  const Wide product = __builtin_convertvector(difference, Wide) * std::int64_t(factor);
+  mean += __builtin_convertvector((product + (1 << 19)) >> 20, Lanes);
+  std::memcpy(&result, &mean, sizeof mean);
+#else
+  for(int c = 0; c < 5; ++c) {
+    const std::uint32_t difference = m_values[c] - count * parent[c];
+    const std::int64_t product = std::int64_t(std::int32_t(difference)) * factor;
+    result[c] = parent[c] + std::uint32_t((product + (1 << 19)) >> 20);
+  }
+  result[5] = result[6] = result[7] = 0;
+#endif
+}
 
 // The values of a wedge as the mean of those of its parent and other neighbours. In arithmetic
 // modulo 2^32, so that the sums of any values exist.
+template <class Row>
 class Value_prediction
 {
 public:
-  Value_prediction(const std::vector<Wedge_values>& values, Vertex_index parent)
-    : m_values(values.data()), m_parent(parent), m_sum()
+  Value_prediction(const Uninitialized_vector<Row>& values, Vertex_index parent)
+    : m_values(values.data()), m_parent(parent)
   {}
 
   // Takes a neighbour.
   void operator()(Vertex_index w)
   {
-    const Wedge_values values = m_values[w]; // a copy, which makes this one addition
-    for(int c = 0; c < 8; ++c)
-      m_sum[c] += values[c];
+    m_sums.add(m_values[w]);
     ++m_count;
   }
 
-  std::array<std::uint32_t, 5> mean() const
+  void store_mean(Wedge_values& result) const
   {
-    const Wedge_values& parent = m_values[m_parent];
-    const std::int64_t factor = (1 << 20) / (m_count + 1);
-    std::array<std::uint32_t, 5> result;
-    for(int c = 0; c < 5; ++c) {
-      const std::uint32_t difference = m_sum[c] - m_count * parent[c];
-      result[c] = parent[c]
-                + std::uint32_t((std::int32_t(difference) * factor + (1 << 19)) >> 20);
-    }
-    return result;
+    m_sums.store_mean(m_values[m_parent], m_count, (1u << 20) / (m_count + 1), result);
   }
 
 private:
-  const Wedge_values* m_values;
+  const Row* m_values;
   Vertex_index m_parent;
-  Wedge_values m_sum;
   std::uint32_t m_count = 0;
+  Wedge_value_sums m_sums;
 };
 
 } // namespace internal
