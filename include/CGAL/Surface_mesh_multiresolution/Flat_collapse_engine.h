@@ -8,6 +8,7 @@
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_policies.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/Texture_layer.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/nth_cost.h>
 
 #include <algorithm>
 #include <atomic>
@@ -92,11 +93,11 @@ private:
 
   static constexpr float no_cost = (std::numeric_limits<float>::infinity)();
 
-  // Passes go over blocks of this many living vertices; a vertex whose ring leaves its block waits
-  // for the next pass, whose blocks are shifted by half their size. Blocks do not depend on the
-  // number of threads.
-  static constexpr std::size_t block_size = 16384;
-  static constexpr std::size_t blocks_between_reports = 16;
+  // Passes go over blocks of living vertices; a vertex whose ring leaves its block waits for the
+  // next pass, whose blocks are shifted by half their size. They are of this size, or smaller so
+  // that there are several, and do not depend on the number of threads.
+  static constexpr std::size_t block_size = 16384, smallest_block = 2048;
+  static constexpr std::size_t blocks_between_reports = 32;
 
   // How many vertices ahead of their use data are asked for: about the latency of the memory.
   static constexpr std::size_t prefetch_distance = 4;
@@ -395,18 +396,11 @@ template <class Cost, class Filter, class Texture>
 float Flat_collapse_engine<Cost, Filter, Texture>::
 pass_threshold(const std::vector<Vertex_index>& alive, std::size_t wanted, double fraction) const
 {
-  std::vector<float> costs;
-  costs.reserve(alive.size());
-  for(const Vertex_index v : alive)
-    if(m_best_cost[v] < no_cost)
-      costs.push_back(m_best_cost[v]);
-  if(costs.empty())
-    return no_cost;
-  // About three in five of those below the threshold are collapsed: the others become dearer.
-  const double part = (std::min)(fraction * double(costs.size()), 1.6 * double(wanted));
-  const std::size_t rank = (std::min)(costs.size() - 1, std::size_t(part));
-  std::nth_element(costs.begin(), costs.begin() + rank, costs.end());
-  return costs[rank];
+  return internal::nth_cost(alive, m_best_cost, [&](std::size_t number_of_costs) {
+    // About three in five of those below the threshold are collapsed: the others become dearer.
+    const double part = (std::min)(fraction * double(number_of_costs), 1.6 * double(wanted));
+    return (std::min)(number_of_costs - 1, std::size_t(part));
+  });
 }
 
 // Brings all costs up to date. Costs fall, too, where long thin triangles give way to better ones:
@@ -416,10 +410,10 @@ void Flat_collapse_engine<Cost, Filter, Texture>::
 evaluate_stale(const std::vector<Vertex_index>& alive, Progress& progress,
                const Progressive_mesh& pm)
 {
-  constexpr std::size_t stretch = block_size * blocks_between_reports;
+  constexpr std::size_t size = smallest_block, stretch = block_size * blocks_between_reports;
   for(std::size_t first = 0; first < alive.size() && progress(pm); first += stretch) {
     const std::size_t count = (std::min)(stretch, alive.size() - first);
-    Blocked_execution::blocked_for(count, block_size, [&](std::size_t begin, std::size_t end) {
+    Blocked_execution::blocked_for(count, size, [&](std::size_t begin, std::size_t end) {
       Worker worker(surface());
       for(std::size_t i = first + begin; i < first + end; ++i) {
         prefetch(alive, i, first + end);
@@ -431,19 +425,22 @@ evaluate_stale(const std::vector<Vertex_index>& alive, Progress& progress,
   }
 }
 
-// One block if there are few vertices; blocks of equal numbers of living vertices otherwise.
+// One block if there are few vertices; blocks of equal numbers of living vertices, sixteen at
+// least or as small as they may be, otherwise.
 template <class Cost, class Filter, class Texture>
 std::vector<typename Flat_collapse_engine<Cost, Filter, Texture>::Block>
 Flat_collapse_engine<Cost, Filter, Texture>::
 cut_into_blocks(const std::vector<Vertex_index>& alive, std::size_t wanted, bool is_shifted) const
 {
   const Vertex_index end = Vertex_index(m_mesh.points.size());
+  const std::size_t whole
+    = (std::min)((std::max)(alive.size() / 16, smallest_block), std::size_t(block_size));
   std::vector<Block> blocks;
-  if(alive.size() < 4 * block_size)
+  if(alive.size() < 4 * smallest_block)
     blocks.push_back({0, alive.size(), 0, end, wanted, {}});
   else
     for(std::size_t first = 0; first < alive.size();) {
-      const std::size_t size = (first == 0 && is_shifted) ? block_size / 2 : block_size;
+      const std::size_t size = (first == 0 && is_shifted) ? whole / 2 : whole;
       const std::size_t last = (std::min)(first + size, alive.size());
       const std::size_t share = wanted * last / alive.size() - wanted * first / alive.size();
       blocks.push_back({first, last, alive[first], last == alive.size() ? end : alive[last],
@@ -566,7 +563,12 @@ Flat_collapse_engine<Cost, Filter, Texture>::run(const Flat_collapse_options& op
 {
   Progressive_mesh pm;
   pm.number_of_vertices = m_mesh.points.size();
-  pm.triangles = m_mesh.triangles;
+  Blocked_execution::internal::resize_blocked(pm.triangles, m_mesh.triangles.size());
+  Blocked_execution::blocked_for(pm.triangles.size(), block_size,
+                                 [&](std::size_t begin, std::size_t end) {
+    std::copy(m_mesh.triangles.begin() + begin, m_mesh.triangles.begin() + end,
+              pm.triangles.begin() + begin);
+  });
   if(options.order == Collapse_order::STRICT)
     run_strict(options, pm);
   else
