@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_FLAT_COLLAPSE_ENGINE_H
 
 #include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Blocked_execution/internal/select.h>
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_policies.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/Texture_layer.h>
@@ -189,6 +190,7 @@ private:
   void run_block(const std::vector<Vertex_index>& alive, float threshold, Block& block);
   void run_pass(const std::vector<Vertex_index>& alive, float threshold, std::size_t wanted,
                 Progress& progress, Progressive_mesh& pm);
+  void remove_dead(std::vector<Vertex_index>& alive) const;
   void run_batched(const Flat_collapse_options& options, Progressive_mesh& pm);
   void run_strict(const Flat_collapse_options& options, Progressive_mesh& pm);
 
@@ -493,6 +495,18 @@ run_pass(const std::vector<Vertex_index>& alive, float threshold, std::size_t wa
     pm.batch_ends.push_back(pm.collapses.size());
 }
 
+// Takes out the vertices that are gone.
+template <class Cost, class Filter, class Texture>
+void Flat_collapse_engine<Cost, Filter, Texture>::
+remove_dead(std::vector<Vertex_index>& alive) const
+{
+  const std::vector<std::uint32_t> places = Blocked_execution::internal::select(
+    alive.size(), [&](std::uint32_t i) { return m_state[alive[i]].is_gone == 0; });
+  for(std::size_t i = 0; i < places.size(); ++i)
+    alive[i] = alive[places[i]];
+  alive.resize(places.size());
+}
+
 template <class Cost, class Filter, class Texture>
 void Flat_collapse_engine<Cost, Filter, Texture>::
 run_batched(const Flat_collapse_options& options, Progressive_mesh& pm)
@@ -511,9 +525,7 @@ run_batched(const Flat_collapse_options& options, Progressive_mesh& pm)
       break;
     const std::size_t before = alive.size();
     run_pass(alive, threshold, wanted, progress, pm);
-    alive.erase(std::remove_if(alive.begin(), alive.end(),
-                               [this](Vertex_index v) { return m_state[v].is_gone != 0; }),
-                alive.end());
+    remove_dead(alive);
     const std::size_t done = before - alive.size();
     if(2 * done < wanted && 500 * done < before) // what is left cannot be removed
       break;

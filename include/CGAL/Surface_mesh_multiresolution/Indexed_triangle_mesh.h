@@ -52,9 +52,16 @@ namespace internal {
 // For each of `n` things its position among the members, or `no_vertex`.
 inline std::vector<Vertex_index> ranks(const std::vector<Vertex_index>& members, std::size_t n)
 {
-  std::vector<Vertex_index> result(n, no_vertex);
-  for(Vertex_index i = 0; i < members.size(); ++i)
-    result[members[i]] = i;
+  constexpr std::size_t block = 32768;
+  std::vector<Vertex_index> result;
+  Blocked_execution::internal::resize_blocked(result, n);
+  Blocked_execution::blocked_for(n, block, [&result](std::size_t begin, std::size_t end) {
+    std::fill(result.begin() + begin, result.begin() + end, no_vertex);
+  });
+  Blocked_execution::blocked_for(members.size(), block, [&](std::size_t begin, std::size_t end) {
+    for(std::size_t i = begin; i < end; ++i)
+      result[members[i]] = Vertex_index(i);
+  });
   return result;
 }
 

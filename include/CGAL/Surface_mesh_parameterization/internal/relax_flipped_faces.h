@@ -73,7 +73,7 @@ vertices_around(const Multigrid::Hermitian_matrix<double>& h,
 // Moves the vertices of a patch to the minimum of the energy for which all others stay. The patch
 // is ascending and has no pins.
 inline void minimize_on_patch(const Multigrid::Hermitian_matrix<double>& h,
-                                            const std::vector<std::uint32_t>& patch,
+                              const std::vector<std::uint32_t>& patch,
                               std::vector<std::complex<double>>& z)
 {
   typedef std::complex<double> Complex;
