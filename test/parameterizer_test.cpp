@@ -239,15 +239,16 @@ TEST(Hierarchical_method, meets_the_tolerance_with_every_schedule)
                                 Schedule::w_cycle(1, 1), Schedule::w_cycle(2, 2),
                                 Schedule::k_cycle(0, 2), Schedule::k_cycle(1, 1), Schedule()};
   for(const std::uint64_t seed : {1, 2})
-    for(const auto& [name, mesh] : large_charts(seed)) {
+    for(const auto& [name, mesh] : curved_charts(seed)) {
+      if(std::string(name).find("hills") == std::string::npos)
+        continue; // where some of them converge fast at first, and slowly then
       Surface_mesh surface_mesh = to_surface_mesh(mesh);
       const double least
         = parameterize(surface_mesh, with_method(Conformal_method::DIRECT)).report.energy;
       for(const double tolerance : {1e-2, 1e-3})
         for(std::size_t s = 0; s < std::size(schedules); ++s) {
-          HLSCM_options options = with_method(Conformal_method::HLSCM, tolerance);
+          HLSCM_options options = with_many_levels(tolerance);
           options.schedule = schedules[s];
-          options.coarsest_size = 500;
           const auto run = parameterize(surface_mesh, options);
           ASSERT_EQ(run.error, SMP::OK) << run.report.message;
           EXPECT_LE(run.report.energy - least, tolerance * run.report.energy)
