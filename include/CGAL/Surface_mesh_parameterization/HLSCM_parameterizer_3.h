@@ -62,7 +62,7 @@ own, `repair_flipped_faces.h`.
         default a sparse Cholesky factorization of complex matrices by Eigen
 \tparam ConcurrencyTag `Sequential_tag` (default), `Parallel_tag` or `Parallel_if_available_tag`;
         parallel, the stages of the hierarchical method use `HLSCM_options::threads` threads of TBB,
-        with the same result to the bit for any number
+        which read the mesh at the same time, with the same result to the bit for any number
 
 \cgalModels{Parameterizer_3}
 
