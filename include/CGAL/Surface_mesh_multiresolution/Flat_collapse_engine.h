@@ -94,10 +94,11 @@ private:
 
   static constexpr float no_cost = (std::numeric_limits<float>::infinity)();
 
-  // Passes go over blocks of living vertices; a vertex whose ring leaves its block waits for the
-  // next pass, whose blocks are shifted by half their size. They are of this size, or smaller so
-  // that there are several, and do not depend on the number of threads.
-  static constexpr std::size_t block_size = 16384, smallest_block = 2048;
+  // Passes go over blocks of this many living vertices; a vertex whose ring leaves its block waits
+  // for the next pass, whose blocks are shifted by half their size. Blocks do not depend on the
+  // number of threads. Smaller ones spoil the levels: with an eighth, solvers need up to half as
+  // many iterations more.
+  static constexpr std::size_t block_size = 16384;
   static constexpr std::size_t blocks_between_reports = 32;
 
   // How many vertices ahead of their use data are asked for: about the latency of the memory.
@@ -412,7 +413,7 @@ void Flat_collapse_engine<Cost, Filter, Texture>::
 evaluate_stale(const std::vector<Vertex_index>& alive, Progress& progress,
                const Progressive_mesh& pm)
 {
-  constexpr std::size_t size = smallest_block, stretch = block_size * blocks_between_reports;
+  constexpr std::size_t size = block_size / 8, stretch = block_size * blocks_between_reports;
   for(std::size_t first = 0; first < alive.size() && progress(pm); first += stretch) {
     const std::size_t count = (std::min)(stretch, alive.size() - first);
     Blocked_execution::blocked_for(count, size, [&](std::size_t begin, std::size_t end) {
@@ -427,22 +428,19 @@ evaluate_stale(const std::vector<Vertex_index>& alive, Progress& progress,
   }
 }
 
-// One block if there are few vertices; blocks of equal numbers of living vertices, sixteen at
-// least or as small as they may be, otherwise.
+// One block if there are few vertices; blocks of equal numbers of living vertices otherwise.
 template <class Cost, class Filter, class Texture>
 std::vector<typename Flat_collapse_engine<Cost, Filter, Texture>::Block>
 Flat_collapse_engine<Cost, Filter, Texture>::
 cut_into_blocks(const std::vector<Vertex_index>& alive, std::size_t wanted, bool is_shifted) const
 {
   const Vertex_index end = Vertex_index(m_mesh.points.size());
-  const std::size_t whole
-    = (std::min)((std::max)(alive.size() / 16, smallest_block), std::size_t(block_size));
   std::vector<Block> blocks;
-  if(alive.size() < 4 * smallest_block)
+  if(alive.size() < 4 * block_size)
     blocks.push_back({0, alive.size(), 0, end, wanted, {}});
   else
     for(std::size_t first = 0; first < alive.size();) {
-      const std::size_t size = (first == 0 && is_shifted) ? whole / 2 : whole;
+      const std::size_t size = (first == 0 && is_shifted) ? block_size / 2 : block_size;
       const std::size_t last = (std::min)(first + size, alive.size());
       const std::size_t share = wanted * last / alive.size() - wanted * first / alive.size();
       blocks.push_back({first, last, alive[first], last == alive.size() ? end : alive[last],
