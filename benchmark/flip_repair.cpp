@@ -14,6 +14,7 @@
 
 #include <CGAL/Surface_mesh_parameterization/Map_certificate.h>
 #include <CGAL/Surface_mesh_parameterization/Two_vertices_parameterizer_3.h>
+#include <CGAL/Surface_mesh_parameterization/repair_flipped_faces.h>
 #include <CGAL/boost/graph/IO/polygon_mesh_io.h>
 
 #include <filesystem>
@@ -65,7 +66,7 @@ void print_row(Case& item, SMP::Conformal_weights weights, bool has_pins_of_cgal
 {
   SMP::HLSCM_options options = with_method(SMP::Conformal_method::DIRECT);
   options.weights = weights;
-  options.repair_flips = true;
+  options.repair_flips = SMP::Flip_repairer();
   const Outcome run = parameterize(item.mesh, options,
                                    has_pins_of_cgal ? pins_of_cgal(item.mesh) : Pins());
   if(run.error != SMP::OK)

@@ -3,9 +3,10 @@
 
 // What each stage of parameterize() costs, beside what bounds it: a CSV file on stdout. The stages
 // are run one by one, by the functions that the parameterizer calls; the last rows are their sum
-// and parameterize() itself.
+// and parameterize() itself. With --threads, the same with that many threads beside it: the runs
+// alternate.
 //
-// Usage: stages MESH...
+// Usage: stages [--threads N] MESH...
 
 #include "charts/chart_io.h"
 #include "machine.h"
@@ -13,6 +14,8 @@
 #include "stages/bytes.h"
 
 #include <CGAL/Surface_mesh_parameterization/HLSCM_parameterizer_3.h>
+
+#include <CLI/CLI.hpp>
 
 #include <exception>
 #include <filesystem>
@@ -301,13 +304,15 @@ Stage sum_of(const std::vector<Stage>& all)
   return sum;
 }
 
-Stage parameterize(const Mesh& mesh, Uv_map uvmap)
+Stage parameterize(const Mesh& mesh, Uv_map uvmap, unsigned int threads)
 {
   Mesh::Halfedge_index border;
   for(const auto h : mesh.halfedges())
     if(mesh.is_border(h))
       border = h;
-  SMP::HLSCM_parameterizer_3<Mesh> parameterizer;
+  SMP::HLSCM_parameterizer_3<Mesh, CGAL::Default, CGAL::Default, CGAL::Parallel_if_available_tag>
+      parameterizer;
+  parameterizer.options().threads = threads;
   Stage_list list;
   Stage& stage = list.run("parameterize()", [&] {
     if(parameterizer.parameterize(mesh, border, uvmap) != SMP::OK)
@@ -326,38 +331,71 @@ void release_memory()
 #endif
 }
 
-void print_rows(const std::string& path)
+// The runs with one number of threads.
+struct Runs
+{
+  unsigned int threads;
+  std::vector<std::vector<Stage>> staged, whole;
+
+  void add(const Mesh& mesh, Uv_map uvmap, double per_evaluation)
+  {
+    release_memory();
+    {
+      const CGAL::Blocked_execution::Thread_scope scope(threads);
+      staged.push_back(Staged_map(mesh, uvmap, per_evaluation).run());
+    }
+    release_memory();
+    whole.push_back({parameterize(mesh, uvmap, threads)});
+  }
+
+  void print(const std::string& chart, std::size_t faces) const
+  {
+    std::vector<Stage> rows = median(staged);
+    const Stage sum = sum_of(rows);
+    rows.push_back(sum);
+    rows.push_back(median(whole).front());
+    for(const Stage& row : rows)
+      write_row(chart, faces, threads, row, sum.seconds, std::cout);
+  }
+};
+
+void print_rows(const std::string& path, const std::vector<unsigned int>& numbers_of_threads)
 {
   Mesh mesh = charts::make_surface_mesh(charts::read_chart(path));
   const Uv_map uvmap =
       mesh.add_property_map<Mesh::Vertex_index, charts::Kernel::Point_2>("v:uv").first;
   const double per_evaluation = seconds_per_evaluation(mesh);
-  std::vector<std::vector<Stage>> runs, whole_runs;
-  for(int i = 0; i < repetitions; ++i) {
-    release_memory();
-    runs.push_back(Staged_map(mesh, uvmap, per_evaluation).run());
-    release_memory();
-    whole_runs.push_back({parameterize(mesh, uvmap)});
-  }
-  std::vector<Stage> rows = median(runs);
-  const Stage sum = sum_of(rows);
-  rows.push_back(sum);
-  rows.push_back(median(whole_runs).front());
-  for(const Stage& row : rows)
-    write_row(std::filesystem::path(path).stem().string(), mesh.number_of_faces(), row, sum.seconds,
-              std::cout);
+  std::vector<Runs> all;
+  for(const unsigned int threads : numbers_of_threads)
+    all.push_back({threads, {}, {}});
+  for(int i = 0; i < repetitions; ++i)
+    for(Runs& runs : all)
+      runs.add(mesh, uvmap, per_evaluation);
+  for(const Runs& runs : all)
+    runs.print(std::filesystem::path(path).stem().string(), mesh.number_of_faces());
 }
 
 } // namespace
 
 int main(int argc, char** argv)
 {
+  CLI::App app("What each stage of parameterize() costs, beside what bounds it, as CSV");
+  unsigned int threads = 1;
+  std::vector<std::string> paths;
+  app.add_option("--threads", threads, "Measure with so many threads, too")->check(CLI::Range(1, 64));
+  app.add_option("MESH", paths, "Charts")->required();
+  CLI11_PARSE(app, argc, argv);
+  std::vector<unsigned int> numbers(1, 1);
+  if(threads > 1)
+    numbers.push_back(threads);
   try {
-    std::cout << "# " << machine::description() << "; memory copied at "
-              << traffic::copy_bandwidth() * 1e-9 << " GB/s read and written\n";
+    std::cout << "# " << machine::description() << "; memory copied at";
+    for(const unsigned int n : numbers)
+      std::cout << (n == 1 ? " " : " and ") << traffic::copy_bandwidth(n) * 1e-9;
+    std::cout << " GB/s read and written" << (threads > 1 ? " by one and all threads" : "") << "\n";
     write_header(std::cout);
-    for(int i = 1; i < argc; ++i)
-      print_rows(argv[i]);
+    for(const std::string& path : paths)
+      print_rows(path, numbers);
   } catch(const std::exception& e) {
     std::cerr << "stages: " << e.what() << "\n";
     return 1;

@@ -9,30 +9,55 @@
 #include <CGAL/Multigrid/Hermitian_matrix.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
+#include <map>
+#include <thread>
 #include <vector>
 
 // What the memory gives, and what work asks of it.
 namespace traffic {
 
-// The bytes a second that a copy of 128 MB reads and writes, the best of five: the bound for work
-// whose data do not fit into the caches.
-inline double copy_bandwidth()
+// The bytes a second that `threads` threads read and write together, each of which copies 128 MB of
+// its own, the best of five: the bound for work whose data do not fit into the caches.
+inline double measure_copy_bandwidth(unsigned int threads)
 {
-  static const double best = [] {
-    std::vector<char> from(std::size_t(1) << 27, 1), to(from.size(), 2);
-    double result = 0;
-    for(char i = 0; i < 5; ++i) {
-      from[std::size_t(i)] = i;
-      const timing::Stopwatch stopwatch;
-      std::memcpy(to.data(), from.data(), from.size());
-      const volatile char used = to[std::size_t(i)];
+  constexpr std::size_t bytes = std::size_t(1) << 27;
+  std::vector<std::vector<char>> from(threads, std::vector<char>(bytes, 1)), to = from;
+  double result = 0;
+  for(char i = 0; i < 5; ++i) {
+    std::atomic<unsigned int> ready(0);
+    const auto copy = [&](unsigned int t) {
+      from[t][std::size_t(i)] = i;
+      ++ready;
+      while(ready < threads) {
+      }
+      std::memcpy(to[t].data(), from[t].data(), bytes);
+      const volatile char used = to[t][std::size_t(i)];
       (void)used;
-      result = std::max(result, 2. * double(from.size()) / stopwatch.seconds());
+    };
+    std::vector<std::thread> others;
+    for(unsigned int t = 1; t < threads; ++t)
+      others.emplace_back(copy, t);
+    while(ready + 1 < threads) {
     }
-    return result;
-  }();
-  return best;
+    const timing::Stopwatch stopwatch;
+    copy(0);
+    for(std::thread& other : others)
+      other.join();
+    result = std::max(result, 2. * double(bytes) * threads / stopwatch.seconds());
+  }
+  return result;
+}
+
+// The same, measured once.
+inline double copy_bandwidth(unsigned int threads = 1)
+{
+  static std::map<unsigned int, double> known;
+  const auto [at, is_new] = known.insert({threads, 0.});
+  if(is_new)
+    at->second = measure_copy_bandwidth(threads);
+  return at->second;
 }
 
 template <class Vector>

@@ -500,7 +500,7 @@ TEST(Repair, makes_no_branch_points)
     const auto mesh = with_noise(irregular_grid(30, 30, seed), 5., seed + 1);
     Surface_mesh surface_mesh = to_surface_mesh(mesh);
     SMP::HLSCM_options options = with_method(Conformal_method::DIRECT);
-    options.repair_flips = true;
+    options.repair_flips = SMP::Flip_repairer();
     const Outcome run = parameterize(surface_mesh, options);
     const Flip_repair_report& r = *run.report.flip_repair;
     std::cout << "seed " << seed << ": " << r.flipped_before << " -> " << r.flipped_after
@@ -547,7 +547,7 @@ TEST(Repair, mends_the_maps_of_all_methods)
         options.weights = weights;
         options.coarsest_size = 200;
         const Outcome plain = parameterize(surface_mesh, options);
-        options.repair_flips = true;
+        options.repair_flips = SMP::Flip_repairer();
         const Outcome run = parameterize(surface_mesh, options);
         ASSERT_EQ(run.error, SMP::OK);
         ASSERT_TRUE(run.report.flip_repair.has_value());
@@ -565,6 +565,86 @@ TEST(Repair, mends_the_maps_of_all_methods)
       }
     }
   EXPECT_GT(mended, 10u); // or this test would not test anything
+}
+
+// What is mended by then stays so, and everything else as it was.
+TEST(Repair, can_be_stopped_between_patches)
+{
+  const auto mesh = rough_chart(1);
+  Surface_mesh surface_mesh = to_surface_mesh(mesh);
+  const Outcome plain = parameterize(surface_mesh, with_method(Conformal_method::DIRECT));
+  const std::size_t before = bad_faces(mesh, plain.uv).size();
+  for(const int calls : {0, 1, 2}) {
+    std::vector<double> parts;
+    SMP::HLSCM_options options = with_method(Conformal_method::DIRECT);
+    options.repair_flips = [&](SMP::Map_to_repair& map, const auto& progress) {
+      const std::vector<Complex> old = map.z;
+      const Flip_repair_report report = SMP::Flip_repairer()(map, [&](double part) {
+        parts.push_back(part);
+        return progress(part) && int(parts.size()) <= calls;
+      });
+      EXPECT_EQ(old != map.z, report.moved_vertices > 0);
+      return report;
+    };
+    const Outcome run = parameterize(surface_mesh, options);
+    ASSERT_EQ(run.error, SMP::OK);
+    const Flip_repair_report& r = *run.report.flip_repair;
+    EXPECT_EQ(r.stopped_early, int(parts.size()) == calls + 1);
+    EXPECT_EQ(bad_faces(mesh, run.uv), r.unmended_faces);
+    for(const double part : parts)
+      EXPECT_TRUE(part >= 0. && part <= 1.);
+    if(calls == 0) {
+      EXPECT_EQ(r.moved_vertices, 0u);
+      EXPECT_EQ(run.uv, plain.uv);
+      EXPECT_EQ(r.unmended_faces.size(), before);
+      EXPECT_FALSE(run.report.warnings.empty());
+    } else
+      EXPECT_LT(r.unmended_faces.size(), before);
+  }
+}
+
+TEST(Repair, obeys_the_progress_function)
+{
+  Surface_mesh mesh = to_surface_mesh(rough_chart(1));
+  SMP::HLSCM_options options = with_method(Conformal_method::DIRECT);
+  options.repair_flips = SMP::Flip_repairer();
+  std::vector<double> parts;
+  options.progress = [&](double part) {
+    parts.push_back(part);
+    return true;
+  };
+  ASSERT_EQ(parameterize(mesh, options).error, SMP::OK);
+  EXPECT_TRUE(std::is_sorted(parts.begin(), parts.end()));
+  EXPECT_EQ(parts.back(), 1.);
+  const auto in_repair = [](double part) { return part >= 0.9; };
+  EXPECT_GT(std::count_if(parts.begin(), parts.end(), in_repair), 2);
+  parts.clear();
+  options.progress = [&](double part) {
+    parts.push_back(part);
+    return std::count_if(parts.begin(), parts.end(), in_repair) < 2;
+  };
+  const Outcome run = parameterize(mesh, options);
+  EXPECT_NE(run.error, SMP::OK);
+  EXPECT_TRUE(run.report.cancelled);
+  EXPECT_EQ(run.report.message, "cancelled");
+}
+
+TEST(Repair, obeys_the_time_limit)
+{
+  Surface_mesh mesh = to_surface_mesh(rough_chart(1));
+  for(const double limit : {0., 1e-9, 1e6}) {
+    SMP::HLSCM_options options = with_method(Conformal_method::DIRECT);
+    options.time_limit = limit;
+    bool goes_on = false;
+    options.repair_flips = [&](SMP::Map_to_repair&, const auto& progress) {
+      goes_on = progress(0.5);
+      return Flip_repair_report();
+    };
+    const Outcome run = parameterize(mesh, options);
+    EXPECT_EQ(run.error, SMP::OK);
+    EXPECT_EQ(goes_on, limit != 1e-9);
+    EXPECT_EQ(run.report.stopped_early, limit == 1e-9);
+  }
 }
 
 TEST(Repair, is_off_by_default)
@@ -585,7 +665,7 @@ TEST(Repair, mends_the_maps_of_bad_meshes)
         Surface_mesh surface_mesh = to_surface_mesh(mesh);
         SMP::HLSCM_options options = with_method(Conformal_method::DIRECT);
         options.weights = weights;
-        options.repair_flips = true;
+        options.repair_flips = SMP::Flip_repairer();
         const Outcome run = parameterize(surface_mesh, options);
         ASSERT_TRUE(run.report.flip_repair.has_value()) << name;
         const Flip_repair_report& r = *run.report.flip_repair;

@@ -652,6 +652,47 @@ TEST(Energy_gap_estimator, bounds_a_geometric_series)
   }
 }
 
+// The first step gains a thousand times what the next one does, and these fall slowly.
+TEST(Energy_gap_estimator, does_not_take_the_first_fall_for_the_rate)
+{
+  for(const auto kind : {Gap_estimate::STEADY, Gap_estimate::WARY}) {
+    Energy_gap_estimator estimator(0., kind);
+    estimator.add(1000.);
+    double step = 1.;
+    for(int k = 1; k < 30; ++k, step *= 0.9) {
+      estimator.add(step);
+      EXPECT_GE(estimator.remaining(), step * 0.9 / 0.1) << "step " << k;
+    }
+  }
+}
+
+TEST(Energy_gap_estimator, is_wary_after_a_burst)
+{
+  Energy_gap_estimator steady, wary(0., Gap_estimate::WARY);
+  const auto add = [&](double decrease) {
+    steady.add(decrease);
+    wary.add(decrease);
+    EXPECT_GE(wary.remaining(), steady.remaining());
+  };
+  for(int k = 0; k < 12; ++k)
+    add(std::pow(0.5, k));
+  EXPECT_LT(wary.remaining(), 0.01);
+  for(const double burst : {3., 2., 1.}) // hundreds of times what was promised
+    add(burst);
+  for(int k = 0; k < 12; ++k)
+    add(std::pow(0.5, k));
+  EXPECT_GT(wary.remaining(), 100. * steady.remaining());
+}
+
+// Steps that gain nothing are the end.
+TEST(Energy_gap_estimator, is_zero_where_nothing_is_gained)
+{
+  Energy_gap_estimator estimator(0., Gap_estimate::WARY);
+  for(int k = 0; k < 6; ++k)
+    estimator.add(0.);
+  EXPECT_EQ(estimator.remaining(), 0.);
+}
+
 // Without a good preconditioner the energy falls in steps; what lies between is not the end.
 TEST(Energy_gap_estimator, does_not_trust_a_plateau)
 {

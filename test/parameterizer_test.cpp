@@ -230,6 +230,36 @@ TEST(Hierarchical_method, works_with_every_schedule)
   });
 }
 
+// The gap is an estimate, made after three steps and more: it must not be too hopeful where a cycle
+// is a poor preconditioner.
+TEST(Hierarchical_method, meets_the_tolerance_with_every_schedule)
+{
+  const Schedule schedules[] = {Schedule::v_cycle(0, 2), Schedule::v_cycle(1, 1),
+                                Schedule::v_cycle(2, 2), Schedule::v_cycle(4, 4),
+                                Schedule::w_cycle(1, 1), Schedule::w_cycle(2, 2),
+                                Schedule::k_cycle(0, 2), Schedule::k_cycle(1, 1), Schedule()};
+  for(const std::uint64_t seed : {1, 2})
+    for(const auto& [name, mesh] : curved_charts(seed)) {
+      // Where some of them converge fast at first, and slowly then. (With slivers a V-cycle that does
+      // not smooth before it stands still for hundreds of steps: no estimate sees through that.)
+      const std::string title = name;
+      if(title.find("hills") == std::string::npos || title.find("sliver") != std::string::npos)
+        continue;
+      Surface_mesh surface_mesh = to_surface_mesh(mesh);
+      const double least
+        = parameterize(surface_mesh, with_method(Conformal_method::DIRECT)).report.energy;
+      for(const double tolerance : {1e-2, 1e-3})
+        for(std::size_t s = 0; s < std::size(schedules); ++s) {
+          HLSCM_options options = with_many_levels(tolerance);
+          options.schedule = schedules[s];
+          const auto run = parameterize(surface_mesh, options);
+          ASSERT_EQ(run.error, SMP::OK) << run.report.message;
+          EXPECT_LE(run.report.energy - least, tolerance * run.report.energy)
+            << name << " " << seed << ", schedule " << s << ", " << run.report.iterations << " steps";
+        }
+    }
+}
+
 TEST(Hierarchical_method, works_with_every_ratio_and_coarsest_size)
 {
   std::vector<HLSCM_options> all_options;

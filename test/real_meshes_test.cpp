@@ -10,6 +10,7 @@
 #include <support/real_meshes.h>
 
 #include <CGAL/Polygon_mesh_processing/compute_normal.h>
+#include <CGAL/Surface_mesh_parameterization/repair_flipped_faces.h>
 #include <CGAL/boost/graph/IO/polygon_mesh_io.h>
 #include <CGAL/subdivision_method_3.h>
 
@@ -78,7 +79,7 @@ TEST_P(Debian_chart, can_be_repaired)
     Surface_mesh mesh = read(debian_mesh(GetParam()));
     SMP::HLSCM_options options = with_method(Conformal_method::DIRECT);
     options.weights = weights;
-    options.repair_flips = true;
+    options.repair_flips = SMP::Flip_repairer();
     const Outcome run = parameterize(mesh, options);
     ASSERT_EQ(run.error, SMP::OK);
     const SMP::Flip_repair_report& r = *run.report.flip_repair;

@@ -114,15 +114,15 @@ inline std::vector<Stage> median(const std::vector<std::vector<Stage>>& runs)
 
 inline void write_header(std::ostream& out)
 {
-  out << "chart,faces,stage,seconds,part,count,of,per_second,bound_by,amount,bound_seconds,ratio,"
+  out << "chart,faces,threads,stage,seconds,part,count,of,per_second,bound_by,amount,bound_seconds,ratio,"
          "page_faults,page_fault_seconds\n";
 }
 
 // A row; `whole` is the seconds of which the stage's are a part.
-inline void write_row(const std::string& chart, std::size_t faces, const Stage& stage, double whole,
-                      std::ostream& out)
+inline void write_row(const std::string& chart, std::size_t faces, unsigned int threads,
+                      const Stage& stage, double whole, std::ostream& out)
 {
-  out << chart << ',' << faces << ',' << stage.name << ',' << stage.seconds << ','
+  out << chart << ',' << faces << ',' << threads << ',' << stage.name << ',' << stage.seconds << ','
       << stage.seconds / whole << ',';
   if(!stage.of.empty())
     out << stage.count;

@@ -5,6 +5,8 @@
 
 #include "Option_parts.h"
 
+#include <CGAL/Surface_mesh_parameterization/repair_flipped_faces.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -63,8 +65,9 @@ void add_solver_options(CLI::App& app, SMP::HLSCM_options& o)
              "as 1/4096 for a texel");
   add_number(app, "--time-limit", 0, 1e9, o.time_limit,
              "after that many seconds take the map as it is, once there is one");
-  app.add_flag("--repair-flips", o.repair_flips,
-               "move vertices around flipped triangles of the map until none is left, if possible");
+  app.add_flag_callback(
+      "--repair-flips", [&o] { o.repair_flips = SMP::Flip_repairer(); },
+      "move vertices around flipped triangles of the map until none is left, if possible");
   app.add_option_function<std::string>(
          "--schedule", [&o](const std::string& text) { set_schedule(text, o); },
          "sweeps before, sweeps after, and visits of each coarser level")

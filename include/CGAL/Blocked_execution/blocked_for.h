@@ -35,6 +35,13 @@ public:
   Thread_scope(const Thread_scope&) = delete;
   Thread_scope& operator=(const Thread_scope&) = delete;
 
+  /// Returns the number of threads that loops of the calling thread may use now. What is computed
+  /// must not depend on it.
+  static unsigned int concurrency()
+  {
+    return current() == nullptr ? 1 : current()->m_arena.concurrency();
+  }
+
   /// Runs `body(block)` for the blocks [0, n) in the innermost scope of this thread.
   template <class Body>
   static void run(std::size_t n, const Body& body);

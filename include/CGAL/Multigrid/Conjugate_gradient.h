@@ -38,7 +38,9 @@ Iteration_report minimize_energy(const Hermitian_matrix<Real>& h, Complex_vector
 {
   typedef std::complex<Real> Complex;
   const std::size_t n = x.size();
-  Complex_vector<Real> r(n), p(n), q(n), z(n);
+  Complex_vector<Real> r, p, q, z;
+  for(Complex_vector<Real>* vector : {&r, &p, &q, &z})
+    Blocked_execution::internal::resize_blocked(*vector, n);
   h.for_each_row_sum(x, [&](std::size_t i, Complex s) { r[i] = -(h.diagonal()[i] * x[i] + s); });
   Iteration_control control(stop, energy);
   double curvature = 0.;

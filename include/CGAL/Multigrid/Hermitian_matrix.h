@@ -4,6 +4,7 @@
 #ifndef CGAL_MULTIGRID_HERMITIAN_MATRIX_H
 #define CGAL_MULTIGRID_HERMITIAN_MATRIX_H
 
+#include <CGAL/Blocked_execution/internal/Uninitialized_vector.h>
 #include <CGAL/Multigrid/vector_operations.h>
 
 #include <algorithm>
@@ -119,13 +120,15 @@ public:
   {
     m_pattern = other.m_pattern;
     m_diagonal.assign(other.m_diagonal.begin(), other.m_diagonal.end());
-    m_re.assign(other.m_re.begin(), other.m_re.end());
+    m_re.resize(other.m_re.size());
+    for_each_index(m_re.size(), [&](std::size_t i) { m_re[i] = Real(other.m_re[i]); });
     m_im.assign(other.m_im.begin(), other.m_im.end());
   }
 
 private:
   std::shared_ptr<const Sliced_pattern> m_pattern;
-  std::vector<Real> m_diagonal, m_re, m_im;
+  std::vector<Real> m_diagonal, m_im;
+  Blocked_execution::internal::Uninitialized_vector<Real> m_re;
 };
 
 namespace internal {

@@ -14,6 +14,16 @@ namespace CGAL {
 namespace Multigrid {
 
 /// \ingroup PkgHLSCMMultigrid
+/// How far the steps of an iteration that were made are believed to say what the next ones do.
+enum class Gap_estimate
+{
+  STEADY, ///< the energy falls steadily, as under a K-cycle that smooths well
+  /// What changes slowest is hardly seen at first, or the energy falls in bursts, as under V-cycles
+  /// and with little smoothing.
+  WARY
+};
+
+/// \ingroup PkgHLSCMMultigrid
 /// When an iteration that lowers an energy stops.
 struct Energy_stop
 {
@@ -25,6 +35,7 @@ struct Energy_stop
   /// two tolerances that is met ends the iteration.
   double change_tolerance = 0.;
   double known_rate = 0.;          ///< see `Energy_gap_estimator`
+  Gap_estimate estimate = Gap_estimate::STEADY; ///< how careful the estimate is
   std::size_t minimal_iterations = 0;  ///< at least so many
   std::size_t maximal_iterations = 100; ///< at most so many
 };
@@ -46,7 +57,8 @@ struct Iteration_report
 
 The class `Energy_gap_estimator` predicts how much a conjugate gradient iteration has still to gain.
 The energy falls by a known amount \f$ d_k \f$ in each step; the sum of the steps to come is
-extrapolated from the last ones as a geometric series.
+extrapolated from the last ones as a geometric series. A wary estimator also remembers what it
+extrapolated before: if more has been gained since, it was wrong by a factor, and may be so again.
 */
 class Energy_gap_estimator
 {
@@ -54,10 +66,18 @@ public:
   /// Constructs an estimator, for an iteration whose steps are known to lower the energy by this
   /// factor, one to the next, from an earlier iteration with the same matrix; 0 if nothing is
   /// known.
-  explicit Energy_gap_estimator(double known_rate = 0.) : m_known_rate(known_rate) {}
+  explicit Energy_gap_estimator(double known_rate = 0.,
+                                Gap_estimate estimate = Gap_estimate::STEADY)
+    : m_known_rate(known_rate), m_is_wary(estimate == Gap_estimate::WARY)
+  {}
 
   /// Tells by how much the last step lowered the energy.
-  void add(double decrease) { m_decreases.push_back(decrease); }
+  void add(double decrease)
+  {
+    m_decreases.push_back(decrease);
+    if(m_is_wary)
+      m_extrapolated.push_back(extrapolated());
+  }
 
   /// Returns the slowest rate of the last steps: mean rates over one, two, four ... steps.
   double rate() const
@@ -77,13 +97,48 @@ public:
   double remaining() const
   {
     const std::size_t n = m_decreases.size();
-    if(n == 0 || (n < 3 && !(m_known_rate > 0.)) || !(rate() < 1.))
-      return (std::numeric_limits<double>::infinity)();
-    const double extrapolated = safety(n) * larger_of_two(n - 1) * rate() / (1. - rate());
-    return n > long_iteration ? (std::max)(extrapolated, gain_of_second_half()) : extrapolated;
+    const double sum = m_is_wary && n > 0 ? m_extrapolated.back() : extrapolated();
+    if(!(sum < infinity))
+      return infinity;
+    double result = safety(n) * sum;
+    if(n >= 3 && (m_is_wary || (n <= short_iteration && !(m_known_rate > 0.))))
+      result = (std::max)(result, safety(n) * series(m_decreases[n - 1],
+                                                     m_decreases[n - 1] / m_decreases[n - 2]));
+    if(m_is_wary)
+      result = (std::max)(result, 2. * shortfall() * sum);
+    return n > long_iteration ? (std::max)(result, gain_of_second_half()) : result;
   }
 
 private:
+  static constexpr double infinity = (std::numeric_limits<double>::infinity)();
+
+  // The sum of the geometric series that follows `last`.
+  static double series(double last, double rate)
+  {
+    return !(last > 0.) ? 0. : rate < 1. ? last * rate / (1. - rate) : infinity;
+  }
+
+  double extrapolated() const
+  {
+    const std::size_t n = m_decreases.size();
+    return n == 0 || (n < 3 && !(m_known_rate > 0.)) ? infinity
+                                                     : series(larger_of_two(n - 1), rate());
+  }
+
+  // By what factor more has been gained since one of the last extrapolations than it promised for
+  // all the time to come.
+  double shortfall() const
+  {
+    const std::size_t n = m_decreases.size();
+    double result = 0., gain = 0.;
+    for(std::size_t k = n; k-- > 1 && n - k <= long_iteration;) {
+      gain += m_decreases[k];
+      if(m_extrapolated[k - 1] > 0.)
+        result = (std::max)(result, gain / m_extrapolated[k - 1]);
+    }
+    return result;
+  }
+
   // Single steps are often small by chance: of two, the larger counts.
   double larger_of_two(std::size_t k) const
   {
@@ -94,6 +149,10 @@ private:
   // true gap to stay below the tolerance for 1e-2, 1e-3 and 1e-4; it costs half a step on average.
   // Short histories say less about the rate: other schedules were 2.7 times off after four steps.
   static double safety(std::size_t n) { return 2. + 4. / double(n); }
+
+  // The first step takes away what the coarse levels got wrong, often a hundred times more than the
+  // next one: no rate of the steps that follow. So long the last two steps are looked at alone, too.
+  static constexpr std::size_t short_iteration = 5;
 
   // Without a good preconditioner the energy falls in steps with plateaus between them, which look
   // like the end. Each is about as long as all before it: what the second half of the iteration has
@@ -109,7 +168,9 @@ private:
   }
 
   double m_known_rate;
+  bool m_is_wary;
   std::vector<double> m_decreases;
+  std::vector<double> m_extrapolated; // after each of them; if it is wary
 };
 
 /*!
@@ -123,7 +184,7 @@ class Iteration_control
 public:
   /// Begins an iteration at the given energy.
   Iteration_control(const Energy_stop& stop, double energy)
-    : m_stop(stop), m_gap(stop.known_rate)
+    : m_stop(stop), m_gap(stop.known_rate, stop.estimate), m_change(0., stop.estimate)
   {
     m_report.energy = energy;
     m_report.energy_gap = (std::numeric_limits<double>::infinity)();

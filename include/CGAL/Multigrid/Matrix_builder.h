@@ -7,6 +7,7 @@
 #include <CGAL/Multigrid/Hermitian_matrix.h>
 
 #include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Blocked_execution/internal/Uninitialized_vector.h>
 
 #include <algorithm>
 #include <array>
@@ -76,12 +77,14 @@ inline void Matrix_builder::sort_slots(const std::vector<std::uint32_t>& lengths
     sort_window(lengths, begin, end, pattern);
   });
   pattern.slice_begin.assign(slices + 1, 0);
-  for(std::size_t s = 0; s < slices; ++s) {
-    std::uint32_t width = 0;
-    for(std::size_t slot = s * rows; slot < (std::min)((s + 1) * rows, n); ++slot)
-      width = (std::max)(width, lengths[pattern.row_of_slot[slot]]);
-    pattern.slice_begin[s + 1] = pattern.slice_begin[s] + width;
-  }
+  Blocked_execution::blocked_for(slices, block_slices, [&](std::size_t begin, std::size_t end) {
+    for(std::size_t s = begin; s < end; ++s)
+      for(std::size_t slot = s * rows; slot < (std::min)((s + 1) * rows, n); ++slot)
+        pattern.slice_begin[s + 1]
+          = (std::max)(pattern.slice_begin[s + 1], lengths[pattern.row_of_slot[slot]]);
+  });
+  for(std::size_t s = 0; s < slices; ++s)
+    pattern.slice_begin[s + 1] += pattern.slice_begin[s];
 }
 
 template <class Real>
@@ -95,11 +98,10 @@ void Matrix_builder::store_row(const Matrix_row& row, std::uint32_t i, std::size
   for(std::size_t k = 0; k < width; ++k) {
     const std::size_t at = (pattern.slice_begin[s] + k) * rows + r;
     // Padding refers to the row itself, which is in the cache.
-    pattern.column[at] = k < row.entries.size() ? row.entries[k].column : i;
-    if(k >= row.entries.size())
-      continue;
-    matrix.m_re[at] = Real(row.entries[k].re);
-    if(row.entries[k].im == 0.)
+    const bool is_entry = k < row.entries.size();
+    pattern.column[at] = is_entry ? row.entries[k].column : i;
+    matrix.m_re[at] = is_entry ? Real(row.entries[k].re) : Real(0);
+    if(!is_entry || row.entries[k].im == 0.)
       continue;
     if(pattern.imaginary[s] == Sliced_pattern::none) { // counted from the begin of the block
       pattern.imaginary[s] = std::uint32_t(imaginary_of_block.size() / rows);
@@ -131,10 +133,14 @@ Hermitian_matrix<Real> Matrix_builder::build(const std::vector<std::uint32_t>& r
   auto pattern = std::make_shared<Sliced_pattern>();
   sort_slots(row_lengths, *pattern);
   const std::size_t slices = pattern->slice_begin.size() - 1;
+  const std::size_t size = pattern->slice_begin[slices] * rows;
   pattern->imaginary.assign(slices, Sliced_pattern::none);
-  pattern->column.assign(pattern->slice_begin[slices] * rows, 0);
+  Blocked_execution::internal::resize_blocked(pattern->column, size);
   Hermitian_matrix<Real> matrix;
-  matrix.m_re.assign(pattern->slice_begin[slices] * rows, Real(0));
+  matrix.m_re.resize(size);
+  if(slices > 0) // its last slots may have no row
+    std::fill(matrix.m_re.begin() + pattern->slice_begin[slices - 1] * rows, matrix.m_re.end(),
+              Real(0));
   matrix.m_diagonal.assign(pattern->rows, Real(0));
   std::vector<std::vector<Real>> imaginary(
     Blocked_execution::number_of_blocks(slices, block_slices));

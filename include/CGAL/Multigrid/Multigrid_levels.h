@@ -146,7 +146,7 @@ private:
   void materialize(Level& level)
   {
     if(level.is_zero)
-      level.u.assign(level.f.size(), Complex(0));
+      set_zero(level.f.size(), level.u);
     level.is_zero = false;
   }
 
@@ -166,9 +166,10 @@ void Multigrid_levels<Transfer, CoarsestSolver>::update_residual(Level& level)
     h.for_each_row_sum(level.z, [&](std::size_t i, Complex s) {
       level.r[i] -= h.diagonal()[i] * level.z[i] + s;
     });
-  else if(level.is_zero)
-    level.r = level.f;
-  else {
+  else if(level.is_zero) {
+    level.r.resize(level.f.size());
+    for_each_index(level.r.size(), [&level](std::size_t i) { level.r[i] = level.f[i]; });
+  } else {
     level.r.resize(level.f.size());
     h.for_each_row_sum(level.u, [&](std::size_t i, Complex s) {
       level.r[i] = level.f[i] - (h.diagonal()[i] * level.u[i] + s);
@@ -233,7 +234,7 @@ void Multigrid_levels<Transfer, CoarsestSolver>::
 accelerate(std::size_t l, unsigned int steps, const Coarse_cycle& coarse_cycle)
 {
   Level& level = m_levels[l];
-  level.x.assign(level.f.size(), Complex(0));
+  set_zero(level.f.size(), level.x);
   level.p.resize(steps);
   level.q.resize(steps);
   const double enough = 0.0625 * squared_norm(level.f); // a quarter, squared

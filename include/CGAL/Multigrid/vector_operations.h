@@ -5,6 +5,7 @@
 #define CGAL_MULTIGRID_VECTOR_OPERATIONS_H
 
 #include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Blocked_execution/internal/Uninitialized_vector.h>
 
 #include <algorithm>
 #include <cmath>
@@ -64,6 +65,15 @@ void for_each_index(std::size_t n, const Body& body)
     for(std::size_t i = begin; i < end; ++i)
       body(i);
   });
+}
+
+/// \ingroup PkgHLSCMMultigrid
+/// Makes `x` a vector of `n` zeros.
+template <class Real>
+void set_zero(std::size_t n, Complex_vector<Real>& x)
+{
+  Blocked_execution::internal::resize_blocked(x, n);
+  for_each_index(n, [&x](std::size_t i) { x[i] = 0; });
 }
 
 /// \ingroup PkgHLSCMMultigrid

@@ -5,9 +5,11 @@
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_FLAT_COLLAPSE_ENGINE_H
 
 #include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Blocked_execution/internal/select.h>
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_policies.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/Texture_layer.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/nth_cost.h>
 
 #include <algorithm>
 #include <atomic>
@@ -94,9 +96,10 @@ private:
 
   // Passes go over blocks of this many living vertices; a vertex whose ring leaves its block waits
   // for the next pass, whose blocks are shifted by half their size. Blocks do not depend on the
-  // number of threads.
+  // number of threads. Smaller ones spoil the levels: with an eighth, solvers need up to half as
+  // many iterations more.
   static constexpr std::size_t block_size = 16384;
-  static constexpr std::size_t blocks_between_reports = 16;
+  static constexpr std::size_t blocks_between_reports = 32;
 
   // How many vertices ahead of their use data are asked for: about the latency of the memory.
   static constexpr std::size_t prefetch_distance = 4;
@@ -196,6 +199,7 @@ private:
   void run_block(const std::vector<Vertex_index>& alive, float threshold, Block& block);
   void run_pass(const std::vector<Vertex_index>& alive, float threshold, std::size_t wanted,
                 Progress& progress, Progressive_mesh& pm);
+  void remove_dead(std::vector<Vertex_index>& alive) const;
   void run_batched(const Flat_collapse_options& options, Progressive_mesh& pm);
   void run_strict(const Flat_collapse_options& options, Progressive_mesh& pm);
 
@@ -403,18 +407,11 @@ template <class Cost, class Filter, class Texture>
 float Flat_collapse_engine<Cost, Filter, Texture>::
 pass_threshold(const std::vector<Vertex_index>& alive, std::size_t wanted, double fraction) const
 {
-  std::vector<float> costs;
-  costs.reserve(alive.size());
-  for(const Vertex_index v : alive)
-    if(m_best_cost[v] < no_cost)
-      costs.push_back(m_best_cost[v]);
-  if(costs.empty())
-    return no_cost;
-  // About three in five of those below the threshold are collapsed: the others become dearer.
-  const double part = (std::min)(fraction * double(costs.size()), 1.6 * double(wanted));
-  const std::size_t rank = (std::min)(costs.size() - 1, std::size_t(part));
-  std::nth_element(costs.begin(), costs.begin() + rank, costs.end());
-  return costs[rank];
+  return internal::nth_cost(alive, m_best_cost, [&](std::size_t number_of_costs) {
+    // About three in five of those below the threshold are collapsed: the others become dearer.
+    const double part = (std::min)(fraction * double(number_of_costs), 1.6 * double(wanted));
+    return (std::min)(number_of_costs - 1, std::size_t(part));
+  });
 }
 
 // Brings all costs up to date. Costs fall, too, where long thin triangles give way to better ones:
@@ -424,10 +421,10 @@ void Flat_collapse_engine<Cost, Filter, Texture>::
 evaluate_stale(const std::vector<Vertex_index>& alive, Progress& progress,
                const Progressive_mesh& pm)
 {
-  constexpr std::size_t stretch = block_size * blocks_between_reports;
+  constexpr std::size_t size = block_size / 8, stretch = block_size * blocks_between_reports;
   for(std::size_t first = 0; first < alive.size() && progress(pm); first += stretch) {
     const std::size_t count = (std::min)(stretch, alive.size() - first);
-    Blocked_execution::blocked_for(count, block_size, [&](std::size_t begin, std::size_t end) {
+    Blocked_execution::blocked_for(count, size, [&](std::size_t begin, std::size_t end) {
       Worker worker(surface());
       for(std::size_t i = first + begin; i < first + end; ++i) {
         prefetch(alive, i, first + end);
@@ -507,6 +504,18 @@ run_pass(const std::vector<Vertex_index>& alive, float threshold, std::size_t wa
     pm.batch_ends.push_back(pm.collapses.size());
 }
 
+// Takes out the vertices that are gone.
+template <class Cost, class Filter, class Texture>
+void Flat_collapse_engine<Cost, Filter, Texture>::
+remove_dead(std::vector<Vertex_index>& alive) const
+{
+  const std::vector<std::uint32_t> places = Blocked_execution::internal::select(
+    alive.size(), [&](std::uint32_t i) { return m_state[alive[i]].is_gone == 0; });
+  for(std::size_t i = 0; i < places.size(); ++i)
+    alive[i] = alive[places[i]];
+  alive.resize(places.size());
+}
+
 template <class Cost, class Filter, class Texture>
 void Flat_collapse_engine<Cost, Filter, Texture>::
 run_batched(const Flat_collapse_options& options, Progressive_mesh& pm)
@@ -525,9 +534,7 @@ run_batched(const Flat_collapse_options& options, Progressive_mesh& pm)
       break;
     const std::size_t before = alive.size();
     run_pass(alive, threshold, wanted, progress, pm);
-    alive.erase(std::remove_if(alive.begin(), alive.end(),
-                               [this](Vertex_index v) { return m_state[v].is_gone != 0; }),
-                alive.end());
+    remove_dead(alive);
     const std::size_t done = before - alive.size();
     if(2 * done < wanted && 500 * done < before) // what is left cannot be removed
       break;
@@ -582,7 +589,12 @@ Flat_collapse_engine<Cost, Filter, Texture>::run(const Flat_collapse_options& op
 {
   Progressive_mesh pm;
   pm.number_of_vertices = m_mesh.points.size();
-  pm.triangles = m_mesh.triangles;
+  Blocked_execution::internal::resize_blocked(pm.triangles, m_mesh.triangles.size());
+  Blocked_execution::blocked_for(pm.triangles.size(), block_size,
+                                 [&](std::size_t begin, std::size_t end) {
+    std::copy(m_mesh.triangles.begin() + begin, m_mesh.triangles.begin() + end,
+              pm.triangles.begin() + begin);
+  });
   if(options.order == Collapse_order::STRICT)
     run_strict(options, pm);
   else

@@ -4,12 +4,15 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_INDEXED_TRIANGLE_MESH_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_INDEXED_TRIANGLE_MESH_H
 
+#include <CGAL/Blocked_execution/internal/sort_by_key.h>
+
 #include <CGAL/Simple_cartesian.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -49,9 +52,16 @@ namespace internal {
 // For each of `n` things its position among the members, or `no_vertex`.
 inline std::vector<Vertex_index> ranks(const std::vector<Vertex_index>& members, std::size_t n)
 {
-  std::vector<Vertex_index> result(n, no_vertex);
-  for(Vertex_index i = 0; i < members.size(); ++i)
-    result[members[i]] = i;
+  constexpr std::size_t block = 32768;
+  std::vector<Vertex_index> result;
+  Blocked_execution::internal::resize_blocked(result, n);
+  Blocked_execution::blocked_for(n, block, [&result](std::size_t begin, std::size_t end) {
+    std::fill(result.begin() + begin, result.begin() + end, no_vertex);
+  });
+  Blocked_execution::blocked_for(members.size(), block, [&](std::size_t begin, std::size_t end) {
+    for(std::size_t i = begin; i < end; ++i)
+      result[members[i]] = Vertex_index(i);
+  });
   return result;
 }
 
@@ -64,23 +74,77 @@ inline std::uint32_t spread_bits(std::uint32_t x)
   return (x | (x << 2)) & 0x09249249;
 }
 
-// The order of the keys, stable: three passes of a radix sort by eleven bits.
+// The order of the keys, stable: three passes of a radix sort by eleven bits. Each block of the old
+// order has its own places in the new one for each digit.
 inline std::vector<std::uint32_t> sorted_order(const std::vector<std::uint32_t>& keys)
 {
+  constexpr std::size_t block = 65536, digits = 2048;
   std::vector<std::uint32_t> order(keys.size()), next(keys.size());
-  for(std::uint32_t i = 0; i < order.size(); ++i)
-    order[i] = i;
+  std::vector<std::array<std::uint32_t, digits>> at(
+    Blocked_execution::number_of_blocks(keys.size(), block));
   for(int shift = 0; shift < 32; shift += 11) {
-    std::array<std::uint32_t, 2049> begin = {};
-    for(const std::uint32_t key : keys)
-      ++begin[((key >> shift) & 2047u) + 1];
-    for(int i = 0; i < 2048; ++i)
-      begin[i + 1] += begin[i];
-    for(const std::uint32_t i : order)
-      next[begin[(keys[i] >> shift) & 2047u]++] = i;
+    const auto source = [&](std::size_t i) { return shift == 0 ? std::uint32_t(i) : order[i]; };
+    const auto digit = [&](std::uint32_t i) { return (keys[i] >> shift) & (digits - 1); };
+    Blocked_execution::blocked_for(keys.size(), block, [&](std::size_t begin, std::size_t end) {
+      at[begin / block].fill(0);
+      for(std::size_t i = begin; i < end; ++i)
+        ++at[begin / block][digit(source(i))];
+    });
+    std::uint32_t before = 0;
+    for(std::size_t d = 0; d < digits; ++d)
+      for(auto& of_block : at)
+        before += std::exchange(of_block[d], before);
+    Blocked_execution::blocked_for(keys.size(), block, [&](std::size_t begin, std::size_t end) {
+      for(std::size_t i = begin; i < end; ++i) {
+        const std::uint32_t s = source(i);
+        next[at[begin / block][digit(s)]++] = s;
+      }
+    });
     order.swap(next);
   }
   return order;
+}
+
+// The box of points.
+struct Extremes
+{
+  static constexpr double infinity = (std::numeric_limits<double>::infinity)();
+
+  std::array<double, 3> lo = {infinity, infinity, infinity};
+  std::array<double, 3> hi = {-infinity, -infinity, -infinity};
+
+  template <class Point>
+  void add(const Point& low, const Point& high)
+  {
+    for(int c = 0; c < 3; ++c) {
+      lo[c] = (std::min)(lo[c], low[c]);
+      hi[c] = (std::max)(hi[c], high[c]);
+    }
+  }
+
+  Extremes& operator+=(const Extremes& other)
+  {
+    add(other.lo, other.hi);
+    return *this;
+  }
+
+  friend Extremes operator+(Extremes a, const Extremes& b) { return a += b; }
+
+  double longest_side() const { return (std::max)({hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]}); }
+};
+
+constexpr std::size_t block_of_points = 16384;
+
+// Precondition: there is a point.
+inline Extremes extremes(const std::vector<Indexed_triangle_mesh::Point_3>& points)
+{
+  return Blocked_execution::blocked_sum<Extremes>(
+    points.size(), block_of_points, [&points](std::size_t begin, std::size_t end) {
+      Extremes box;
+      for(std::size_t i = begin; i < end; ++i)
+        box.add(points[i], points[i]);
+      return box;
+    });
 }
 
 // The Morton code of each point: ten bits an axis in the bounding cube.
@@ -90,20 +154,40 @@ morton_codes(const std::vector<Indexed_triangle_mesh::Point_3>& points)
   std::vector<std::uint32_t> codes(points.size());
   if(points.empty())
     return codes;
-  std::array<double, 3> lo, hi;
-  for(int c = 0; c < 3; ++c)
-    lo[c] = hi[c] = points[0][c];
-  for(const auto& p : points)
-    for(int c = 0; c < 3; ++c) {
-      lo[c] = (std::min)(lo[c], p[c]);
-      hi[c] = (std::max)(hi[c], p[c]);
-    }
-  const double extent = (std::max)({hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]});
+  const Extremes box = extremes(points);
+  const double extent = box.longest_side();
   const double scale = extent > 0. ? 1023.999 / extent : 0.;
-  for(std::size_t i = 0; i < points.size(); ++i)
-    for(int c = 0; c < 3; ++c)
-      codes[i] |= spread_bits(std::uint32_t((points[i][c] - lo[c]) * scale)) << c;
+  Blocked_execution::blocked_for(points.size(), block_of_points,
+                                 [&](std::size_t begin, std::size_t end) {
+    for(std::size_t i = begin; i < end; ++i)
+      for(int c = 0; c < 3; ++c)
+        codes[i] |= spread_bits(std::uint32_t((points[i][c] - box.lo[c]) * scale)) << c;
+  });
   return codes;
+}
+
+// Sorts triangles by their smallest vertex, which becomes the first.
+inline void sort_by_smallest_vertex(std::size_t number_of_vertices,
+                                    std::vector<Triangle_indices>& triangles)
+{
+  Blocked_execution::blocked_for(triangles.size(), block_of_points,
+                                 [&](std::size_t begin, std::size_t end) {
+    for(std::size_t i = begin; i < end; ++i) {
+      Triangle_indices& t = triangles[i];
+      while(t[0] > t[1] || t[0] > t[2])
+        std::rotate(t.begin(), t.begin() + 1, t.end());
+    }
+  });
+  std::vector<Triangle_indices> sorted;
+  const auto for_each_triangle = [&triangles](const auto& use) {
+    for(const Triangle_indices& t : triangles)
+      use(t[0], t);
+  };
+  Blocked_execution::internal::sort_by_key(
+    number_of_vertices, for_each_triangle,
+    [&sorted](std::size_t n) { Blocked_execution::internal::resize_blocked(sorted, n); },
+    [&sorted](std::uint32_t i, const Triangle_indices& t) { sorted[i] = t; });
+  triangles.swap(sorted);
 }
 
 } // namespace internal
@@ -124,25 +208,21 @@ inline std::vector<Vertex_index> sort_spatially(Indexed_triangle_mesh& mesh)
   std::vector<Vertex_index> source = internal::sorted_order(internal::morton_codes(mesh.points));
   std::vector<Vertex_index> rank(source.size());
   std::vector<Indexed_triangle_mesh::Point_3> points(source.size());
-  for(Vertex_index i = 0; i < source.size(); ++i) {
-    rank[source[i]] = i;
-    points[i] = mesh.points[source[i]];
-  }
+  Blocked_execution::blocked_for(source.size(), internal::block_of_points,
+                                 [&](std::size_t begin, std::size_t end) {
+    for(std::size_t i = begin; i < end; ++i) {
+      rank[source[i]] = Vertex_index(i);
+      points[i] = mesh.points[source[i]];
+    }
+  });
   mesh.points.swap(points);
-  std::vector<Vertex_index> begin(source.size() + 1, 0);
-  for(Triangle_indices& t : mesh.triangles) {
-    for(Vertex_index& v : t)
-      v = rank[v];
-    while(t[0] > t[1] || t[0] > t[2])
-      std::rotate(t.begin(), t.begin() + 1, t.end());
-    ++begin[t[0] + 1];
-  }
-  for(std::size_t i = 0; i < source.size(); ++i)
-    begin[i + 1] += begin[i];
-  std::vector<Triangle_indices> triangles(mesh.triangles.size());
-  for(const Triangle_indices& t : mesh.triangles)
-    triangles[begin[t[0]]++] = t;
-  mesh.triangles.swap(triangles);
+  Blocked_execution::blocked_for(mesh.triangles.size(), internal::block_of_points,
+                                 [&](std::size_t begin, std::size_t end) {
+    for(std::size_t i = begin; i < end; ++i)
+      for(Vertex_index& v : mesh.triangles[i])
+        v = rank[v];
+  });
+  internal::sort_by_smallest_vertex(source.size(), mesh.triangles);
   return source;
 }
 
@@ -159,28 +239,33 @@ inline double normalize(Indexed_triangle_mesh& mesh)
 {
   if(mesh.points.empty())
     return 0.;
-  std::array<double, 3> lo, hi;
-  for(int c = 0; c < 3; ++c)
-    lo[c] = hi[c] = mesh.points[0][c];
-  for(const auto& p : mesh.points)
-    for(int c = 0; c < 3; ++c) {
-      lo[c] = (std::min)(lo[c], p[c]);
-      hi[c] = (std::max)(hi[c], p[c]);
-    }
-  const double extent = (std::max)({hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]});
+  const internal::Extremes box = internal::extremes(mesh.points);
+  const double extent = box.longest_side();
   if(!(extent > 0.))
     return 0.;
   const auto move = [&mesh](const std::array<double, 3>& origin, double unit) {
-    for(auto& p : mesh.points)
-      p = Indexed_triangle_mesh::Point_3((p.x() - origin[0]) / unit, (p.y() - origin[1]) / unit,
-                                         (p.z() - origin[2]) / unit);
+    Blocked_execution::blocked_for(mesh.points.size(), internal::block_of_points,
+                                   [&](std::size_t begin, std::size_t end) {
+      for(std::size_t i = begin; i < end; ++i) {
+        auto& p = mesh.points[i];
+        p = Indexed_triangle_mesh::Point_3((p.x() - origin[0]) / unit, (p.y() - origin[1]) / unit,
+                                           (p.z() - origin[2]) / unit);
+      }
+    });
   };
   // In two steps: squares of lengths may not exist before the first.
+  const auto& [lo, hi] = box;
   move({0.5 * (lo[0] + hi[0]), 0.5 * (lo[1] + hi[1]), 0.5 * (lo[2] + hi[2])}, extent);
-  double sum = 0.;
-  for(const Triangle_indices& t : mesh.triangles)
-    for(int c = 0; c < 3; ++c)
-      sum += std::sqrt(squared_distance(mesh.points[t[c]], mesh.points[t[(c + 1) % 3]]));
+  const double sum = Blocked_execution::blocked_sum<double>(
+    mesh.triangles.size(), internal::block_of_points, [&mesh](std::size_t begin, std::size_t end) {
+      double lengths = 0.;
+      for(std::size_t i = begin; i < end; ++i) {
+        const Triangle_indices& t = mesh.triangles[i];
+        for(int c = 0; c < 3; ++c)
+          lengths += std::sqrt(squared_distance(mesh.points[t[c]], mesh.points[t[(c + 1) % 3]]));
+      }
+      return lengths;
+    });
   if(!(sum > 0.))
     return 0.;
   const double mean = sum / (3. * double(mesh.triangles.size()));

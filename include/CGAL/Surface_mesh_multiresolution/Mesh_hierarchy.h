@@ -4,6 +4,8 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_MESH_HIERARCHY_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_MESH_HIERARCHY_H
 
+#include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Blocked_execution/internal/select.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/Prolongation.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/nearest_triangle.h>
@@ -88,46 +90,72 @@ inline std::vector<std::size_t> level_cuts(const Progressive_mesh& pm,
 
 namespace internal {
 
-// The level that the collapses [first, last) make of `fine`; `ancestor` gets for each vertex of
-// `fine` its ancestor, first as an index of `fine`. Collapses are in indices of the finest mesh,
-// `index_in_fine` translates them.
-inline Mesh_level coarsen(const Mesh_level& fine, const Progressive_mesh& pm, std::size_t first,
-                          std::size_t last, const std::vector<Vertex_index>& index_in_fine,
-                          std::vector<Vertex_index>& ancestor)
+constexpr std::size_t block_of_level = 32768;
+
+// For each vertex of a level of n vertices what the collapses [first, last) make of it. Collapses
+// are in indices of the finest mesh, `index` translates them.
+inline std::vector<Vertex_index> ancestors(std::size_t n, const Progressive_mesh& pm,
+                                           std::size_t first, std::size_t last,
+                                           const std::vector<Vertex_index>& index)
 {
-  const std::size_t n = fine.mesh.points.size();
-  ancestor.resize(n);
-  for(Vertex_index v = 0; v < n; ++v)
-    ancestor[v] = v;
-  for(std::size_t i = last; i-- > first;)
-    ancestor[index_in_fine[pm.collapses[i].removed]]
-      = ancestor[index_in_fine[pm.collapses[i].kept]];
-  Mesh_level coarse;
-  const std::size_t n_coarse = n - (last - first);
-  coarse.vertices.reserve(n_coarse);
-  coarse.mesh.points.reserve(n_coarse);
-  std::vector<Vertex_index> rank(n, no_vertex);
-  for(Vertex_index v = 0; v < n; ++v)
-    if(ancestor[v] == v) {
-      rank[v] = Vertex_index(coarse.vertices.size());
-      coarse.vertices.push_back(fine.vertices[v]);
-      coarse.mesh.points.push_back(fine.mesh.points[v]);
-    }
-  constexpr std::size_t block = 32768;
+  std::vector<Vertex_index> next(n), ancestor(n);
+  const auto for_each = [](std::size_t count, const auto& body) {
+    Blocked_execution::blocked_for(count, block_of_level, [&](std::size_t begin, std::size_t end) {
+      for(std::size_t i = begin; i < end; ++i)
+        body(i);
+    });
+  };
+  for_each(n, [&](std::size_t v) { next[v] = Vertex_index(v); });
+  for_each(last - first, [&](std::size_t i) {
+    const Halfedge_collapse& collapse = pm.collapses[first + i];
+    next[index[collapse.removed]] = index[collapse.kept];
+  });
+  for_each(n, [&](std::size_t v) {
+    Vertex_index a = Vertex_index(v);
+    while(next[a] != a)
+      a = next[a];
+    ancestor[v] = a;
+  });
+  return ancestor;
+}
+
+// The triangles whose ancestors are three vertices, by the ranks of these.
+inline std::vector<Triangle_indices>
+surviving_triangles(const std::vector<Triangle_indices>& triangles,
+                    const std::vector<Vertex_index>& ancestor,
+                    const std::vector<Vertex_index>& rank)
+{
   std::vector<std::vector<Triangle_indices>> parts(
-    Blocked_execution::number_of_blocks(fine.mesh.triangles.size(), block));
-  Blocked_execution::blocked_for(fine.mesh.triangles.size(), block,
+    Blocked_execution::number_of_blocks(triangles.size(), block_of_level));
+  Blocked_execution::blocked_for(triangles.size(), block_of_level,
                                  [&](std::size_t begin, std::size_t end) {
     for(std::size_t i = begin; i < end; ++i) {
-      const Triangle_indices& t = fine.mesh.triangles[i];
+      const Triangle_indices& t = triangles[i];
       const Triangle_indices s
         = {rank[ancestor[t[0]]], rank[ancestor[t[1]]], rank[ancestor[t[2]]]};
       if(s[0] != s[1] && s[1] != s[2] && s[2] != s[0])
-        parts[begin / block].push_back(s);
+        parts[begin / block_of_level].push_back(s);
     }
   });
-  for(const auto& part : parts)
-    coarse.mesh.triangles.insert(coarse.mesh.triangles.end(), part.begin(), part.end());
+  return Blocked_execution::internal::joined(parts);
+}
+
+// The level of the vertices `kept` of `fine`, which are the ancestors of all.
+inline Mesh_level coarsen(const Mesh_level& fine, const std::vector<Vertex_index>& ancestor,
+                          const std::vector<Vertex_index>& kept)
+{
+  Mesh_level coarse;
+  coarse.vertices.resize(kept.size());
+  coarse.mesh.points.resize(kept.size());
+  Blocked_execution::blocked_for(kept.size(), block_of_level,
+                                 [&](std::size_t begin, std::size_t end) {
+    for(std::size_t i = begin; i < end; ++i) {
+      coarse.vertices[i] = fine.vertices[kept[i]];
+      coarse.mesh.points[i] = fine.mesh.points[kept[i]];
+    }
+  });
+  coarse.mesh.triangles
+    = surviving_triangles(fine.mesh.triangles, ancestor, ranks(kept, ancestor.size()));
   return coarse;
 }
 
@@ -154,22 +182,24 @@ inline std::vector<Mesh_level> build_hierarchy(Indexed_triangle_mesh mesh,
   for(Vertex_index v = 0; v < mesh.points.size(); ++v)
     levels[0].vertices[v] = v;
   levels[0].mesh = std::move(mesh);
-  std::vector<Vertex_index> index = levels[0].vertices, ancestor;
+  std::vector<Vertex_index> index = levels[0].vertices;
   for(std::size_t c = 1; c < cuts.size(); ++c) {
     Mesh_level& fine = levels.back();
-    Mesh_level coarse = internal::coarsen(fine, pm, cuts[c - 1], cuts[c], index, ancestor);
-    std::vector<Vertex_index> kept;
-    kept.reserve(coarse.vertices.size());
-    for(Vertex_index v = 0; v < ancestor.size(); ++v)
-      if(ancestor[v] == v)
-        kept.push_back(v);
+    const std::vector<Vertex_index> ancestor
+      = internal::ancestors(fine.vertices.size(), pm, cuts[c - 1], cuts[c], index);
+    std::vector<Vertex_index> kept = Blocked_execution::internal::select(
+      ancestor.size(), [&ancestor](Vertex_index v) { return ancestor[v] == v; });
+    Mesh_level coarse = internal::coarsen(fine, ancestor, kept);
     std::vector<Prolongation::Stencil> stencils
       = options.rule == Prolongation_rule::WALK
       ? internal::walk_stencils(fine.mesh, coarse.mesh, kept, ancestor)
       : internal::vsplit_stencils(fine.mesh, pm, cuts[c - 1], cuts[c], index);
     fine.from_coarser = Prolongation(std::move(kept), std::move(stencils));
-    for(Vertex_index v = 0; v < coarse.vertices.size(); ++v)
-      index[coarse.vertices[v]] = v;
+    Blocked_execution::blocked_for(coarse.vertices.size(), internal::block_of_level,
+                                   [&](std::size_t begin, std::size_t end) {
+      for(std::size_t v = begin; v < end; ++v)
+        index[coarse.vertices[v]] = Vertex_index(v);
+    });
     levels.push_back(std::move(coarse));
   }
   std::reverse(levels.begin(), levels.end());

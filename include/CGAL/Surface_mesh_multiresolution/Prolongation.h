@@ -5,10 +5,12 @@
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_PROLONGATION_H
 
 #include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Blocked_execution/internal/sort_by_key.h>
 #include <CGAL/Surface_mesh_multiresolution/Indexed_triangle_mesh.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <utility>
 #include <vector>
 
@@ -89,8 +91,8 @@ private:
   std::vector<Stencil> m_stencils;
   // If all sources are kept vertices: for each coarse vertex the fine ones that it is a source of.
   bool m_is_direct = false;
-  std::vector<std::uint32_t> m_begin;
-  std::vector<Term> m_terms;
+  Blocked_execution::internal::Uninitialized_vector<std::uint32_t> m_begin;
+  Blocked_execution::internal::Uninitialized_vector<Term> m_terms;
 };
 
 inline Prolongation::Prolongation(std::vector<Vertex_index> kept, std::vector<Stencil> stencils)
@@ -102,21 +104,25 @@ inline Prolongation::Prolongation(std::vector<Vertex_index> kept, std::vector<St
 inline void Prolongation::transpose()
 {
   const std::vector<Vertex_index> rank = internal::ranks(m_kept, number_of_fine_vertices());
-  m_begin.assign(m_kept.size() + 1, 0);
-  for(const Stencil& s : m_stencils)
-    for(const Vertex_index v : s.source) {
-      if(rank[v] == no_vertex)
-        return;
-      ++m_begin[rank[v] + 1];
-    }
-  m_is_direct = true;
-  for(std::size_t j = 0; j < m_kept.size(); ++j)
-    m_begin[j + 1] += m_begin[j];
-  m_terms.resize(3 * m_stencils.size());
-  std::vector<std::uint32_t> next(m_begin.begin(), m_begin.end() - 1);
-  for(const Stencil& s : m_stencils)
-    for(int c = 0; c < 3; ++c)
-      m_terms[next[rank[s.source[c]]]++] = {s.vertex, s.weight[c]};
+  std::atomic<bool> is_direct(true);
+  Blocked_execution::blocked_for(m_stencils.size(), block_size,
+                                 [&](std::size_t begin, std::size_t end) {
+    for(std::size_t i = begin; i < end; ++i)
+      for(const Vertex_index v : m_stencils[i].source)
+        if(rank[v] == no_vertex)
+          is_direct = false;
+  });
+  m_is_direct = is_direct;
+  if(!m_is_direct)
+    return;
+  const auto for_each_term = [&](const auto& use) {
+    for(const Stencil& s : m_stencils)
+      for(int c = 0; c < 3; ++c)
+        use(rank[s.source[c]], Term{s.vertex, s.weight[c]});
+  };
+  m_begin = Blocked_execution::internal::sort_by_key(
+    m_kept.size(), for_each_term, [this](std::size_t count) { m_terms.resize(count); },
+    [this](std::uint32_t i, const Term& term) { m_terms[i] = term; });
 }
 
 inline Vertex_index Prolongation::heaviest_source(Vertex_index fine) const

@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_CONFORMAL_OPERATOR_H
 
 #include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Blocked_execution/internal/Uninitialized_vector.h>
 #include <CGAL/Multigrid/Matrix_builder.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/Triangles_at_vertices.h>
 #include <CGAL/Surface_mesh_parameterization/Conformal_triangle.h>
@@ -74,7 +75,8 @@ inline std::array<double, 3> half_cotangents(const Conformal_triangle& t)
 // Half the cotangents of all triangles, three each: all that the energy needs to know of a metric.
 struct Half_cotangents
 {
-  std::vector<double> value; // 3 t + c: of the angle at corner c of triangle t
+  // 3 t + c: of the angle at corner c of triangle t
+  Blocked_execution::internal::Uninitialized_vector<double> value;
   std::size_t mollified = 0;
 
   Half_cotangents() {}
@@ -140,15 +142,20 @@ inline std::vector<std::uint32_t>
 numbers_of_neighbors(const std::vector<Surface_mesh_multiresolution::Triangle_indices>& triangles,
                      const Surface_mesh_multiresolution::internal::Triangles_at_vertices& at)
 {
-  std::vector<std::uint32_t> sum(at.number_of_vertices(), 0); // modulo 2^32
-  for(const auto& t : triangles) {
-    sum[t[0]] += t[1] - t[2];
-    sum[t[1]] += t[2] - t[0];
-    sum[t[2]] += t[0] - t[1];
-  }
-  for(std::uint32_t v = 0; v < sum.size(); ++v)
-    sum[v] = at.number(v) + (sum[v] == 0 ? 0 : 1);
-  return sum;
+  std::vector<std::uint32_t> result(at.number_of_vertices());
+  Blocked_execution::blocked_for(result.size(), 16384, [&](std::size_t begin, std::size_t end) {
+    for(std::size_t v = begin; v < end; ++v) {
+      const std::uint32_t* const last = at.end(std::uint32_t(v));
+      std::uint32_t sum = 0; // modulo 2^32
+      for(const std::uint32_t* corner = at.begin(std::uint32_t(v)); corner != last; ++corner) {
+        const auto& t = triangles[*corner / 3];
+        const std::uint32_t c = *corner % 3;
+        sum += t[c == 2 ? 0 : c + 1] - t[c == 0 ? 2 : c - 1];
+      }
+      result[v] = at.number(std::uint32_t(v)) + (sum == 0 ? 0 : 1);
+    }
+  });
+  return result;
 }
 
 // The conformal operator of triangles with the given cotangents, without pins.

@@ -7,6 +7,7 @@
 #include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
 
 #include <cstddef>
+#include <functional>
 
 namespace CGAL {
 namespace Surface_mesh_parameterization {
@@ -27,6 +28,9 @@ struct Flip_repair_options
   int last_rings = 256;
   /// Patches with more vertices are left as they are.
   std::size_t largest_patch = 20000;
+  /// Told between patches which part of them is done, in [0, 1], in rounds of larger and larger
+  /// patches; returning `false` stops: what is mended by then stays so.
+  std::function<bool(double)> progress;
 };
 
 } // namespace Surface_mesh_parameterization

@@ -25,6 +25,7 @@ struct Flip_repair_report
   std::size_t branch_vertices = 0;
   double energy_before = 0.;         ///< conformal energy before, with the weights of the options
   double energy_after = 0.;          ///< and after the repair
+  bool stopped_early = false;        ///< whether it was stopped before all patches were tried
   double seconds = 0.;               ///< time of the repair
   /// The faces that are still flipped or degenerate, by their positions in `faces(mesh)`,
   /// ascending.

@@ -6,6 +6,7 @@
 
 #include <CGAL/Multigrid/Schedule.h>
 #include <CGAL/Surface_mesh_multiresolution/Mesh_hierarchy.h>
+#include <CGAL/Surface_mesh_parameterization/Map_to_repair.h>
 
 #include <array>
 #include <complex>
@@ -96,9 +97,10 @@ struct HLSCM_options
   double angular_defect_bound = 70.;
   /// Which energy is minimised.
   Conformal_weights weights = Conformal_weights::EXACT;
-  /// Whether flipped faces of the map are mended, at the price of a little energy: see
-  /// `repair_flipped_faces()`.
-  bool repair_flips = false;
+  /// What mends flipped faces of the map, at the price of a little energy, such as
+  /// `Flip_repairer()` of `<CGAL/Surface_mesh_parameterization/repair_flipped_faces.h>`; nothing by
+  /// default. The time limit and cancelling hold for it, too.
+  Flip_repair_function repair_flips;
   /// What decimates the mesh.
   Decimation_engine engine = Decimation_engine::FLAT;
   /// How values go to finer levels.

@@ -11,7 +11,7 @@
 #include <CGAL/Surface_mesh_parameterization/internal/Conformal_solver.h>
 #include <CGAL/Surface_mesh_parameterization/internal/Progress.h>
 #include <CGAL/Surface_mesh_parameterization/internal/check_options.h>
-#include <CGAL/Surface_mesh_parameterization/internal/repair_map.h>
+#include <CGAL/Surface_mesh_parameterization/internal/mapped_faces.h>
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Default.h>
@@ -52,7 +52,8 @@ by default two far vertices of the longest border, at (0, 0) and (1, 0).
 
 As with every least squares conformal map, neither the absence of flipped triangles nor that of
 global overlaps is guaranteed (see `certify_map()`). With `HLSCM_options::repair_flips` flipped
-triangles are mended where possible, and the others are listed.
+triangles are mended where possible, and the others are listed; what does that is in a header of its
+own, `repair_flipped_faces.h`.
 
 \tparam TriangleMesh a model of `FaceGraph`
 \tparam BorderParameterizer a model of `Parameterizer_3` that pins two or more vertices, such as
@@ -61,7 +62,7 @@ triangles are mended where possible, and the others are listed.
         default a sparse Cholesky factorization of complex matrices by Eigen
 \tparam ConcurrencyTag `Sequential_tag` (default), `Parallel_tag` or `Parallel_if_available_tag`;
         parallel, the stages of the hierarchical method use `HLSCM_options::threads` threads of TBB,
-        with the same result to the bit for any number
+        which read the mesh at the same time, with the same result to the bit for any number
 
 \cgalModels{Parameterizer_3}
 
@@ -288,7 +289,13 @@ parameterize(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvma
   m_report->seconds_hierarchy = watch.lap();
   if(chart.error != OK)
     return finish(chart);
-  internal::Conformal_solver<Coarsest_solver> solver(chart, pins, m_options, *m_report);
+  HLSCM_options options = m_options;
+  if(options.repair_flips && options.progress)
+    options.progress = [this](double part) {
+      return m_options.progress((1. - internal::part_of_repair) * part);
+    };
+  const internal::Stopwatch since_begin;
+  internal::Conformal_solver<Coarsest_solver> solver(chart, pins, options, *m_report);
   auto z = solver.run();
   if(chart.error != OK || m_report->cancelled)
     return finish(chart);
@@ -300,7 +307,9 @@ parameterize(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvma
   for(const HLSCM_pin& pin : m_report->pins)
     is_pinned[rank[pin.vertex]] = true;
   if(m_options.repair_flips)
-    internal::repair_chart(mesh, rank, is_pinned, m_options.weights, z, *m_report);
+    internal::repair_chart(mesh, rank, is_pinned, m_options, since_begin, z, *m_report);
+  if(m_report->cancelled)
+    return finish(chart);
   std::size_t position = 0;
   for(vertex_descriptor v : vertices(mesh)) {
     const auto r = rank[position++];

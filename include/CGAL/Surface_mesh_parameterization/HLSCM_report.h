@@ -43,7 +43,8 @@ struct HLSCM_report
   std::string method;                     ///< its name: hlscm, spectral, cascadic, lscm, direct
   bool converged = false;                 ///< whether the tolerance is met, as far as is known
   bool cancelled = false;                 ///< whether the progress function stopped it
-  /// Whether the time limit or the level observer ended it with the map that there was.
+  /// Whether the time limit or the level observer ended it with the map that there was, or the time
+  /// limit the repair of flipped faces.
   bool stopped_early = false;
   std::string message;                    ///< one sentence on what went wrong; empty if nothing did
   std::vector<std::string> warnings;      ///< one sentence each

@@ -6,8 +6,9 @@
 
 #include <CGAL/Surface_mesh_parameterization/Flip_repair_options.h>
 #include <CGAL/Surface_mesh_parameterization/Flip_repair_report.h>
+#include <CGAL/Surface_mesh_parameterization/internal/Flip_repair.h>
 #include <CGAL/Surface_mesh_parameterization/internal/Progress.h>
-#include <CGAL/Surface_mesh_parameterization/internal/repair_map.h>
+#include <CGAL/Surface_mesh_parameterization/internal/mapped_faces.h>
 
 #include <CGAL/boost/graph/properties.h>
 
@@ -15,6 +16,7 @@
 
 #include <complex>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace CGAL {
@@ -22,20 +24,57 @@ namespace Surface_mesh_parameterization {
 
 namespace internal {
 
-inline double energy_of_map(const Flip_repair::Triangles& triangles,
-                            const Flip_repair::Shape_of_face& shape_of_face,
-                            const std::vector<std::complex<double>>& z)
+inline double energy_of_map(const Map_to_repair& map, const std::vector<std::complex<double>>& z)
 {
   double sum = 0.;
-  for(std::uint32_t t = 0; t < triangles.size(); ++t) {
-    const auto [a, b, c] = triangles[t];
-    const auto [shape, weight] = shape_of_face(t);
+  for(std::uint32_t t = 0; t < map.faces.size(); ++t) {
+    const auto [a, b, c] = map.faces[t];
+    const auto [shape, weight] = map.shape_of_face(t);
     sum += weight * shape.energy({z[a], z[b], z[c]});
   }
   return sum;
 }
 
+// Repairs the map and fills the report, with the energies before and after.
+inline Flip_repair_report repair_map(Map_to_repair& map, const Flip_repair_options& options)
+{
+  const Stopwatch watch;
+  const std::vector<std::complex<double>> before = map.z;
+  Flip_repair_report report = Flip_repair(map).run(options);
+  report.energy_before = energy_of_map(map, before);
+  report.energy_after += report.energy_before;
+  report.seconds = watch.seconds();
+  return report;
+}
+
 } // namespace internal
+
+/*!
+\ingroup PkgHLSCMMeasures
+
+The class `Flip_repairer` does to a map what `repair_flipped_faces()` does: for
+`HLSCM_options::repair_flips`.
+*/
+class Flip_repairer
+{
+public:
+  /// Constructs it with options, of which `weights` does not count: the map has its own.
+  explicit Flip_repairer(const Flip_repair_options& options = Flip_repair_options())
+    : m_options(options)
+  {}
+
+  /// Repairs the map. Of the energies in the report that before is 0.
+  Flip_repair_report operator()(Map_to_repair& map,
+                                const std::function<bool(double)>& progress) const
+  {
+    Flip_repair_options options = m_options;
+    options.progress = progress;
+    return internal::Flip_repair(map).run(options);
+  }
+
+private:
+  Flip_repair_options m_options;
+};
 
 /*!
 \ingroup PkgHLSCMMeasures
@@ -89,10 +128,11 @@ Flip_repair_report repair_flipped_faces(const TriangleMesh& mesh, VertexUVMap uv
   }
   const std::vector<std::complex<double>> before = z;
   const internal::Mapped_faces<TriangleMesh> mapped(mesh, place);
-  Flip_repair_report report = internal::repair_map(mesh, mapped, is_fixed, options, z);
-  report.energy_before = internal::energy_of_map(
-    mapped.triangles, internal::shapes_of_faces(mesh, mapped, options.weights), before);
-  report.energy_after += report.energy_before;
+  Map_to_repair map
+    = {mapped.triangles, is_fixed, internal::shapes_of_faces(mesh, mapped, options.weights), z};
+  Flip_repair_report report = internal::repair_map(map, options);
+  for(std::size_t& face : report.unmended_faces)
+    face = mapped.positions[face];
   for(const auto v : vertices(mesh)) {
     const std::uint32_t i = get(place, v);
     if(z[i] != before[i])
@@ -124,21 +164,16 @@ repair_flipped_faces(const Surface_mesh_multiresolution::Indexed_triangle_mesh& 
                      const Flip_repair_options& options = Flip_repair_options())
 {
   CGAL_precondition(uv.size() == mesh.points.size() && is_pinned.size() == uv.size());
-  const internal::Stopwatch watch;
-  const internal::Flip_repair::Shape_of_face shape_of_face
-    = internal::shapes_of_triangles(mesh, options.weights);
   std::vector<std::complex<double>> z;
   for(const auto& p : uv)
     z.push_back({p.x(), p.y()});
   const std::vector<std::complex<double>> before = z;
-  internal::Flip_repair repair(mesh.triangles, is_pinned, shape_of_face, z);
-  Flip_repair_report report = repair.run(options);
-  report.energy_before = internal::energy_of_map(mesh.triangles, shape_of_face, before);
-  report.energy_after += report.energy_before;
+  Map_to_repair map = {mesh.triangles, is_pinned,
+                       internal::shapes_of_triangles(mesh, options.weights), z};
+  const Flip_repair_report report = internal::repair_map(map, options);
   for(std::size_t v = 0; v < z.size(); ++v)
     if(z[v] != before[v])
       uv[v] = Simple_cartesian<double>::Point_2(z[v].real(), z[v].imag());
-  report.seconds = watch.seconds();
   return report;
 }
 

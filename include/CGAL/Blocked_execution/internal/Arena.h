@@ -4,10 +4,10 @@
 #ifndef CGAL_BLOCKED_EXECUTION_INTERNAL_ARENA_H
 #define CGAL_BLOCKED_EXECUTION_INTERNAL_ARENA_H
 
+#include <algorithm>
 #include <cstddef>
 
 #if defined(CGAL_BLOCKED_EXECUTION_STD_THREADS)
-#include <algorithm>
 #include <atomic>
 #include <thread>
 #include <vector>
@@ -34,6 +34,8 @@ public:
   {}
 
   bool is_parallel() const { return m_threads > 1; }
+
+  unsigned int concurrency() const { return m_threads; }
 
   template <class Body>
   void run(std::size_t n, const Body& body)
@@ -66,6 +68,11 @@ public:
 
   bool is_parallel() const { return m_is_parallel; }
 
+  unsigned int concurrency() const
+  {
+    return m_is_parallel ? (unsigned int)((std::max)(1, m_arena.max_concurrency())) : 1;
+  }
+
   template <class Body>
   void run(std::size_t n, const Body& body)
   {
@@ -85,6 +92,8 @@ public:
   explicit Arena(unsigned int) {}
 
   bool is_parallel() const { return false; }
+
+  unsigned int concurrency() const { return 1; }
 
   template <class Body>
   void run(std::size_t n, const Body& body)

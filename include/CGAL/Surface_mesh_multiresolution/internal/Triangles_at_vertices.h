@@ -4,8 +4,10 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_TRIANGLES_AT_VERTICES_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_TRIANGLES_AT_VERTICES_H
 
+#include <CGAL/Blocked_execution/internal/sort_by_key.h>
 #include <CGAL/Surface_mesh_multiresolution/Indexed_triangle_mesh.h>
 
+#include <cstdint>
 #include <vector>
 
 namespace CGAL {
@@ -18,25 +20,24 @@ class Triangles_at_vertices
 public:
   Triangles_at_vertices(const std::vector<Triangle_indices>& triangles,
                         std::size_t number_of_vertices)
-    : m_begin(number_of_vertices + 2, 0), m_corner(3 * triangles.size())
   {
-    for(const Triangle_indices& t : triangles)
-      for(const Vertex_index v : t)
-        ++m_begin[v + 2];
-    for(std::size_t v = 2; v < m_begin.size(); ++v)
-      m_begin[v] += m_begin[v - 1];
-    for(std::uint32_t t = 0; t < triangles.size(); ++t)
-      for(std::uint32_t c = 0; c < 3; ++c)
-        m_corner[m_begin[triangles[t][c] + 1]++] = 3 * t + c;
+    const auto for_each_corner = [&triangles](const auto& use) {
+      for(std::uint32_t t = 0; t < triangles.size(); ++t)
+        for(std::uint32_t c = 0; c < 3; ++c)
+          use(triangles[t][c], 3 * t + c);
+    };
+    m_begin = Blocked_execution::internal::sort_by_key(
+      number_of_vertices, for_each_corner, [this](std::size_t count) { m_corner.resize(count); },
+      [this](std::uint32_t i, std::uint32_t corner) { m_corner[i] = corner; });
   }
 
-  std::size_t number_of_vertices() const { return m_begin.size() - 2; }
+  std::size_t number_of_vertices() const { return m_begin.size() - 1; }
   const std::uint32_t* begin(Vertex_index v) const { return m_corner.data() + m_begin[v]; }
   const std::uint32_t* end(Vertex_index v) const { return m_corner.data() + m_begin[v + 1]; }
   std::uint32_t number(Vertex_index v) const { return m_begin[v + 1] - m_begin[v]; }
 
 private:
-  std::vector<std::uint32_t> m_begin, m_corner;
+  Blocked_execution::internal::Uninitialized_vector<std::uint32_t> m_begin, m_corner;
 };
 
 } // namespace internal

@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_VERTEX_RINGS_H
 
 #include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Blocked_execution/internal/sort_by_key.h>
 #include <CGAL/Surface_mesh_multiresolution/Indexed_triangle_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/prefetch.h>
 
@@ -90,8 +91,10 @@ private:
 
   struct alignas(64) Line
   {
+    Line() {} // not set: who builds the rings touches the memory first
+
     Vertex_index ring[line_capacity];
-    std::uint32_t degree = 0; // with the two flags
+    std::uint32_t degree; // with the two flags
     std::uint32_t unused;
   };
 
@@ -235,36 +238,39 @@ inline Ring_defect Vertex_rings::link_fan(Vertex_index v,
 
 inline void Vertex_rings::build(const Indexed_triangle_mesh& mesh)
 {
+  typedef std::array<Vertex_index, 2> Wedge;
   const std::size_t n = mesh.points.size();
-  std::vector<std::uint32_t> begin(n + 1, 0);
-  for(const Triangle_indices& t : mesh.triangles)
-    for(const Vertex_index v : t)
-      ++begin[v + 1];
-  for(std::size_t i = 0; i < n; ++i)
-    begin[i + 1] += begin[i];
-  std::vector<std::array<Vertex_index, 2>> all(begin[n]);
-  for(const Triangle_indices& t : mesh.triangles)
-    for(int c = 0; c < 3; ++c)
-      all[begin[t[c]]++] = {t[(c + 1) % 3], t[(c + 2) % 3]};
+  const auto for_each_wedge = [&mesh](const auto& use) {
+    for(const Triangle_indices& t : mesh.triangles) {
+      use(t[0], Wedge{t[1], t[2]});
+      use(t[1], Wedge{t[2], t[0]});
+      use(t[2], Wedge{t[0], t[1]});
+    }
+  };
+  Blocked_execution::internal::Uninitialized_vector<Wedge> all;
+  const auto begin = Blocked_execution::internal::sort_by_key(
+    n, for_each_wedge, [&all](std::size_t count) { all.resize(count); },
+    [&all](std::uint32_t i, const Wedge& wedge) { all[i] = wedge; });
   m_lines.resize(n);
   m_small_degree.resize(n);
   std::vector<std::uint8_t> is_done(n);
   Blocked_execution::blocked_for(n, 16384, [&](std::size_t first, std::size_t last) {
     for(std::size_t v = first; v < last; ++v) {
-      const std::uint32_t from = v == 0 ? 0 : begin[v - 1];
-      is_done[v] = link_small_fan(Vertex_index(v), all.data() + from, begin[v] - from);
+      m_lines[v].degree = 0;
+      is_done[v] = link_small_fan(Vertex_index(v), all.data() + begin[v], begin[v + 1] - begin[v]);
+      note_degree(Vertex_index(v));
     }
   });
   std::vector<std::array<Vertex_index, 2>> wedges;
   std::vector<Vertex_index> ring;
   for(std::size_t v = 0; v < n; ++v) {
-    if(!is_done[v]) {
-      wedges.assign(all.begin() + (v == 0 ? 0 : begin[v - 1]), all.begin() + begin[v]);
-      const Ring_defect defect = link_fan(Vertex_index(v), wedges, ring);
-      if(defect != Ring_defect::NONE && m_defect == Ring_defect::NONE) {
-        m_defect = defect;
-        m_defective_vertex = Vertex_index(v);
-      }
+    if(is_done[v])
+      continue;
+    wedges.assign(all.begin() + begin[v], all.begin() + begin[v + 1]);
+    const Ring_defect defect = link_fan(Vertex_index(v), wedges, ring);
+    if(defect != Ring_defect::NONE && m_defect == Ring_defect::NONE) {
+      m_defect = defect;
+      m_defective_vertex = Vertex_index(v);
     }
     note_degree(Vertex_index(v));
   }

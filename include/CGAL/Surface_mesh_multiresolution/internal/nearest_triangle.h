@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_NEAREST_TRIANGLE_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_NEAREST_TRIANGLE_H
 
+#include <CGAL/Blocked_execution/internal/select.h>
 #include <CGAL/Surface_mesh_multiresolution/Prolongation.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/Triangles_at_vertices.h>
 
@@ -174,12 +175,10 @@ walk_stencils(const Indexed_triangle_mesh& fine, const Indexed_triangle_mesh& co
 {
   const Triangles_at_vertices at(coarse.triangles, coarse.points.size());
   const std::vector<Vertex_index> rank = ranks(kept, fine.points.size());
-  std::vector<Vertex_index> removed;
-  removed.reserve(fine.points.size() - kept.size());
-  for(Vertex_index v = 0; v < fine.points.size(); ++v)
-    if(ancestor[v] != v)
-      removed.push_back(v);
-  std::vector<Prolongation::Stencil> result(removed.size());
+  const std::vector<Vertex_index> removed = Blocked_execution::internal::select(
+    fine.points.size(), [&ancestor](Vertex_index v) { return ancestor[v] != v; });
+  std::vector<Prolongation::Stencil> result;
+  Blocked_execution::internal::resize_blocked(result, removed.size());
   Blocked_execution::blocked_for(removed.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for(std::size_t i = begin; i < end; ++i) {
       const Vertex_index v = removed[i];

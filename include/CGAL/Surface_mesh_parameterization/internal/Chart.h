@@ -4,6 +4,8 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_CHART_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_CHART_H
 
+#include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Blocked_execution/internal/Uninitialized_vector.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/Vertex_rings.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/border_loops.h>
 
@@ -13,9 +15,12 @@
 #include <CGAL/boost/graph/properties.h>
 #include <CGAL/number_utils.h>
 
+#include <atomic>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -59,35 +64,75 @@ inline void check_point(const Chart::Mesh::Point_3& p, std::size_t vertex, Chart
                + " has a coordinate that is not a finite number; correct or remove it");
 }
 
+// Says which point, the first of several, is none.
+inline void check_points(Chart& chart)
+{
+  for(std::size_t v = 0; v < chart.mesh.points.size(); ++v)
+    check_point(chart.mesh.points[v], v, chart);
+}
+
+// Calls `body(i)` for i in [0, n). Numbers that are objects may not be read by several threads.
+template <class Number, class Body>
+void for_each_of_mesh(std::size_t n, const Body& body)
+{
+  const std::size_t block = std::is_arithmetic<Number>::value ? 16384 : (std::max)(n, std::size_t(1));
+  Blocked_execution::blocked_for(n, block, [&body](std::size_t begin, std::size_t end) {
+    for(std::size_t i = begin; i < end; ++i)
+      body(i);
+  });
+}
+
+// Copies the positions of the vertices of `mesh`, which are numbered as in vertices(mesh).
+template <class TriangleMesh, class VertexPositionMap>
+void copy_points(const TriangleMesh& mesh, VertexPositionMap position, Chart& chart)
+{
+  typedef typename boost::graph_traits<TriangleMesh>::vertex_descriptor vertex_descriptor;
+  const auto vpm = get(CGAL::vertex_point, mesh);
+  typedef std::decay_t<decltype(get(vpm, std::declval<vertex_descriptor>())[0])> Number;
+  std::vector<vertex_descriptor> all;
+  all.reserve(num_vertices(mesh));
+  for(const vertex_descriptor v : vertices(mesh)) {
+    put(position, v, std::uint32_t(all.size()));
+    all.push_back(v);
+  }
+  chart.mesh.points.resize(all.size());
+  std::atomic<bool> is_finite(true);
+  for_each_of_mesh<Number>(all.size(), [&](std::size_t i) {
+    const auto& p = get(vpm, all[i]);
+    const Chart::Mesh::Point_3 q(to_double(p[0]), to_double(p[1]), to_double(p[2]));
+    chart.mesh.points[i] = q;
+    if(!std::isfinite(q.x()) || !std::isfinite(q.y()) || !std::isfinite(q.z()))
+      is_finite = false;
+  });
+  if(!is_finite)
+    check_points(chart);
+}
+
 // Copies the faces and positions of `mesh`; vertices are numbered as in vertices(mesh).
 template <class TriangleMesh>
 void copy_faces(const TriangleMesh& mesh, Chart& chart)
 {
-  typedef boost::graph_traits<TriangleMesh> Graph_traits;
-  typedef CGAL::dynamic_vertex_property_t<std::uint32_t> Tag;
-  auto position = get(Tag(), mesh);
-  const auto vpm = get(CGAL::vertex_point, mesh);
-  chart.mesh.points.reserve(num_vertices(mesh));
-  chart.mesh.triangles.reserve(num_faces(mesh));
-  std::uint32_t index = 0;
-  for(const typename Graph_traits::vertex_descriptor v : vertices(mesh)) {
-    const auto& p = get(vpm, v);
-    const Chart::Mesh::Point_3 q(to_double(p[0]), to_double(p[1]), to_double(p[2]));
-    check_point(q, index, chart);
-    chart.mesh.points.push_back(q);
-    put(position, v, index++);
-  }
-  std::size_t face = 0;
-  for(const typename Graph_traits::face_descriptor f : faces(mesh)) {
-    const auto h = halfedge(f, mesh);
-    const auto h1 = next(h, mesh), h2 = next(h1, mesh);
+  typedef typename boost::graph_traits<TriangleMesh>::face_descriptor face_descriptor;
+  const auto position = get(CGAL::dynamic_vertex_property_t<std::uint32_t>(), mesh);
+  copy_points(mesh, position, chart);
+  std::vector<face_descriptor> all;
+  all.reserve(num_faces(mesh));
+  for(const face_descriptor f : faces(mesh))
+    all.push_back(f);
+  Blocked_execution::internal::resize_blocked(chart.mesh.triangles, all.size());
+  std::atomic<std::size_t> first_polygon(all.size());
+  for_each_of_mesh<int>(all.size(), [&](std::size_t i) {
+    const auto h = halfedge(all[i], mesh), h1 = next(h, mesh), h2 = next(h1, mesh);
+    chart.mesh.triangles[i] = {get(position, target(h, mesh)), get(position, target(h1, mesh)),
+                               get(position, target(h2, mesh))};
     if(next(h2, mesh) != h)
-      chart.fail(ERROR_NON_TRIANGULAR_MESH, "face " + std::to_string(face)
-                 + " is not a triangle; triangulate the mesh first");
-    chart.mesh.triangles.push_back({get(position, target(h, mesh)), get(position, target(h1, mesh)),
-                                    get(position, target(h2, mesh))});
-    ++face;
-  }
+      for(std::size_t known = first_polygon; i < known;)
+        if(first_polygon.compare_exchange_weak(known, i))
+          break;
+  });
+  if(first_polygon < all.size())
+    chart.fail(ERROR_NON_TRIANGULAR_MESH, "face " + std::to_string(first_polygon)
+               + " is not a triangle; triangulate the mesh first");
 }
 
 // Keeps the vertices for which `is_kept` and the triangles that have them.
@@ -114,11 +159,16 @@ inline void keep_vertices(Chart& chart, const std::vector<bool>& is_kept)
 
 inline void remove_unused_vertices(Chart& chart)
 {
-  std::vector<bool> is_used(chart.mesh.points.size(), false);
-  for(const auto& t : chart.mesh.triangles)
-    for(const std::uint32_t v : t)
-      is_used[v] = true;
-  keep_vertices(chart, is_used);
+  const auto& triangles = chart.mesh.triangles;
+  std::vector<std::atomic<bool>> is_used(chart.mesh.points.size());
+  Blocked_execution::blocked_for(triangles.size(), 16384, [&](std::size_t begin, std::size_t end) {
+    for(std::size_t t = begin; t < end; ++t)
+      for(const std::uint32_t v : triangles[t])
+        is_used[v].store(true, std::memory_order_relaxed);
+  });
+  const std::vector<bool> is_kept(is_used.begin(), is_used.end());
+  if(std::find(is_kept.begin(), is_kept.end(), false) != is_kept.end())
+    keep_vertices(chart, is_kept);
 }
 
 // Builds the rings; says which vertex has none.
@@ -201,10 +251,9 @@ inline Chart chart_of_arrays(Chart::Mesh mesh)
   Chart chart;
   chart.mesh = std::move(mesh);
   chart.source.resize(chart.mesh.points.size());
-  for(std::uint32_t v = 0; v < chart.source.size(); ++v) {
+  for(std::uint32_t v = 0; v < chart.source.size(); ++v)
     chart.source[v] = v;
-    check_point(chart.mesh.points[v], v, chart);
-  }
+  check_points(chart);
   prepare_chart(chart, Surface_mesh_multiresolution::no_vertex);
   return chart;
 }

@@ -6,6 +6,7 @@
 
 #include <CGAL/Surface_mesh_parameterization/Flip_repair_options.h>
 #include <CGAL/Surface_mesh_parameterization/Flip_repair_report.h>
+#include <CGAL/Surface_mesh_parameterization/Map_to_repair.h>
 #include <CGAL/Surface_mesh_parameterization/internal/flip_patches.h>
 #include <CGAL/Surface_mesh_parameterization/internal/mend_patch.h>
 #include <CGAL/Surface_mesh_parameterization/internal/uv_triangles.h>
@@ -13,7 +14,6 @@
 #include <CGAL/Blocked_execution/blocked_for.h>
 
 #include <algorithm>
-#include <functional>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -31,13 +31,11 @@ public:
   typedef std::vector<Complex> Values;
   typedef std::vector<std::uint32_t> Faces;
   typedef std::vector<Surface_mesh_multiresolution::Triangle_indices> Triangles;
-  // The shape of a face on the surface, and the weight of its energy
-  typedef std::function<std::pair<Conformal_triangle, double>(std::uint32_t)> Shape_of_face;
+  typedef Map_to_repair::Shape_of_face Shape_of_face;
 
-  Flip_repair(const Triangles& triangles, const std::vector<bool>& is_fixed,
-              Shape_of_face shape_of_face, Values& z)
-    : m_triangles(triangles), m_is_fixed(is_fixed), m_shape_of_face(std::move(shape_of_face))
-    , m_z(z)
+  explicit Flip_repair(Map_to_repair& map)
+    : m_triangles(map.faces), m_is_fixed(map.is_fixed), m_shape_of_face(map.shape_of_face)
+    , m_z(map.z)
   {}
 
   // Mends what it can and fills the report; but not the time, and of the energies only the
@@ -71,8 +69,9 @@ private:
 
   const Triangles& m_triangles;
   const std::vector<bool>& m_is_fixed;
-  Shape_of_face m_shape_of_face;
+  const Shape_of_face& m_shape_of_face;
   Values& m_z;
+  bool m_is_stopped = false;
 };
 
 inline Orientation Flip_repair::orientation_of_face(std::uint32_t t) const
@@ -253,15 +252,33 @@ inline Flip_repair::Mending Flip_repair::mend(const Flip_patch& patch, double ba
   return result;
 }
 
+// Patches from `begin` on are worked on together until they have so many vertices: some hundredths
+// of a second, in which nobody is asked whether to go on.
+inline std::size_t end_of_group(const std::vector<Flip_patch>& patches, std::size_t begin)
+{
+  constexpr std::size_t enough = 2000;
+  std::size_t end = begin;
+  for(std::size_t vertices = 0; end < patches.size() && vertices < enough; ++end)
+    vertices += patches[end].vertices.size();
+  return end;
+}
+
 inline std::vector<Flip_repair::Mending>
 Flip_repair::mend_patches(const std::vector<Flip_patch>& patches, Branches choice,
                           const Flip_repair_options& options, Flip_repair_report& report)
 {
   std::vector<Mending> mendings(patches.size(), {Outcome::GIVE_UP});
-  Blocked_execution::blocked_for(patches.size(), 1, [&](std::size_t i, std::size_t) {
-    if(patches[i].vertices.size() <= options.largest_patch)
-      mendings[i] = mend(patches[i], options.barrier, choice);
-  });
+  for(std::size_t begin = 0, end; begin < patches.size(); begin = end) {
+    end = end_of_group(patches, begin);
+    m_is_stopped = m_is_stopped || (options.progress
+                     && !options.progress(double(begin) / double(patches.size())));
+    if(m_is_stopped)
+      break;
+    Blocked_execution::blocked_for(end - begin, 1, [&](std::size_t i, std::size_t) {
+      if(patches[begin + i].vertices.size() <= options.largest_patch)
+        mendings[begin + i] = mend(patches[begin + i], options.barrier, choice);
+    });
+  }
   for(const Mending& mending : mendings)
     if(mending.outcome == Outcome::MENDED) {
       ++report.patches;
@@ -315,6 +332,7 @@ inline Flip_repair_report Flip_repair::run(const Flip_repair_options& options)
     return report;
   const Values before = m_z;
   mend_all(bad, options, report);
+  report.stopped_early = m_is_stopped;
   bad = bad_faces(bad);
   report.unmended_faces.assign(bad.begin(), bad.end());
   report.flipped_after = number_of_flipped(bad);

@@ -94,7 +94,8 @@ private:
   const Connected_mesh& m_coarse;
   const std::vector<std::uint32_t>& m_kept;
   std::vector<Gradients> m_gradients;             // of the coarse triangles
-  std::vector<std::uint32_t> m_begin, m_below;    // the fine triangles below each coarse one
+  // The fine triangles below each coarse one
+  Blocked_execution::internal::Uninitialized_vector<std::uint32_t> m_begin, m_below;
 };
 
 inline void Coarse_metric::find_gradients()
@@ -170,17 +171,14 @@ inline void Coarse_metric::find_owners(const Prolongation& prolongation)
     for(std::size_t t = begin; t < end; ++t)
       owner[t] = owner_of(std::uint32_t(t), rank, owner_of_vertex);
   });
-  m_begin.assign(m_coarse.mesh.triangles.size() + 1, 0);
-  for(const std::uint32_t o : owner)
-    if(o != none)
-      ++m_begin[o + 1];
-  for(std::size_t o = 1; o < m_begin.size(); ++o)
-    m_begin[o] += m_begin[o - 1];
-  m_below.resize(m_begin.back());
-  std::vector<std::uint32_t> next(m_begin.begin(), m_begin.end() - 1);
-  for(std::uint32_t t = 0; t < owner.size(); ++t)
-    if(owner[t] != none)
-      m_below[next[owner[t]]++] = t;
+  const auto for_each_owned = [&owner](const auto& use) {
+    for(std::uint32_t t = 0; t < owner.size(); ++t) // `none` is no key
+      use(owner[t], t);
+  };
+  m_begin = Blocked_execution::internal::sort_by_key(
+    m_coarse.mesh.triangles.size(), for_each_owned,
+    [this](std::size_t count) { m_below.resize(count); },
+    [this](std::uint32_t i, std::uint32_t t) { m_below[i] = t; });
 }
 
 // Asks for what the sums over the fine triangles after m_below[i] will read: triangles first and,

@@ -45,7 +45,6 @@ faces_without_positive_area(
 // The free vertices within `rings` edges of the faces, ascending.
 inline std::vector<std::uint32_t>
 vertices_around(const Multigrid::Hermitian_matrix<double>& h,
-                const std::vector<std::uint32_t>& slot,
                 const std::vector<Surface_mesh_multiresolution::Triangle_indices>& triangles,
                 const std::vector<std::uint32_t>& faces, int rings)
 {
@@ -60,7 +59,7 @@ vertices_around(const Multigrid::Hermitian_matrix<double>& h,
   for(int ring = 0; ring < rings; ++ring) {
     const std::vector<std::uint32_t> inner = result;
     for(const std::uint32_t v : inner)
-      h.for_each_entry(slot[v], [&result](std::uint32_t w, std::complex<double>) {
+      h.for_each_entry(h.slot_of_row(v), [&result](std::uint32_t w, std::complex<double>) {
         result.push_back(w);
       });
     unite();
@@ -74,13 +73,12 @@ vertices_around(const Multigrid::Hermitian_matrix<double>& h,
 // Moves the vertices of a patch to the minimum of the energy for which all others stay. The patch
 // is ascending and has no pins.
 inline void minimize_on_patch(const Multigrid::Hermitian_matrix<double>& h,
-                              const std::vector<std::uint32_t>& slot,
                               const std::vector<std::uint32_t>& patch,
                               std::vector<std::complex<double>>& z)
 {
   typedef std::complex<double> Complex;
   const auto use_inner_entries = [&](std::uint32_t i, const auto& use) {
-    h.for_each_entry(slot[patch[i]], [&](std::uint32_t w, const Complex& value) {
+    h.for_each_entry(h.slot_of_row(patch[i]), [&](std::uint32_t w, const Complex& value) {
       const auto found = std::lower_bound(patch.begin(), patch.end(), w);
       if(found != patch.end() && *found == w)
         use(std::uint32_t(found - patch.begin()), value);
@@ -91,7 +89,7 @@ inline void minimize_on_patch(const Multigrid::Hermitian_matrix<double>& h,
   for(std::uint32_t i = 0; i < patch.size(); ++i) {
     use_inner_entries(i, [&](std::uint32_t, const Complex&) { ++lengths[i]; });
     f[i] = -h.diagonal()[patch[i]] * z[patch[i]];
-    h.for_each_entry(slot[patch[i]], [&](std::uint32_t w, const Complex& value) {
+    h.for_each_entry(h.slot_of_row(patch[i]), [&](std::uint32_t w, const Complex& value) {
       f[i] -= value * z[w];
     });
   }
@@ -119,17 +117,14 @@ inline void relax_flipped_faces(
   std::vector<std::complex<double>>& z)
 {
   constexpr std::size_t largest = 8000; // vertices: some hundredths of a second
-  std::vector<std::uint32_t> slot;
   for(const int rings : {3, 6, 12, 24}) {
     const std::vector<std::uint32_t> flipped = faces_without_positive_area(triangles, z);
     if(flipped.empty())
       return;
-    if(slot.empty())
-      slot = h.slot_of_row();
-    const std::vector<std::uint32_t> patch = vertices_around(h, slot, triangles, flipped, rings);
+    const std::vector<std::uint32_t> patch = vertices_around(h, triangles, flipped, rings);
     if(patch.size() > largest)
       return;
-    minimize_on_patch(h, slot, patch, z);
+    minimize_on_patch(h, patch, z);
   }
 }
 

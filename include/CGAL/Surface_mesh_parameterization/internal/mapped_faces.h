@@ -1,14 +1,15 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_REPAIR_MAP_H
-#define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_REPAIR_MAP_H
+#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_MAPPED_FACES_H
+#define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_MAPPED_FACES_H
 
 #include <CGAL/Surface_mesh_parameterization/Distortion_measures.h>
+#include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
-#include <CGAL/Surface_mesh_parameterization/internal/Flip_repair.h>
+#include <CGAL/Surface_mesh_parameterization/internal/Progress.h>
 
-#include <chrono>
+#include <cmath>
 #include <complex>
 #include <cstdint>
 #include <string>
@@ -18,6 +19,9 @@
 namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
+
+// The part of the whole that the repair of flipped faces is taken for.
+constexpr double part_of_repair = 0.1;
 
 // The faces of a mesh whose vertices all have a place in a map, as arrays.
 template <class TriangleMesh>
@@ -56,7 +60,7 @@ inline double energy_weight(const Conformal_triangle& shape, Conformal_weights w
 
 // The shape of each of these faces, in units of the mean edge, and the weight of its energy.
 template <class TriangleMesh>
-Flip_repair::Shape_of_face shapes_of_faces(const TriangleMesh& mesh,
+Map_to_repair::Shape_of_face shapes_of_faces(const TriangleMesh& mesh,
                                            const Mapped_faces<TriangleMesh>& mapped,
                                            Conformal_weights weights)
 {
@@ -68,7 +72,7 @@ Flip_repair::Shape_of_face shapes_of_faces(const TriangleMesh& mesh,
 }
 
 // The same for a mesh that is two arrays.
-inline Flip_repair::Shape_of_face
+inline Map_to_repair::Shape_of_face
 shapes_of_triangles(const Surface_mesh_multiresolution::Indexed_triangle_mesh& mesh,
                     Conformal_weights weights)
 {
@@ -87,46 +91,43 @@ shapes_of_triangles(const Surface_mesh_multiresolution::Indexed_triangle_mesh& m
   };
 }
 
-// Repairs the map `z` of these faces. Of the energies the report has the difference only: that
-// before is 0.
-template <class TriangleMesh>
-Flip_repair_report repair_map(const TriangleMesh& mesh, const Mapped_faces<TriangleMesh>& mapped,
-                              const std::vector<bool>& is_fixed,
-                              const Flip_repair_options& options,
-                              std::vector<std::complex<double>>& z)
-{
-  const auto start = std::chrono::steady_clock::now();
-  Flip_repair repair(mapped.triangles, is_fixed, shapes_of_faces(mesh, mapped, options.weights), z);
-  Flip_repair_report report = repair.run(options);
-  for(std::size_t& face : report.unmended_faces)
-    face = mapped.positions[face];
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return report;
-}
-
 // Repairs the map of a chart of `mesh`, given by the place of each vertex of the mesh in it or
-// `no_vertex`, and takes the change of energy over into the report.
+// `no_vertex`, by the function of the options, and takes what changes over into the report.
+// `since_begin` is asked for the time limit.
 template <class TriangleMesh>
 void repair_chart(const TriangleMesh& mesh, const std::vector<std::uint32_t>& places,
-                  const std::vector<bool>& is_pinned, Conformal_weights weights,
-                  std::vector<std::complex<double>>& z, HLSCM_report& report)
+                  const std::vector<bool>& is_pinned, const HLSCM_options& options,
+                  const Stopwatch& since_begin, std::vector<std::complex<double>>& z,
+                  HLSCM_report& report)
 {
   const auto place = get(CGAL::dynamic_vertex_property_t<std::uint32_t>(), mesh);
   std::size_t position = 0;
   for(const auto v : vertices(mesh))
     put(place, v, places[position++]);
-  Flip_repair_options options;
-  options.weights = weights;
-  Flip_repair_report repair
-    = repair_map(mesh, Mapped_faces<TriangleMesh>(mesh, place), is_pinned, options, z);
-  const double rise = repair.energy_after;
+  const Mapped_faces<TriangleMesh> mapped(mesh, place);
+  Map_to_repair map
+    = {mapped.triangles, is_pinned, shapes_of_faces(mesh, mapped, options.weights), z};
+  Progress progress(options.progress);
+  const auto goes_on = [&](double part) {
+    if(options.time_limit > 0. && since_begin.seconds() > options.time_limit)
+      report.stopped_early = true;
+    return progress(1. - part_of_repair, 1., part) && !report.stopped_early;
+  };
+  const Stopwatch watch;
+  Flip_repair_report repair = options.repair_flips(map, goes_on);
+  for(std::size_t& face : repair.unmended_faces)
+    face = mapped.positions[face];
+  repair.seconds = watch.seconds();
+  const double rise = repair.energy_after - repair.energy_before;
   repair.energy_before = report.energy;
   report.energy += rise;
   report.energy_gap_estimate += rise;
   repair.energy_after = report.energy;
   if(!repair.unmended_faces.empty())
     report.warnings.push_back(std::to_string(repair.unmended_faces.size())
-                              + " flipped faces could not be repaired");
+                              + (repair.stopped_early ? " flipped faces are left: there was no time"
+                                                      : " flipped faces could not be repaired"));
+  report.cancelled = progress.is_cancelled() || !progress(1., 1., 1.);
   report.flip_repair = std::move(repair);
 }
 
@@ -134,4 +135,4 @@ void repair_chart(const TriangleMesh& mesh, const std::vector<std::uint32_t>& pl
 } // namespace Surface_mesh_parameterization
 } // namespace CGAL
 
-#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_REPAIR_MAP_H
+#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_MAPPED_FACES_H
