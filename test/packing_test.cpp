@@ -266,7 +266,7 @@ class Packer_test : public ::testing::Test
 typedef ::testing::Types<Raster_packer, Horizon_packer> Packers;
 TYPED_TEST_SUITE(Packer_test, Packers);
 
-TYPED_TEST(Packer_test, KeepsThePadding)
+TYPED_TEST(Packer_test, keeps_the_padding)
 {
   for(const std::size_t padding : {0, 2, 5}) {
     Packing_options options = small_page();
@@ -279,7 +279,7 @@ TYPED_TEST(Packer_test, KeepsThePadding)
   }
 }
 
-TYPED_TEST(Packer_test, KeepsThePaddingOnMipLevels)
+TYPED_TEST(Packer_test, keeps_the_padding_on_mip_levels)
 {
   for(const unsigned int level : {1u, 3u})
     for(const std::size_t side : {96, 99}) { // not a multiple of the block, either
@@ -293,7 +293,7 @@ TYPED_TEST(Packer_test, KeepsThePaddingOnMipLevels)
     }
 }
 
-TYPED_TEST(Packer_test, PacksPagesOfAnyAspect)
+TYPED_TEST(Packer_test, packs_pages_of_any_aspect)
 {
   const Charts charts = mixed_charts();
   for(const auto& size : {std::make_pair(300, 70), std::make_pair(64, 200)}) {
@@ -303,7 +303,7 @@ TYPED_TEST(Packer_test, PacksPagesOfAnyAspect)
   }
 }
 
-TYPED_TEST(Packer_test, PacksSeveralPages)
+TYPED_TEST(Packer_test, packs_several_pages)
 {
   const Charts charts = mixed_charts();
   Packing_options options = small_page(64, 64);
@@ -315,7 +315,7 @@ TYPED_TEST(Packer_test, PacksSeveralPages)
   EXPECT_GT(result.texels_per_unit, 1.2 * one_page);
 }
 
-TYPED_TEST(Packer_test, KeepsAGivenDensity)
+TYPED_TEST(Packer_test, keeps_a_given_density)
 {
   const Charts charts = mixed_charts();
   Packing_options options = small_page(96, 96);
@@ -331,7 +331,7 @@ TYPED_TEST(Packer_test, KeepsAGivenDensity)
               + (options.max_pages == 1 ? "" : "s") + " with this density");
 }
 
-TYPED_TEST(Packer_test, NamesTheChartThatIsLargerThanAPage)
+TYPED_TEST(Packer_test, names_the_chart_that_is_larger_than_a_page)
 {
   Charts charts = mixed_charts();
   charts.insert(charts.begin() + 4, rectangle_chart(10., 10.));
@@ -343,7 +343,7 @@ TYPED_TEST(Packer_test, NamesTheChartThatIsLargerThanAPage)
   EXPECT_TRUE(result.placements.empty());
 }
 
-TYPED_TEST(Packer_test, DoesNotDependOnTheUnitOrThePosition)
+TYPED_TEST(Packer_test, does_not_depend_on_the_unit_or_the_position)
 {
   const Charts charts = mixed_charts();
   const Packing_options options = small_page();
@@ -366,7 +366,7 @@ TYPED_TEST(Packer_test, DoesNotDependOnTheUnitOrThePosition)
   }
 }
 
-TYPED_TEST(Packer_test, IsTheSameForAnyNumberOfThreads)
+TYPED_TEST(Packer_test, is_the_same_for_any_number_of_threads)
 {
   const Charts charts = mixed_charts();
   Packing_options options = small_page();
@@ -376,7 +376,7 @@ TYPED_TEST(Packer_test, IsTheSameForAnyNumberOfThreads)
   EXPECT_TRUE(are_equal(one, pack_charts<TypeParam>(charts, options)));
 }
 
-TYPED_TEST(Packer_test, PlacesDegenerateCharts)
+TYPED_TEST(Packer_test, places_degenerate_charts)
 {
   Charts charts = blob_charts(3, 0.3, seed);
   charts.push_back({{{0., 0.}, {1., 0.}, {2., 0.}}, {{0, 1, 2}}});            // no area
@@ -392,7 +392,7 @@ TYPED_TEST(Packer_test, PlacesDegenerateCharts)
   EXPECT_EQ(packing_error(charts, options, result), "");
 }
 
-TYPED_TEST(Packer_test, PlacesNothingButDegenerateCharts)
+TYPED_TEST(Packer_test, places_nothing_but_degenerate_charts)
 {
   const Packing_options options = small_page(64, 64);
   const Chart_shape point = {{{3., 3.}, {3., 3.}, {3., 3.}}, {{0, 1, 2}}};
@@ -401,7 +401,7 @@ TYPED_TEST(Packer_test, PlacesNothingButDegenerateCharts)
     EXPECT_EQ(packing_error(charts, options, pack_charts<TypeParam>(charts, options)), "");
 }
 
-TYPED_TEST(Packer_test, PlacesChartsWithFlippedTriangles)
+TYPED_TEST(Packer_test, places_charts_with_flipped_triangles)
 {
   Charts charts = mixed_charts();
   for(std::size_t c = 0; c < 8; ++c) {
@@ -414,7 +414,7 @@ TYPED_TEST(Packer_test, PlacesChartsWithFlippedTriangles)
   EXPECT_EQ(packing_error(charts, options, pack_charts<TypeParam>(charts, options)), "");
 }
 
-TYPED_TEST(Packer_test, ReportsBadInput)
+TYPED_TEST(Packer_test, reports_bad_input)
 {
   Charts charts = mixed_charts();
   charts[2].uv[5] = Point_2(0., std::numeric_limits<double>::quiet_NaN());
@@ -439,7 +439,7 @@ TYPED_TEST(Packer_test, ReportsBadInput)
   EXPECT_NE(pack_charts<TypeParam>(charts, options).error, "");
 }
 
-TYPED_TEST(Packer_test, PacksNoCharts)
+TYPED_TEST(Packer_test, packs_no_charts)
 {
   const Packing_result result = pack_charts<TypeParam>(Charts());
   EXPECT_EQ(result.error, "");
@@ -447,7 +447,7 @@ TYPED_TEST(Packer_test, PacksNoCharts)
   EXPECT_TRUE(result.placements.empty());
 }
 
-TYPED_TEST(Packer_test, StopsWhenAskedTo)
+TYPED_TEST(Packer_test, stops_when_asked_to)
 {
   for(const int calls : {1, 2, 5}) {
     Packing_options options = small_page();
@@ -468,7 +468,7 @@ TYPED_TEST(Packer_test, StopsWhenAskedTo)
 
 // --- What true shapes are good for
 
-TEST(Raster_packer_test, FillsAPageWithSquares)
+TEST(Raster_packer_test, fills_a_page_with_squares)
 {
   const Packing_options options = small_page(256, 256);
   const Charts charts(4, rectangle_chart(1., 1.));
@@ -477,7 +477,7 @@ TEST(Raster_packer_test, FillsAPageWithSquares)
   EXPECT_GT(result.utilisation, 0.9);
 }
 
-TEST(Raster_packer_test, PutsAChartIntoTheHoleOfAnother)
+TEST(Raster_packer_test, puts_a_chart_into_the_hole_of_another)
 {
   const Charts charts = {ring_chart(0.8, 1.), fan_chart(40, [](double) { return 0.7; })};
   const Packing_options options = small_page(256, 256);
@@ -488,7 +488,7 @@ TEST(Raster_packer_test, PutsAChartIntoTheHoleOfAnother)
   EXPECT_LT(std::sqrt(CGAL::squared_distance(p, q)), 0.1 * result.texels_per_unit);
 }
 
-TEST(Raster_packer_test, InterlocksNotches)
+TEST(Raster_packer_test, interlocks_notches)
 {
   // Side by side they fill 0.36 of a page, one in the other up to 1.44 / 1.6^2
   const Charts charts = {l_chart(0.2), l_chart(0.2), l_chart(0.2), l_chart(0.2)};
@@ -498,7 +498,7 @@ TEST(Raster_packer_test, InterlocksNotches)
   EXPECT_GT(result.utilisation, 0.45);
 }
 
-TEST(Raster_packer_test, FillsMostOfAPageWithBlobs)
+TEST(Raster_packer_test, fills_most_of_a_page_with_blobs)
 {
   for(const std::size_t number : {14, 40}) {
     Packing_options options = small_page(256, 256);
@@ -511,7 +511,7 @@ TEST(Raster_packer_test, FillsMostOfAPageWithBlobs)
   }
 }
 
-TEST(Raster_packer_test, IsNotWorseWithMoreTime)
+TEST(Raster_packer_test, is_not_worse_with_more_time)
 {
   const Charts charts = blob_charts(12, 0.1, seed);
   Packing_options options = small_page();
@@ -525,7 +525,7 @@ TEST(Raster_packer_test, IsNotWorseWithMoreTime)
   }
 }
 
-TEST(Raster_packer_test, PacksManyCharts)
+TEST(Raster_packer_test, packs_many_charts)
 {
   const Charts charts = blob_charts(150, 0.2, seed);
   const Packing_options options = small_page(256, 256);
@@ -534,7 +534,7 @@ TEST(Raster_packer_test, PacksManyCharts)
   EXPECT_GT(result.utilisation, 0.5);
 }
 
-TEST(Raster_packer_test, TurnsChartsInAsManyDirectionsAsAsked)
+TEST(Raster_packer_test, turns_charts_in_as_many_directions_as_asked)
 {
   const Charts charts = mixed_charts();
   Packing_options options = small_page();
