@@ -145,13 +145,13 @@ TEST(Spectral, is_the_smallest_eigenvalue)
 {
   for(const auto& [name, mesh] : small_charts()) {
     const double expected = smallest_eigenvalue(mesh);
+    // Both lose the digits in which Dirichlet energy and area agree: five more for slivers.
+    const double rounding = name == "slivers" ? 1e-4 : 1e-7;
     for(const std::size_t coarsest_size : {30, 100, 1000}) {
       Surface_mesh surface_mesh = to_surface_mesh(mesh);
-      const Outcome run = spectral_map(surface_mesh, with_tolerance(1e-8, coarsest_size));
+      const Outcome run = spectral_map(surface_mesh, with_tolerance(0.1 * rounding, coarsest_size));
       ASSERT_EQ(run.error, SMP::OK) << name << ": " << run.report.message;
       const double quotient = Eigen_equation(mesh, run.uv).quotient;
-      // Both lose the digits in which Dirichlet energy and area agree: five more for slivers.
-      const double rounding = name == "slivers" ? 1e-4 : 1e-7;
       EXPECT_NEAR(quotient / expected, 1., rounding) << name << ", coarsest " << coarsest_size;
     }
   }
