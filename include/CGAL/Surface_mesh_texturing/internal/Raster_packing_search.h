@@ -70,10 +70,14 @@ private:
   // Enough for charts of equal sizes on one page to have 8 cells a side.
   double coarse_cells() const { return (std::max)(128. * 128., 64. * m_outlines.size()); }
 
-  // For higher densities, before the work of the budget: less for few charts and small pages.
+  // For higher densities, before the work of the budget: less for few charts and small pages. None
+  // for many, of which so short a time does not make a denser packing.
   double raising_work() const
   {
+    constexpr double most = 32.;
     const double n = double(m_outlines.size());
+    if(n > most)
+      return 0.;
     const double cells = double(m_exact.width) * m_exact.height;
     return 1.5e8 * (std::min)(1., n / 12.) * (std::min)(1., std::sqrt(cells) / 1000.);
   }
