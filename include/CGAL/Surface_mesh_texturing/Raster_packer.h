@@ -39,7 +39,7 @@ With a given density there is one order, the largest chart first, on the raster 
 
 Time is proportional to the number of charts, of rotations and of cells of the coarse raster, which
 has 16384 cells or 64 a chart, and of the orders tried, about 60 for 60 charts. Raising the density
-takes `Packing_options::time_budget` and, for at most 32 charts, 0.15 seconds before, or less for
+takes `Packing_options::time_budget` and, for at most 40 charts, 0.15 seconds before, or less for
 fewer than 12 charts or pages of less than a million texels; both are counted in what is done, not
 by the clock. Memory is about three bytes for each texel of each page.
 

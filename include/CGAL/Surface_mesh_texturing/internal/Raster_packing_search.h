@@ -74,7 +74,7 @@ private:
   // for many, of which so short a time does not make a denser packing.
   double raising_work() const
   {
-    constexpr double most = 32.;
+    constexpr double most = 40.;
     const double n = double(m_outlines.size());
     if(n > most)
       return 0.;
