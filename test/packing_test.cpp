@@ -525,6 +525,84 @@ TEST(Raster_packer_test, is_not_worse_with_more_time)
   }
 }
 
+TEST(Raster_packer_test, uses_the_time_it_is_given)
+{
+  const Charts charts = mixed_charts();
+  Packing_options options = small_page(128, 128);
+  const Packing_result fast = pack_charts(charts, options);
+  options.time_budget = 0.3;
+  const Packing_result slow = pack_charts(charts, options);
+  EXPECT_EQ(packing_error(charts, options, slow), "");
+  EXPECT_GT(slow.texels_per_unit, fast.texels_per_unit);
+}
+
+TEST(Raster_packer_test, stops_while_it_raises_the_density)
+{
+  Packing_options options = small_page();
+  options.time_budget = 100.;
+  int n = 0;
+  options.progress = [&](double) { return ++n < 200; };
+  EXPECT_EQ(pack_charts(mixed_charts(), options).error, "cancelled");
+  EXPECT_EQ(n, 200);
+}
+
+// The definition of the overlap of charts with their padding, cell by cell.
+TEST(Silhouette_test, overlaps_where_charts_are_too_near)
+{
+  using namespace CGAL::Surface_mesh_texturing::internal;
+  double unit = 1.;
+  const std::vector<Chart_outline> outlines = chart_outlines(mixed_charts(), unit);
+  for(const std::size_t padding : {0, 1, 2, 3}) {
+    Packing_options options = small_page();
+    options.padding = padding;
+    const Packing_raster exact = exact_raster(options);
+    const Silhouette_raster raster(exact, 1);
+    for(std::size_t i = 0; i + 1 < outlines.size(); i += 2) {
+      const Texel_mask a = rasterize(outlines[i], 0.3, 20., 80, 80).mask;
+      const Texel_mask b = rasterize(outlines[i + 1], 1.1, 20., 80, 80).mask;
+      const Silhouette s = silhouette(outlines[i], 0.3, 20., raster);
+      const Silhouette t = silhouette(outlines[i + 1], 1.1, 20., raster);
+      ASSERT_GT(s.width, 0);
+      ASSERT_GT(t.width, 0);
+      for(int k = 0; k < 100; ++k) {
+        const int x = k % 10 * 6 - 30, y = k / 10 * 6 - 30;
+        bool are_near = false;
+        for(const Cell_run& r : a.runs())
+          for(const Cell_run& q : b.runs())
+            are_near = are_near || (std::abs(q.y + y - r.y) <= int(padding)
+                                    && q.begin + x < r.end + int(padding)
+                                    && r.begin < q.end + x + int(padding));
+        ASSERT_EQ(overlap(s, t, x, y) > 0, are_near) << padding << ": " << x << ", " << y;
+      }
+    }
+  }
+}
+
+// The overlaps of a field are sums of those of pairs.
+TEST(Overlap_field_test, is_the_weighted_sum_of_overlaps)
+{
+  using namespace CGAL::Surface_mesh_texturing::internal;
+  double unit = 1.;
+  const std::vector<Chart_outline> outlines = chart_outlines(mixed_charts(), unit);
+  const Silhouette_raster raster(exact_raster(small_page()), 1);
+  const Silhouette s = silhouette(outlines[0], 0.3, 20., raster);
+  const Silhouette t = silhouette(outlines[9], 0., 20., raster);
+  const Silhouette u = silhouette(outlines[10], 1., 20., raster);
+  Overlap_field field;
+  field.reset(5, 6, 60, 50);
+  field.add(t, 3, 20, 7);
+  field.add(u, 30, 1, 11);
+  field.integrate();
+  const int n = 60 - s.width;
+  std::vector<int> row(std::size_t(n), 0);
+  for(int y = 6; y + s.height <= 56; ++y) {
+    field.overlaps(s, 5, y, n, (std::numeric_limits<int>::max)(), row.data());
+    for(int k = 0; k < n; ++k)
+      ASSERT_EQ(row[std::size_t(k)],
+                7 * overlap(s, t, 3 - 5 - k, 20 - y) + 11 * overlap(s, u, 30 - 5 - k, 1 - y));
+  }
+}
+
 TEST(Raster_packer_test, packs_many_charts)
 {
   const Charts charts = blob_charts(150, 0.2, seed);

@@ -25,8 +25,8 @@ public:
   ///
   /// \pre there is at least one chart; the coordinates and sizes of all are finite; the entries of
   /// `triangles` are smaller than `uv.size()`; the options are those of a packing: the padding
-  /// leaves at least one texel of a page, `rotations` is positive, and `max_pages` or
-  /// `texels_per_unit` is.
+  /// leaves at least one texel of a page, `rotations` is not negative (0 leaves the number to the
+  /// packer), and `max_pages` or `texels_per_unit` is positive.
   CGAL::Surface_mesh_texturing::Packing_result
   operator()(const std::vector<CGAL::Surface_mesh_texturing::Chart_shape>& charts,
              const CGAL::Surface_mesh_texturing::Packing_options& options) const;

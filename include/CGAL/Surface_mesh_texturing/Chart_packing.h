@@ -60,15 +60,17 @@ struct Packing_options
   std::size_t padding = 2;      ///< texels between charts, see above
   unsigned int mip_levels = 0;  ///< the coarsest level of the texture that respects the padding
   /// Directions tried for each chart, evenly spaced over the full turn from that in which its
-  /// smallest enclosing rectangle is parallel to the axes. Charts are never mirrored.
-  int rotations = 8;
+  /// smallest enclosing rectangle is parallel to the axes; 0: 8, and 48 while the density of 2 to
+  /// 64 charts is raised, see `Raster_packer`. Charts are never mirrored.
+  int rotations = 0;
   /// The number of pages that must do; 0: as many as needed, for a given `texels_per_unit`.
   std::size_t max_pages = 1;
   /// The texels of a unit of length; 0: the most with which all charts fit on `max_pages` pages.
   double texels_per_unit = 0.;
   /// The seconds to spend on better packings than the first one, on a machine that compares
   /// \f$ 10^{9} \f$ positions a second: they are counted in positions, not by the clock, so that
-  /// the result is the same on any machine. More is never worse.
+  /// the result is the same on any machine. More is never worse. They are not used for a single
+  /// chart, nor with a given density.
   double time_budget = 0.;
   /// Is told the part done, from 0 to 1; the packing stops with an error if it returns `false`.
   std::function<bool(double)> progress;

@@ -24,11 +24,24 @@ the most of its rim meets other charts or the border of the page. Many orders ar
 that is so coarse that one takes some milliseconds; what was found is refined on the raster of
 texels, where each chart is placed again among the places near to that on the coarse raster.
 
+For 2 to 64 charts, what was found is then made denser: all charts grow, lengths by one percent at
+first and by a quarter of that later, and those that overlap are moved, one at a time, to where they
+overlap the others the least, in any of the directions, until none do. Overlaps that remain weigh
+more and more, so that charts leave places where they are stuck: guided local search (J. Egeblad,
+B. K. Nielsen and A. Odgaard, *Fast neighborhood search for two- and three-dimensional nesting
+problems*, European Journal of Operational Research 183, 2007; S. Umetani et al., *Solving the
+irregular strip packing problem via guided local search for overlap minimization*, International
+Transactions in Operational Research 16, 2009). All places are looked at on a raster of 72 to 288
+cells a chart, some on a raster four times as fine, and only what does not overlap on that of texels
+is taken.
+
 With a given density there is one order, the largest chart first, on the raster of texels.
 
 Time is proportional to the number of charts, of rotations and of cells of the coarse raster, which
-has 16384 cells or 64 a chart, and of the orders tried, about 60 for 60 charts. Memory
-is about three bytes for each texel of each page.
+has 16384 cells or 64 a chart, and of the orders tried, about 60 for 60 charts. Raising the density
+takes `Packing_options::time_budget` and, for at most 40 charts, 0.15 seconds before, or less for
+fewer than 12 charts or pages of less than a million texels; both are counted in what is done, not
+by the clock. Memory is about three bytes for each texel of each page.
 
 \cgalModels{ChartPacker}
 */

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_RASTER_PACKING_SEARCH_H
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_RASTER_PACKING_SEARCH_H
 
+#include <CGAL/Surface_mesh_texturing/internal/Density_raising.h>
 #include <CGAL/Surface_mesh_texturing/internal/Density_search.h>
 #include <CGAL/Surface_mesh_texturing/internal/Greedy_packing.h>
 
@@ -28,6 +29,7 @@ public:
   Raster_packing_search(const std::vector<Chart_outline>& outlines, double unit,
                         const Packing_options& options)
     : m_outlines(outlines), m_unit(unit), m_options(options), m_exact(exact_raster(options)),
+      m_rotations(options.rotations > 0 ? options.rotations : 8),
       m_coarse(coarser_raster(m_exact, coarse_cells())),
       m_ladder(outlines, m_exact, (std::max)(std::size_t(1), options.max_pages))
   {}
@@ -62,14 +64,31 @@ private:
   static constexpr double first_work = 4e8;       // positions compared before those of the budget
   static constexpr double work_per_second = 1e9;  // see `Packing_options::time_budget`
 
+  // With more charts than these, other orders are better than raising the density.
+  static constexpr std::size_t most_raised = 64;
+
   // Enough for charts of equal sizes on one page to have 8 cells a side.
   double coarse_cells() const { return (std::max)(128. * 128., 64. * m_outlines.size()); }
+
+  // For higher densities, before the work of the budget: less for few charts and small pages. None
+  // for many, of which so short a time does not make a denser packing.
+  double raising_work() const
+  {
+    constexpr double most = 40.;
+    const double n = double(m_outlines.size());
+    if(n > most)
+      return 0.;
+    const double cells = double(m_exact.width) * m_exact.height;
+    return 1.5e8 * (std::min)(1., n / 12.) * (std::min)(1., std::sqrt(cells) / 1000.);
+  }
 
   Packing_result with_density(double density);
   void maximize();
   Plan first_plan();
   bool improve(Plan& plan);
   void refine(const Plan& plan);
+  std::vector<Loose_place> best_places(int factor) const;
+  void raise_density();
 
   Packing_result packing_result(const Raster_packing& packing, const Chart_rasters& charts,
                                 double density) const;
@@ -92,7 +111,7 @@ private:
   {
     std::unique_ptr<Chart_rasters>& charts = m_coarse_charts[level];
     if(!charts) {
-      charts.reset(new Chart_rasters(m_outlines, m_options.rotations, m_ladder.density(level),
+      charts.reset(new Chart_rasters(m_outlines, m_rotations, m_ladder.density(level),
                                      m_coarse));
       charts->make_all();
     }
@@ -108,7 +127,7 @@ private:
   // Tells the part of the work done, which is not known before; returns whether to go on.
   bool report()
   {
-    const double all = first_work + work_per_second * m_options.time_budget;
+    const double all = first_work + raising_work() + work_per_second * m_options.time_budget;
     const double part = (std::min)(0.99, m_work / all);
     m_is_cancelled = m_is_cancelled || (m_options.progress && !m_options.progress(part));
     return !m_is_cancelled;
@@ -117,14 +136,16 @@ private:
   // Counts the positions of some orders.
   void count_work(const Packing_raster& raster, std::size_t orders)
   {
-    m_work += double(orders) * m_outlines.size() * m_options.rotations * raster.width
+    m_work += double(orders) * m_outlines.size() * m_rotations * raster.width
               * raster.height;
   }
 
   const std::vector<Chart_outline>& m_outlines;
   double m_unit;
   const Packing_options& m_options;
-  Packing_raster m_exact, m_coarse;
+  Packing_raster m_exact;
+  int m_rotations; // of the orders
+  Packing_raster m_coarse;
   Density_ladder m_ladder;
   std::map<int, std::unique_ptr<Chart_rasters>> m_coarse_charts; // by level
 
@@ -215,7 +236,7 @@ inline void Raster_packing_search::refine(const Plan& plan)
     if(!report())
       return false;
     std::unique_ptr<Chart_rasters> charts(
-      new Chart_rasters(m_outlines, m_options.rotations, m_ladder.density(level), m_exact));
+      new Chart_rasters(m_outlines, m_rotations, m_ladder.density(level), m_exact));
     count_work(m_coarse, 2); // few positions are compared, but it takes this time
     Raster_packing packing = Greedy_packing(m_exact, m_options.max_pages)
                                .refine(*charts, plan.packing, *m_coarse_charts.at(plan.level));
@@ -231,6 +252,44 @@ inline void Raster_packing_search::refine(const Plan& plan)
     highest_level(m_best_level + 1, m_best_level + 1, 1, succeeds);
   else
     highest_level(m_ladder.lowest(), plan.level, 4, succeeds);
+}
+
+// The places of the best packing, for `factor` times as many directions.
+inline std::vector<Loose_place> Raster_packing_search::best_places(int factor) const
+{
+  std::vector<Loose_place> result;
+  for(std::size_t i = 0; i < m_outlines.size(); ++i) {
+    const Raster_place& p = m_best.places[i];
+    const Vector_2d& centre = m_best_charts->made(i, p.rotation).centre;
+    const double shift = 0.5 * m_exact.padding;
+    result.push_back({p.page, factor * p.rotation,
+                      {p.x + centre[0] + shift, p.y + centre[1] + shift}});
+  }
+  return result;
+}
+
+// Continues from the best packing, with more directions if their number is free.
+inline void Raster_packing_search::raise_density()
+{
+  constexpr int finer = 6, steps = 4; // `steps` to the density searched first
+  if(!m_best.is_complete || m_is_cancelled || m_outlines.size() < 2)
+    return;
+  const int factor = m_options.rotations > 0 ? 1 : finer, rotations = factor * m_rotations;
+  const int ratio = coarse_ratio(m_exact, m_best.pages, m_outlines.size());
+  const double density = m_ladder.density((std::min)(0, m_best_level + steps));
+  const double work = m_work + raising_work() + work_per_second * m_options.time_budget;
+  Overlap_search_base base = {
+    Silhouettes(m_outlines, rotations, density, Silhouette_raster(m_exact, ratio), m_work),
+    m_exact, m_best.pages, Xorshift(1), m_work};
+  const auto take = [&](int level, const std::vector<Raster_place>& better) {
+    m_best.places = better;
+    m_best_level = level;
+    m_best_charts.reset(
+      new Chart_rasters(m_outlines, rotations, m_ladder.density(level), m_exact));
+    m_best_charts->make_where([&](std::size_t i, int r) { return better[i].rotation == r; });
+  };
+  Density_raising(base, m_ladder)
+    .run(m_best_level, best_places(factor), [&] { return m_work < work && report(); }, take);
 }
 
 // The first part of the search takes up to 8 rounds; all plans on the way are refined, since the
@@ -260,6 +319,10 @@ inline void Raster_packing_search::maximize()
     improve_last();
   for(auto plan = plans.rbegin(); plan != plans.rend() && !m_is_cancelled; ++plan)
     refine(*plan);
+  if(m_outlines.size() <= most_raised) {
+    raise_density();
+    return;
+  }
   const double work = m_work + work_per_second * m_options.time_budget;
   while(may_go_on(work))
     if(improve_last())
@@ -273,7 +336,7 @@ inline Packing_result Raster_packing_search::with_density(double density)
     result.error = "cancelled";
     return result;
   }
-  Chart_rasters charts(m_outlines, m_options.rotations, density, m_exact);
+  Chart_rasters charts(m_outlines, m_rotations, density, m_exact);
   charts.make_all();
   const Raster_packing packing = Greedy_packing(m_exact, m_options.max_pages)
                                    .pack(charts, order_of(keys_by_area()), Place_criterion::SNUG);
@@ -283,7 +346,7 @@ inline Packing_result Raster_packing_search::with_density(double density)
   bool fits = true;
   for(std::size_t i = 0; i < m_outlines.size() && fits; misfit = i++) {
     fits = false;
-    for(int r = 0; r < m_options.rotations; ++r)
+    for(int r = 0; r < m_rotations; ++r)
       fits = fits || charts.made(i, r).width > 0;
   }
   result.error = misfit_message(misfit, !fits, m_options);

@@ -128,19 +128,22 @@ inline std::vector<Cell_run> Texel_mask::runs() const
   return result;
 }
 
-// The cells at most `r` away from one of the mask's in rows and columns; (x, y) becomes
-// (x + r, y + r).
-inline Texel_mask dilated(const Texel_mask& mask, int r)
+// The cells that a mask's cells touch when it moves up to `n` cells to the right and up.
+inline Texel_mask swept(const Texel_mask& mask, int n)
 {
-  Texel_mask wide(mask.width() + 2 * r, mask.height()), result(wide.width(), mask.height() + 2 * r);
+  Texel_mask wide(mask.width() + n, mask.height()), result(wide.width(), mask.height() + n);
   for(const Cell_run& run : mask.runs())
-    wide.add({run.y, run.begin, run.end + 2 * r});
+    wide.add({run.y, run.begin, run.end + n});
   for(int y = 0; y < mask.height(); ++y)
-    for(int i = 0; i <= 2 * r; ++i)
+    for(int i = 0; i <= n; ++i)
       for(int k = 0; k < wide.words(); ++k)
         result.row(y + i)[k] |= wide.row(y)[k];
   return result;
 }
+
+// The cells at most `r` away from one of the mask's in rows and columns; (x, y) becomes
+// (x + r, y + r).
+inline Texel_mask dilated(const Texel_mask& mask, int r) { return swept(mask, 2 * r); }
 
 } // namespace internal
 } // namespace Surface_mesh_texturing

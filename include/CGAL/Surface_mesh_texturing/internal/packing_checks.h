@@ -24,8 +24,8 @@ inline std::string packing_options_error(const Packing_options& options)
     return "the sides of a page must have 1 to 32768 texels";
   if(options.mip_levels > 15 || options.padding > largest_side || exact_raster(options).width == 0)
     return "the padding leaves nothing of a page";
-  if(options.rotations < 1 || options.rotations > most_rotations)
-    return "the number of rotations must be 1 to 3600";
+  if(options.rotations < 0 || options.rotations > most_rotations)
+    return "the number of rotations must be 0 to 3600";
   if(!std::isfinite(options.texels_per_unit) || options.texels_per_unit < 0.)
     return "the texels per unit of length must be finite and not negative";
   if(!std::isfinite(options.time_budget) || options.time_budget < 0.)
