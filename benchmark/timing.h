@@ -4,24 +4,14 @@
 #ifndef HLSCM_BENCHMARK_TIMING_H
 #define HLSCM_BENCHMARK_TIMING_H
 
+#include <CGAL/Surface_mesh_parameterization/internal/Progress.h>
+
 #include <algorithm>
-#include <chrono>
 #include <vector>
 
 namespace timing {
 
-/// Wall time since its construction.
-class Stopwatch
-{
-public:
-  double seconds() const
-  {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - m_start).count();
-  }
-
-private:
-  std::chrono::steady_clock::time_point m_start = std::chrono::steady_clock::now();
-};
+using CGAL::Surface_mesh_parameterization::internal::Stopwatch;
 
 /// The wall time of work().
 template <class Work>

@@ -88,8 +88,10 @@ TEST(Texture_atlas, is_valid_when_charts_are_tried_on_a_level_first)
   ASSERT_EQ(result.error, "");
   EXPECT_EQ(last, 1.);
   EXPECT_EQ(error_in_atlas(mesh, result.atlas), "") << seed_text;
-  for(const SMT::Chart_report& chart : result.report.charts)
+  for(const SMT::Chart_report& chart : result.report.charts) {
     EXPECT_TRUE(chart.faces == 1 || chart.distortion.is_within(SMT::Distortion_bound()));
+    EXPECT_NEAR(chart.distortion.uv_area, chart.distortion.area, 1e-6 * chart.distortion.area);
+  }
   for(const double stop : {0.05, 0.22, 0.3}) { // within the level's part
     options.progress = [stop](double part) { return part < stop; };
     EXPECT_EQ(SMT::build_texture_atlas(mesh, options).error, "cancelled") << stop;

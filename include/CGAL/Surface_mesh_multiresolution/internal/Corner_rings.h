@@ -4,8 +4,8 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_CORNER_RINGS_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_CORNER_RINGS_H
 
+#include <CGAL/Blocked_execution/internal/Uninitialized_vector.h>
 #include <CGAL/Surface_mesh_multiresolution/Indexed_triangle_mesh.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/Uninitialized_vector.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/Vertex_rings.h>
 
 #include <algorithm>
@@ -16,6 +16,8 @@
 namespace CGAL {
 namespace Surface_mesh_multiresolution {
 namespace internal {
+
+using Blocked_execution::internal::Uninitialized_vector;
 
 // What a new vertex takes of the ring of its parent: corners INSIDE a ring, or as a border vertex
 // the BEGIN or the END of an open one.

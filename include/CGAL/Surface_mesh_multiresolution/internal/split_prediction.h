@@ -6,9 +6,9 @@
 
 // What the writer and the reader of progressive meshes expect of the next split.
 
+#include <CGAL/Blocked_execution/internal/Uninitialized_vector.h>
 #include <CGAL/Surface_mesh_multiresolution/Indexed_triangle_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/Code_column.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/Uninitialized_vector.h>
 
 #include <algorithm>
 #include <array>
@@ -19,6 +19,8 @@
 namespace CGAL {
 namespace Surface_mesh_multiresolution {
 namespace internal {
+
+using Blocked_execution::internal::Uninitialized_vector;
 
 // The parents of successive splits.
 //
