@@ -103,6 +103,7 @@ private:
   bool map_of_moves(std::size_t last, const std::vector<Pin>& moves, Vector& w);
   void add(const Complex& factor, const Vector& w, double error);
   void add_map_of_moves(const std::vector<Pin>& moves);
+  double energy_for_tolerance() const;
   bool is_good_enough() const;
   void follow_pins();
   void iterate();
@@ -236,11 +237,23 @@ void Live_conformal_solver<CoarsestSolver>::add(const Complex& factor, const Vec
   m_gap = sum * sum;
 }
 
+// The energy whose part by the tolerance the map of a move may be off, though its own is smaller:
+// errors add up in the norm, and most of what is left between that of the map and the tolerance is
+// for this move, the rest for the next ones.
+template <class CoarsestSolver>
+double Live_conformal_solver<CoarsestSolver>::energy_for_tolerance() const
+{
+  constexpr double this_move = 0.7, at_least = 0.2;
+  const double energy = m_hierarchy.finest().energy(m_map);
+  const double room = 1. - std::sqrt(m_gap / (m_options.tolerance * energy));
+  const double part = (std::max)(at_least, this_move * room); // if that is a number
+  return part * part * energy;
+}
+
 // Computes the map of the moves and adds it.
 template <class CoarsestSolver>
 void Live_conformal_solver<CoarsestSolver>::add_map_of_moves(const std::vector<Pin>& moves)
 {
-  constexpr double small_part = 0.04; // of the energy; its error leaves room for others
   const std::size_t finest = m_hierarchy.number_of_levels() - 1;
   Vector w;
   if(!map_of_moves(finest, moves, w))
@@ -248,8 +261,7 @@ void Live_conformal_solver<CoarsestSolver>::add_map_of_moves(const std::vector<P
                         "the system of the coarsest level cannot be solved");
   double error = 0.;
   if(finest > 0) {
-    const auto result
-      = this->improve(finest, w, small_part * m_hierarchy.finest().energy(m_map));
+    const auto result = this->improve(finest, w, energy_for_tolerance());
     m_report.iterations += result.iterations;
     if(result.converged)
       m_rate = (std::max)(m_rate, result.rate);
