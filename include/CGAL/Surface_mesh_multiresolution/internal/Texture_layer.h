@@ -18,12 +18,6 @@ namespace CGAL {
 namespace Surface_mesh_multiresolution {
 namespace internal {
 
-// What the flat engine knows of the texture if there is none.
-struct No_texture_layer
-{
-  static constexpr bool is_textured = false;
-};
-
 // The texture of a mesh under decimation: which wedge is at which corner, which edges are seams,
 // and what a collapse does to them.
 //
