@@ -20,9 +20,9 @@ namespace internal {
 // Decimates a `Decimated_surface` by passes over the cheapest part of its vertices in the order of
 // memory.
 //
-// Passes go over blocks of as many living vertices each; a vertex whose ring leaves its block waits
-// for the next pass, whose blocks are shifted by half their size. Blocks do not depend on the number
-// of threads.
+// Passes go over blocks of equal numbers of living vertices; a vertex whose ring leaves its block
+// waits for the next pass, whose blocks are shifted by half their size. Blocks do not depend on the
+// number of threads.
 template <class Surface>
 class Batched_collapses
 {
