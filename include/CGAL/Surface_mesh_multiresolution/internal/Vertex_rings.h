@@ -146,9 +146,9 @@ inline void Vertex_rings::collapse(Vertex_index v, std::uint32_t k)
 }
 
 //        a                a
-//      / |              / | \        The reverse of the drawing above: v gets the ring vertices of t
-//    ..  t -    ->    .. v - t -      from b to a and gives way to them in the ring of t. Without a
-//      \ |              \ | /        they end with the ring of t, without b they begin with it.
+//      / |              / | \       The reverse of the drawing above: v gets the ring vertices of t
+//    ..  t -    ->    .. v - t -     from b to a and gives way to them in the ring of t. Without a
+//      \ |              \ | /       they end with the ring of t, without b they begin with it.
 //        b                b
 inline void Vertex_rings::split(Vertex_index v, Vertex_index t, Vertex_index b, Vertex_index a)
 {

@@ -107,8 +107,8 @@ inline Ring_defect link_fan(Vertex_index v, std::vector<Ring_wedge>& wedges, Rin
                                                            : Ring_defect::NONE;
 }
 
-// Sets the rings of a mesh; returns what is wrong at the first vertex whose triangles do not form one
-// fan, or nothing.
+// Sets the rings of a mesh; returns the first vertex whose triangles do not form one fan, if there
+// is one.
 inline Defective_vertex link_rings(const Indexed_triangle_mesh& mesh, Ring_lines& lines)
 {
   const std::size_t n = mesh.points.size();
