@@ -99,13 +99,12 @@ void Conformal_solver<CoarsestSolver>::solve_monogrid(Vector& z)
   stop.maximal_iterations = maximal_iterations(100000);
   const auto progress = [this](double part) { return m_progress(0.75, 1., part) && !is_enough(); };
   const auto run = [&](const auto& preconditioner) {
-    conclude(Multigrid::minimize_energy(op.matrix, z, op.energy(z), preconditioner, stop, progress),
-             "raise the number of iterations or use the hierarchical method");
+    return Multigrid::minimize_energy(op.matrix, z, op.energy(z), preconditioner, stop, progress);
   };
-  if(m_options.preconditioner == Monogrid_preconditioner::JACOBI)
-    run(Multigrid::Jacobi_preconditioner<double>(op.matrix));
-  else
-    run(Multigrid::Symmetric_gauss_seidel_preconditioner<double>(op.matrix));
+  conclude(m_options.preconditioner == Monogrid_preconditioner::JACOBI
+             ? run(Multigrid::Jacobi_preconditioner<double>(op.matrix))
+             : run(Multigrid::Symmetric_gauss_seidel_preconditioner<double>(op.matrix)),
+           "raise the number of iterations or use the hierarchical method");
 }
 
 // The paper's cascade takes a fixed number of conjugate gradient steps.
