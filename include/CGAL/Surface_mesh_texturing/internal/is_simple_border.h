@@ -14,9 +14,9 @@ namespace CGAL {
 namespace Surface_mesh_texturing {
 namespace internal {
 
-// Whether the images of no two of all border edges of a mesh have a point in common, the vertex between two
-// successive ones aside. Then a map of a disk whose triangles all have a positive area is
-// one-to-one: see `Surface_mesh_parameterization::certify_map()`.
+// Whether the images of no two border edges of a mesh, all of which are given, have a point in
+// common, the vertex between two successive ones aside. Then a map of a disk whose triangles all
+// have a positive area is one-to-one: see `Surface_mesh_parameterization::certify_map()`.
 inline bool
 is_simple_border(const std::vector<Border_edge>& border,
                  const std::vector<Simple_cartesian<double>::Point_2>& uv)
