@@ -169,7 +169,8 @@ std::string error_of_charts(const Indexed_triangle_mesh& mesh, const Chart_growt
     const std::string error = error_of_disk(chart.mesh);
     if(!error.empty())
       return name + error;
-    const auto trial = SMT::internal::try_map(chart.mesh, SMT::internal::border_edges(chart.mesh));
+    const auto border = SMT::internal::border_edges(chart.mesh.triangles);
+    const auto trial = SMT::internal::try_map(chart.mesh, border);
     if(!trial.is_disk)
       return name + "no map";
     const bool is_good = trial.is_one_to_one && trial.distortion.is_within(options.bound);

@@ -109,7 +109,7 @@ inline Wedge_collapses decimate_textured(const Textured_triangle_mesh& mesh,
   const Progressive_mesh pm = engine.run(flat);
   auto batch_end = pm.batch_ends.begin();
   for(std::size_t i = 0; i < pm.collapses.size(); ++i) {
-    engine.texture().for_each_collapse(
+    engine.texture().wedges().for_each_collapse(
       pm.collapses[i].removed, [&result](Vertex_index removed, Vertex_index kept) {
         result.collapses.push_back({removed, kept});
       });

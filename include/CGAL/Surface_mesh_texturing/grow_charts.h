@@ -102,7 +102,7 @@ inline Chart_growth_result growth_result(const Indexed_triangle_mesh& mesh,
   const std::vector<Chart_mesh> charts = chart_meshes(mesh, result.charts);
   std::vector<Trial_map> trial(charts.size());
   Blocked_execution::blocked_for(charts.size(), 1, [&](std::size_t c, std::size_t) {
-    trial[c] = try_map(charts[c].mesh, border_edges(charts[c].mesh));
+    trial[c] = try_map(charts[c].mesh, border_edges(charts[c].mesh.triangles));
   });
   for(const Trial_map& map : trial) {
     const bool is_bad = !map.is_one_to_one || !map.distortion.is_within(bound);

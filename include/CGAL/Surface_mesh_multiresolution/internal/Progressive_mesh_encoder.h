@@ -8,11 +8,13 @@
 #include <CGAL/Surface_mesh_multiresolution/internal/Corner_rings.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/Rings_ahead.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/Value_codec.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/point_error.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/split_prediction.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/triangle_numbers.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -60,10 +62,9 @@ inline std::string error_in_numbers(const Textured_progressive_mesh& mesh)
   }
   if(next != mesh.points.size())
     return "the arrays of the mesh differ in size";
-  for(std::size_t v = 0; v < mesh.points.size(); ++v)
-    for(int c = 0; c < 3; ++c)
-      if(!std::isfinite(mesh.points[v][c]))
-        return "vertex " + std::to_string(v) + " has a coordinate that is not a finite number";
+  const std::string error = point_error(mesh.points);
+  if(!error.empty())
+    return error;
   for(std::size_t w = 0; w < n; ++w)
     if(!std::isfinite(mesh.uv[w].x()) || !std::isfinite(mesh.uv[w].y()))
       return "wedge " + std::to_string(w) + " has a texture coordinate that is not a finite number";

@@ -45,8 +45,7 @@ public:
 
   // `chart`: a disk, with its mesh
   explicit Border_first_flattening(const Chart& chart)
-    : m_chart(chart), m_mesh(chart.mesh), m_loop(chart.borders[0]),
-      m_rank(m_mesh.points.size(), 0)
+    : m_mesh(chart.mesh), m_loop(chart.borders[0]), m_rank(m_mesh.points.size(), 0), m_patch(chart)
   {
     constexpr std::int32_t border = -1;
     for(const auto v : m_loop)
@@ -88,7 +87,6 @@ private:
   bool open(const Border_curve& curve, const std::vector<Border_loop>& loops);
   Values extend(const Border_curve& curve);
 
-  const Chart& m_chart;
   const Chart::Mesh& m_mesh;
   const std::vector<Chart::Vertex_index>& m_loop;
   std::vector<std::int32_t> m_rank; // among the inner vertices, or -1
@@ -99,6 +97,7 @@ private:
   Eigen::SparseMatrix<double> m_laplacian; // A_II, the lower triangle
   std::vector<Link> m_links;
   Factorization m_factorization;
+  Scale_patch m_patch;
 };
 
 inline void Border_first_flattening::assemble()
@@ -211,8 +210,7 @@ inline bool Border_first_flattening::open(const Border_curve& curve,
     }
   if(vertices.empty())
     return false;
-  const std::vector<double> scale
-    = Scale_patch(m_chart, vertices, radius).scale_change(change_there);
+  const std::vector<double> scale = m_patch.scale_change(vertices, radius, change_there);
   for(std::size_t i = 0; i < scale.size(); ++i)
     m_scale[vertices[i]] += scale[i];
   return !scale.empty();

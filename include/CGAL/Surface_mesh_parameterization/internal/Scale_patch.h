@@ -20,43 +20,53 @@ namespace internal {
 class Scale_patch
 {
 public:
-  // The vertices within `radius` edges of those of `border`; the other border vertices are no part
-  // of it.
-  Scale_patch(const Chart& chart, const std::vector<std::uint32_t>& border, std::size_t radius)
-    : m_chart(chart), m_vertices(border), m_rank(chart.mesh.points.size(), -1)
-  {
-    for(std::size_t i = 0; i < border.size(); ++i)
-      m_rank[border[i]] = std::int32_t(i);
-    for(std::size_t begin = 0, step = 0; step < radius; ++step) {
-      const std::size_t end = m_vertices.size();
-      for(; begin < end; ++begin)
-        add_neighbors(m_vertices[begin]);
-    }
-  }
+  explicit Scale_patch(const Chart& chart) : m_chart(chart) {}
 
-  // The change of the logarithm of the scale at the first vertices, those of the border, that adds
-  // the turning angles `change` there, with no change outside of the patch. Empty if the system
-  // cannot be solved.
-  std::vector<double> scale_change(const std::vector<double>& change) const;
+  // The change of the logarithm of the scale at the vertices of `border` that adds the turning
+  // angles `change` there, with no change beyond `radius` edges from them nor at other border
+  // vertices. Empty if the system cannot be solved.
+  std::vector<double> scale_change(const std::vector<std::uint32_t>& border, std::size_t radius,
+                                   const std::vector<double>& change);
 
 private:
+  void grow(const std::vector<std::uint32_t>& border, std::size_t radius);
+
+  void add(std::uint32_t v)
+  {
+    m_rank[v] = std::int32_t(m_vertices.size());
+    m_vertices.push_back(v);
+  }
+
   void add_neighbors(std::uint32_t v)
   {
     for(std::uint32_t i = 0; i < m_chart.rings.degree(v); ++i) {
       const std::uint32_t w = m_chart.rings.ring(v)[i];
-      if(m_rank[w] >= 0 || m_chart.rings.is_border(w))
-        continue;
-      m_rank[w] = std::int32_t(m_vertices.size());
-      m_vertices.push_back(w);
+      if(m_rank[w] < 0 && !m_chart.rings.is_border(w))
+        add(w);
     }
   }
 
   Eigen::SparseMatrix<double> laplacian() const;
 
   const Chart& m_chart;
-  std::vector<std::uint32_t> m_vertices;
-  std::vector<std::int32_t> m_rank;
+  std::vector<std::uint32_t> m_vertices; // those of the border first
+  std::vector<std::int32_t> m_rank;      // of each vertex of the chart in the patch, or -1
 };
+
+inline void Scale_patch::grow(const std::vector<std::uint32_t>& border, std::size_t radius)
+{
+  m_rank.resize(m_chart.mesh.points.size(), -1); // the first time; few charts have a patch
+  for(const std::uint32_t v : m_vertices)
+    m_rank[v] = -1;
+  m_vertices.clear();
+  for(const std::uint32_t v : border)
+    add(v);
+  for(std::size_t begin = 0, step = 0; step < radius; ++step) {
+    const std::size_t end = m_vertices.size();
+    for(; begin < end; ++begin)
+      add_neighbors(m_vertices[begin]);
+  }
+}
 
 // The cotangent Laplacian of the patch, the lower triangle.
 inline Eigen::SparseMatrix<double> Scale_patch::laplacian() const
@@ -85,8 +95,11 @@ inline Eigen::SparseMatrix<double> Scale_patch::laplacian() const
   return result;
 }
 
-inline std::vector<double> Scale_patch::scale_change(const std::vector<double>& change) const
+inline std::vector<double> Scale_patch::scale_change(const std::vector<std::uint32_t>& border,
+                                                     std::size_t radius,
+                                                     const std::vector<double>& change)
 {
+  grow(border, radius);
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factorization(laplacian());
   if(factorization.info() != Eigen::Success)
     return {};

@@ -173,13 +173,13 @@ inline void Band_search::add_border(Vertex_index v, int rings)
   Halfedge h = first;
   for(int i = 0; i < rings && m_graph.degree(mesh.target(h)) == 2; ++i) {
     add(mesh.target(h));
-    for(h = next(h); mesh.opposite(h) != no_halfedge;)
-      h = next(mesh.opposite(h));
+    for(h = next_halfedge(h); mesh.opposite(h) != no_halfedge;)
+      h = next_halfedge(mesh.opposite(h));
   }
   h = first;
   for(int i = 0; i < rings; ++i) {
-    for(h = previous(h); mesh.opposite(h) != no_halfedge;)
-      h = previous(mesh.opposite(h));
+    for(h = previous_halfedge(h); mesh.opposite(h) != no_halfedge;)
+      h = previous_halfedge(mesh.opposite(h));
     if(m_graph.degree(mesh.source(h)) != 2)
       break;
     add(mesh.source(h));
@@ -214,8 +214,8 @@ inline bool Band_search::is_contractible() const
     mesh.for_each_outgoing(mesh.outgoing(v), [&](Halfedge h) {
       const bool has_target = has(mesh.target(h));
       twice_edges += has_target && is_open(h) ? 1 : 0;
-      triangles += has_target && has(mesh.source(previous(h))) && is_open(h) && is_open(next(h))
-                   && is_open(previous(h)) ? 1 : 0;
+      triangles += has_target && has(mesh.source(previous_halfedge(h))) && is_open(h)
+                   && is_open(next_halfedge(h)) && is_open(previous_halfedge(h)) ? 1 : 0;
       return true;
     });
   return long(m_band.size()) - twice_edges / 2 + triangles / 3 == 1;

@@ -18,13 +18,10 @@ namespace internal {
 using Surface_mesh_multiresolution::Triangle_indices;
 using Surface_mesh_multiresolution::Vertex_index;
 
-// The halfedge 3 t + c goes from corner c of triangle t to the next one; t is on its left.
+// Of a `Triangle_adjacency`; its triangle is on its left.
 typedef std::uint32_t Halfedge;
 
 constexpr Halfedge no_halfedge = Halfedge(-1);
-
-inline Halfedge next(Halfedge h) { return h % 3 == 2 ? h - 2 : h + 1; }
-inline Halfedge previous(Halfedge h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
 // A triangle mesh that halfedge collapses make coarser and vertex splits finer again.
 //
@@ -50,18 +47,18 @@ public:
 
   Halfedge opposite(Halfedge h) const { return m_opposite[h]; }
   Vertex_index source(Halfedge h) const { return m_triangles[h / 3][h % 3]; }
-  Vertex_index target(Halfedge h) const { return source(next(h)); }
+  Vertex_index target(Halfedge h) const { return source(next_halfedge(h)); }
 
   // A halfedge from v; `no_halfedge` if v has no triangle.
   Halfedge outgoing(Vertex_index v) const { return m_outgoing[v]; }
 
   // The next halfedges from the same vertex, or `no_halfedge` beyond the border. Counterclockwise
   // the last edge at a border vertex has no halfedge from it, but one to it.
-  Halfedge counterclockwise(Halfedge h) const { return m_opposite[previous(h)]; }
+  Halfedge counterclockwise(Halfedge h) const { return m_opposite[previous_halfedge(h)]; }
   Halfedge clockwise(Halfedge h) const
   {
     const Halfedge o = m_opposite[h];
-    return o == no_halfedge ? o : next(o);
+    return o == no_halfedge ? o : next_halfedge(o);
   }
 
   // Calls use(h) for the halfedges from the source of h, until use returns false.
@@ -108,8 +105,8 @@ public:
 private:
   Dying dying(Halfedge e, Vertex_index r) const
   {
-    return source(e) == r ? Dying{previous(e), next(e), e, next(e)}
-                          : Dying{next(e), previous(e), next(e), e};
+    return source(e) == r ? Dying{previous_halfedge(e), next_halfedge(e), e, next_halfedge(e)}
+                          : Dying{next_halfedge(e), previous_halfedge(e), next_halfedge(e), e};
   }
 
   // Writes v to the corners around the source of a halfedge.
@@ -126,7 +123,7 @@ private:
     if(h == no_halfedge)
       return;
     m_outgoing[source(h)] = h;
-    m_outgoing[target(h)] = next(h);
+    m_outgoing[target(h)] = next_halfedge(h);
   }
 
   std::vector<Triangle_indices> m_triangles;
@@ -140,8 +137,8 @@ inline Halfedge Linked_triangles::collapse(Vertex_index r, Vertex_index k)
   for_each_outgoing(m_outgoing[r], [&](Halfedge h) {
     if(target(h) == k)
       e = h;
-    else if(source(previous(h)) == k)
-      e = previous(h);
+    else if(source(previous_halfedge(h)) == k)
+      e = previous_halfedge(h);
     return e == no_halfedge;
   });
   if(e == no_halfedge)

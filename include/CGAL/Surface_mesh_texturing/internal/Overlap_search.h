@@ -6,6 +6,7 @@
 
 #include <CGAL/Surface_mesh_texturing/internal/Arrangement.h>
 #include <CGAL/Surface_mesh_texturing/internal/Pair_weights.h>
+#include <CGAL/Surface_mesh_texturing/internal/Xorshift.h>
 
 #include <algorithm>
 #include <cstdint>

@@ -14,25 +14,6 @@ namespace CGAL {
 namespace Surface_mesh_texturing {
 namespace internal {
 
-// xorshift64* (Vigna 2016)
-class Xorshift
-{
-public:
-  explicit Xorshift(std::uint64_t seed) : m_state(seed * 0x9E3779B97F4A7C15u + 1) {}
-
-  // Of the numbers below `n`, which must be less than 2^32.
-  std::size_t index(std::size_t n)
-  {
-    m_state ^= m_state >> 12;
-    m_state ^= m_state << 25;
-    m_state ^= m_state >> 27;
-    return std::size_t(((m_state * 0x2545F4914F6CDD1Du) >> 32) * n >> 32);
-  }
-
-private:
-  std::uint64_t m_state;
-};
-
 // What a cell counts in which two charts overlap: the more, the longer they have done so.
 class Pair_weights
 {

@@ -7,12 +7,12 @@
 #include <CGAL/Surface_mesh_texturing/internal/Density_raising.h>
 #include <CGAL/Surface_mesh_texturing/internal/Density_search.h>
 #include <CGAL/Surface_mesh_texturing/internal/Greedy_packing.h>
+#include <CGAL/Surface_mesh_texturing/internal/packing_keys.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -50,12 +50,10 @@ public:
   }
 
 private:
-  typedef std::vector<double> Keys; // of the charts; the largest is placed first
-
   // An order that succeeded on the coarse raster.
   struct Plan
   {
-    Keys keys;
+    Packing_keys keys;
     int level = 0;
     Raster_packing packing;
   };
@@ -93,19 +91,6 @@ private:
   Packing_result packing_result(const Raster_packing& packing, const Chart_rasters& charts,
                                 double density) const;
 
-  // The largest first, ties by index.
-  static std::vector<std::uint32_t> order_of(const Keys& keys)
-  {
-    std::vector<std::uint32_t> order(keys.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return keys[a] > keys[b]; });
-    return order;
-  }
-
-  Keys keys_by_area() const;
-  Keys perturbed(const Keys& keys, std::size_t seed) const;
-
   // The charts on the coarse raster.
   Chart_rasters& coarse_charts(int level)
   {
@@ -118,7 +103,7 @@ private:
     return *charts;
   }
 
-  Raster_packing pack_coarse(const Keys& keys, int level)
+  Raster_packing pack_coarse(const Packing_keys& keys, int level)
   {
     return Greedy_packing(m_coarse, m_options.max_pages)
       .pack(*m_coarse_charts.at(level), order_of(keys), Place_criterion::SNUG);
@@ -157,36 +142,10 @@ private:
   bool m_is_cancelled = false;
 };
 
-// Logarithms, rounded so that equal charts are equal.
-inline Raster_packing_search::Keys Raster_packing_search::keys_by_area() const
-{
-  Keys keys;
-  for(const Chart_outline& o : m_outlines) {
-    const double thickened = o.area + 1e-3 * o.diameter * o.diameter;
-    keys.push_back(thickened > 0. ? std::round(1e6 * std::log(thickened)) / 1e6 : -1e3);
-  }
-  return keys;
-}
-
-inline Raster_packing_search::Keys Raster_packing_search::perturbed(const Keys& keys,
-                                                                    std::size_t seed) const
-{
-  constexpr double range = 0.5; // of the logarithm of the area
-  Keys result = keys;
-  std::uint64_t state = seed * 0x9E3779B97F4A7C15u + 1;
-  for(double& key : result) { // xorshift64* (Vigna 2016)
-    state ^= state >> 12;
-    state ^= state << 25;
-    state ^= state >> 27;
-    key += range * (2. * double(state * 0x2545F4914F6CDD1Du >> 11) * 0x1p-53 - 1.);
-  }
-  return result;
-}
-
 inline Raster_packing_search::Plan Raster_packing_search::first_plan()
 {
   Plan plan;
-  plan.keys = keys_by_area();
+  plan.keys = keys_by_area(m_outlines);
   plan.level = highest_level(m_ladder.lowest(), -62, 16, [&](int level) {
     if(!report())
       return false;
@@ -338,8 +297,9 @@ inline Packing_result Raster_packing_search::with_density(double density)
   }
   Chart_rasters charts(m_outlines, m_rotations, density, m_exact);
   charts.make_all();
-  const Raster_packing packing = Greedy_packing(m_exact, m_options.max_pages)
-                                   .pack(charts, order_of(keys_by_area()), Place_criterion::SNUG);
+  const std::vector<std::uint32_t> order = order_of(keys_by_area(m_outlines));
+  const Raster_packing packing
+    = Greedy_packing(m_exact, m_options.max_pages).pack(charts, order, Place_criterion::SNUG);
   if(packing.is_complete)
     return packing_result(packing, charts, density);
   std::size_t misfit = 0;

@@ -14,10 +14,6 @@ namespace CGAL {
 namespace Surface_mesh_texturing {
 namespace internal {
 
-// The halfedge 3 t + c goes from corner c of triangle t to its next corner.
-inline std::uint32_t next_halfedge(std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
-inline std::uint32_t previous_halfedge(std::uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
-
 // The edges at which a surface is cut; border edges are seams that stay. To begin with all edges
 // are seams.
 class Seam_graph

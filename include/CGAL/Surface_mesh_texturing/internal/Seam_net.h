@@ -82,7 +82,8 @@ public:
     const Vertex_index v = m_mesh.source(h), w = m_mesh.target(h);
     if(o == no_halfedge)
       return m_metric.length(v, w);
-    return m_metric.length(v, w, m_mesh.source(previous(h)), m_mesh.source(previous(o)));
+    return m_metric.length(v, w, m_mesh.source(previous_halfedge(h)),
+                           m_mesh.source(previous_halfedge(o)));
   }
 
   // The length of all seams, of those inside the surface only.
@@ -162,7 +163,7 @@ inline void Seam_net::pin_curved(double defect)
       continue;
     double angles = 0.;
     m_mesh.for_each_outgoing(m_mesh.outgoing(v), [&](Halfedge h) {
-      angles += m_metric.angle(v, m_mesh.target(h), m_mesh.source(previous(h)));
+      angles += m_metric.angle(v, m_mesh.target(h), m_mesh.source(previous_halfedge(h)));
       return true;
     });
     m_is_pinned[v] = std::abs(360. - angles) >= defect;
@@ -190,7 +191,7 @@ inline Seam_net::Star Seam_net::star_after_split(Halfedge e, Vertex_index r, Ver
   std::uint32_t moved = 0; // seams that r takes from k
   m_mesh.for_each_outgoing(m_mesh.outgoing(r), [&](Halfedge h) {
     moved += is_seam(h) ? 1 : 0;
-    const Halfedge last = previous(h); // an edge with no halfedge from r
+    const Halfedge last = previous_halfedge(h); // an edge with no halfedge from r
     moved += m_mesh.opposite(last) == no_halfedge && is_seam(last) ? 1 : 0;
     return true;
   });

@@ -7,6 +7,7 @@
 #include <CGAL/Surface_mesh_multiresolution/Indexed_triangle_mesh.h>
 
 #include <array>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -14,8 +15,12 @@ namespace CGAL {
 namespace Surface_mesh_texturing {
 namespace internal {
 
+// The halfedge 3 t + c goes from corner c of triangle t to its next corner.
+inline std::uint32_t next_halfedge(std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
+inline std::uint32_t previous_halfedge(std::uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
+
 // The triangle across each edge of a mesh the edges of which have one or two triangles, of equal
-// orientation. The halfedge 3 t + c goes from corner c of triangle t to its corner (c + 1) mod 3.
+// orientation.
 class Triangle_adjacency
 {
   typedef Surface_mesh_multiresolution::Vertex_index Vertex_index;

@@ -86,15 +86,12 @@ inline bool scale_to_surface(Chart_distortion& distortion, std::vector<Point_2>&
   return true;
 }
 
-inline double border_length(const Indexed_triangle_mesh& mesh)
+inline double border_length(const Indexed_triangle_mesh& mesh,
+                            const std::vector<Border_edge>& border)
 {
-  const Triangle_adjacency adjacency(mesh.triangles);
   double sum = 0.;
-  for(std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-    for(int c = 0; c < 3; ++c)
-      if(adjacency.opposite(t, c) == no_vertex)
-        sum += std::sqrt(squared_distance(mesh.points[mesh.triangles[t][c]],
-                                          mesh.points[mesh.triangles[t][(c + 1) % 3]]));
+  for(const Border_edge& e : border)
+    sum += std::sqrt(squared_distance(mesh.points[e[0]], mesh.points[e[1]]));
   return sum;
 }
 
@@ -112,15 +109,12 @@ inline std::vector<Point_2> conformal_uv(const Indexed_triangle_mesh& mesh,
   return SMP::conformal_map(mesh, solver).uv;
 }
 
-// The vertices with an edge that has one triangle.
-inline std::vector<bool> border_vertices(const Indexed_triangle_mesh& mesh)
+// For each of n vertices whether it is on the border.
+inline std::vector<bool> border_vertices(std::size_t n, const std::vector<Border_edge>& border)
 {
-  const Triangle_adjacency adjacency(mesh.triangles);
-  std::vector<bool> result(mesh.points.size(), false);
-  for(std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-    for(int c = 0; c < 3; ++c)
-      if(adjacency.opposite(t, c) == no_vertex)
-        result[mesh.triangles[t][c]] = result[mesh.triangles[t][(c + 1) % 3]] = true;
+  std::vector<bool> result(n, false);
+  for(const Border_edge& e : border)
+    result[e[0]] = result[e[1]] = true;
   return result;
 }
 
@@ -128,13 +122,14 @@ inline std::vector<bool> border_vertices(const Indexed_triangle_mesh& mesh)
 // enough. Returns the numbers of those that are left. Where much would have to move, the chart had
 // better be cut.
 inline std::pair<std::size_t, std::size_t> repair_flips(const Indexed_triangle_mesh& mesh,
+                                                        const std::vector<Border_edge>& border,
                                                         std::vector<Point_2>& uv)
 {
   namespace SMP = Surface_mesh_parameterization;
   SMP::Flip_repair_options repair;
   repair.last_rings = 32;
   repair.largest_patch = 5000;
-  SMP::repair_flipped_faces(mesh, uv, border_vertices(mesh), repair);
+  SMP::repair_flipped_faces(mesh, uv, border_vertices(mesh.points.size(), border), repair);
   const auto left = count_flips(mesh.triangles, uv);
   if(left.first + left.second == 0)
     return left;
@@ -149,7 +144,8 @@ inline Mapped_chart map_chart(Chart_mesh chart, const Texture_atlas_options& opt
   result.chart = std::move(chart);
   const Indexed_triangle_mesh& mesh = result.chart.mesh;
   result.report.faces = mesh.triangles.size();
-  result.report.border_length = border_length(mesh);
+  const std::vector<Border_edge> border = border_edges(mesh.triangles);
+  result.report.border_length = border_length(mesh, border);
   if(mesh.triangles.size() == 1) {
     result.uv = lay_out_triangle(mesh);
     result.report.distortion = measure_chart_distortion(mesh, result.uv);
@@ -168,11 +164,11 @@ inline Mapped_chart map_chart(Chart_mesh chart, const Texture_atlas_options& opt
   const auto flips = count_flips(mesh.triangles, result.uv);
   auto left = flips;
   if(flips.first + flips.second > 0) {
-    left = repair_flips(mesh, result.uv);
+    left = repair_flips(mesh, border, result.uv);
     result.report.distortion = measure_chart_distortion(mesh, result.uv);
   }
   result.report.repaired_flips = flips.first - (std::min)(flips.first, left.first);
-  result.report.is_one_to_one = left.first == 0 && is_simple_border(mesh.triangles, result.uv);
+  result.report.is_one_to_one = left.first == 0 && is_simple_border(border, result.uv);
   result.is_valid = result.report.is_one_to_one
                  && (is_free || result.report.distortion.is_within(options.bound));
   return result;

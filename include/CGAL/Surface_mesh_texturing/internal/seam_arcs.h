@@ -38,9 +38,9 @@ inline bool is_seam_node(const Seam_net& graph, Vertex_index v)
 // The other seam at the end of h, which is no node, as a halfedge from there.
 inline Halfedge next_seam(const Seam_net& graph, Halfedge h)
 {
-  Halfedge g = next(h);
+  Halfedge g = next_halfedge(h);
   while(!graph.is_seam(g))
-    g = next(graph.mesh().opposite(g));
+    g = next_halfedge(graph.mesh().opposite(g));
   return g;
 }
 

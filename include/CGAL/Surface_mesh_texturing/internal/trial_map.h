@@ -8,12 +8,11 @@
 #include <CGAL/Surface_mesh_parameterization/internal/crossing_edges.h>
 #include <CGAL/Surface_mesh_texturing/Chart_distortion.h>
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
-#include <CGAL/Surface_mesh_texturing/internal/Triangle_adjacency.h>
+#include <CGAL/Surface_mesh_texturing/internal/border_edges.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/ch_graham_andrew.h>
 
-#include <array>
 #include <iterator>
 #include <vector>
 
@@ -31,8 +30,6 @@ struct Trial_map
   bool is_one_to_one = false; // no flipped triangle, and the border does not meet itself
   double fill = 0.;           // the part of its convex hull that the chart fills in the plane
 };
-
-typedef std::array<Surface_mesh_multiresolution::Vertex_index, 2> Border_edge;
 
 // Whether two edges that share no vertex meet in the plane, up to rounding.
 inline bool border_meets_itself(const std::vector<Border_edge>& edges,
@@ -76,18 +73,6 @@ inline Trial_map try_map(const Indexed_triangle_mesh& mesh, const std::vector<Bo
     = result.distortion.flipped_faces == 0 && !border_meets_itself(border, map.uv);
   const double hull = hull_area(border, map.uv);
   result.fill = hull > 0. ? result.distortion.uv_area / hull : 0.;
-  return result;
-}
-
-// The edges of the mesh that have one triangle.
-inline std::vector<Border_edge> border_edges(const Indexed_triangle_mesh& mesh)
-{
-  const Triangle_adjacency adjacency(mesh.triangles);
-  std::vector<Border_edge> result;
-  for(std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-    for(int c = 0; c < 3; ++c)
-      if(adjacency.opposite(t, c) == Surface_mesh_multiresolution::no_vertex)
-        result.push_back({mesh.triangles[t][c], mesh.triangles[t][(c + 1) % 3]});
   return result;
 }
 

@@ -1,0 +1,58 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_PACKING_KEYS_H
+#define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_PACKING_KEYS_H
+
+#include <CGAL/Surface_mesh_texturing/internal/Chart_outline.h>
+#include <CGAL/Surface_mesh_texturing/internal/Xorshift.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+namespace internal {
+
+typedef std::vector<double> Packing_keys; // of the charts; the largest is placed first
+
+// The logarithms of the areas, rounded so that equal charts are equal.
+inline Packing_keys keys_by_area(const std::vector<Chart_outline>& outlines)
+{
+  Packing_keys keys;
+  for(const Chart_outline& o : outlines) {
+    const double thickened = o.area + 1e-3 * o.diameter * o.diameter;
+    keys.push_back(thickened > 0. ? std::round(1e6 * std::log(thickened)) / 1e6 : -1e3);
+  }
+  return keys;
+}
+
+// Keys near those of areas; the same for the same seed.
+inline Packing_keys perturbed(const Packing_keys& keys, std::size_t seed)
+{
+  constexpr double range = 0.5; // of the logarithm of the area
+  Packing_keys result = keys;
+  Xorshift random(seed);
+  for(double& key : result)
+    key += range * (2. * random.fraction() - 1.);
+  return result;
+}
+
+// The order of these keys: the largest first, ties by index.
+inline std::vector<std::uint32_t> order_of(const Packing_keys& keys)
+{
+  std::vector<std::uint32_t> order(keys.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return keys[a] > keys[b]; });
+  return order;
+}
+
+} // namespace internal
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_INTERNAL_PACKING_KEYS_H
