@@ -19,8 +19,8 @@ cmake --build --preset coverage --parallel "$(number_of_jobs)" >&2
 
 say "testing"
 find build/coverage -name '*.gcda' -delete
-# As few processes as keep the processors busy, not one for each test as ctest starts them: each adds
-# its counts to those in the files when it ends, which takes longer than most tests do.
+# As few processes as keep the processors busy, not one for each test as ctest starts them: each
+# adds its counts to those in the files when it ends, which takes longer than most tests do.
 processes="$(nproc)"
 running=()
 for ((i = 0; i < processes; ++i)); do
