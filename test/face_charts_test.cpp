@@ -11,6 +11,7 @@
 #include <CGAL/Surface_mesh_texturing/charts_of_texture.h>
 #include <CGAL/Surface_mesh_texturing/chart_topology.h>
 #include <CGAL/Surface_mesh_texturing/cut_to_disks.h>
+#include <CGAL/Surface_mesh_texturing/internal/halve_chart.h>
 #include <CGAL/Surface_mesh_texturing/straighten_charts.h>
 
 #include <gtest/gtest.h>
@@ -206,6 +207,26 @@ TEST(Cut_to_disks, goes_along_a_crease)
         EXPECT_TRUE(is_crease(v) && is_crease(w));
       }
     }
+}
+
+TEST(Halve_chart, cuts_off_a_disk_with_half_of_the_triangles)
+{
+  auto meshes = generated_meshes(seed);
+  meshes.push_back({"two triangles", grid(1, 1)});
+  meshes.push_back({"cylinder", cylinder(9, 4)});
+  for(const auto& [name, mesh] : meshes) {
+    if(mesh.triangles.size() < 2)
+      continue; // cannot be cut
+    const Face_charts charts = SMT::internal::halve_chart(mesh);
+    ASSERT_EQ(error_in_charts(mesh.triangles, charts), "") << name << seed_text;
+    EXPECT_GE(charts.number_of_charts, 2u) << name << seed_text;
+    const auto disk = SMT::chart_meshes(mesh, charts)[charts.chart[0]].mesh;
+    EXPECT_EQ(disk.triangles.size(), mesh.triangles.size() / 2) << name << seed_text;
+    const Topology topology = topology_of(disk.triangles);
+    EXPECT_EQ(topology.defect, "") << name << seed_text;
+    EXPECT_EQ(topology.border_loops, 1u) << name << seed_text;
+    EXPECT_EQ(topology.euler_characteristic(), 1) << name << seed_text;
+  }
 }
 
 TEST(Charts_of_texture, are_between_the_discontinuities)

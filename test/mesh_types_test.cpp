@@ -10,6 +10,7 @@
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Polyhedron_items_with_id_3.h>
+#include <CGAL/Surface_mesh_parameterization/conformal_map.h>
 #include <CGAL/Surface_mesh_parameterization/parameterize.h>
 #include <CGAL/boost/graph/Seam_mesh.h>
 #include <CGAL/boost/graph/copy_face_graph.h>
@@ -157,6 +158,62 @@ TEST(OpenMesh, by_the_member_function)
   for(const auto& t : arrays.triangles)
     mesh.add_face(v[t[0]], v[t[1]], v[t[2]]);
   expect_same_parameters(mesh, get(CGAL::dynamic_vertex_property_t<Point>(), mesh), 0.);
+}
+
+// --- Two arrays
+
+// Where products and sums are contracted, another copy of the machine code rounds differently.
+constexpr double other_rounding = 1e-6;
+
+Parameters parameters_of(const SMP::Conformal_map& map)
+{
+  Parameters result;
+  for(const auto& p : map.uv)
+    result.push_back({p.x(), p.y()});
+  return result;
+}
+
+TEST(Arrays, by_conformal_map)
+{
+  const SMP::Conformal_map map = SMP::conformal_map(hills(), options());
+  ASSERT_EQ(map.error, SMP::OK) << map.report.message;
+  EXPECT_LE(difference(parameters_of(map), expected_parameters()), other_rounding);
+  EXPECT_EQ(map.report.vertices, hills().points.size());
+  EXPECT_EQ(map.report.faces, hills().triangles.size());
+  EXPECT_EQ(map.report.borders, 6u);
+}
+
+TEST(Arrays, may_have_vertices_without_a_face)
+{
+  Indexed_triangle_mesh mesh = hills();
+  mesh.points.push_back(Point_3(1., 2., 3.));
+  const SMP::Conformal_map map = SMP::conformal_map(mesh, options());
+  ASSERT_EQ(map.error, SMP::OK) << map.report.message;
+  Parameters uv = parameters_of(map);
+  ASSERT_EQ(uv.size(), mesh.points.size());
+  EXPECT_EQ(map.uv.back(), CGAL::Simple_cartesian<double>::Point_2(0., 0.));
+  uv.pop_back();
+  EXPECT_LE(difference(uv, expected_parameters()), other_rounding);
+}
+
+TEST(Arrays, without_a_map_say_why)
+{
+  SMP::HLSCM_options wrong = options(), cancelled = options();
+  wrong.tolerance = 0.;
+  cancelled.progress = [](double) { return false; };
+  Indexed_triangle_mesh two = grid(3, 3);
+  for(const Point_3& p : grid(3, 3).points)
+    two.points.push_back(p);
+  for(const auto& t : grid(3, 3).triangles)
+    two.triangles.push_back({t[0] + 16, t[1] + 16, t[2] + 16});
+  for(const SMP::Conformal_map& map :
+      {SMP::conformal_map(hills(), wrong), SMP::conformal_map(hills(), cancelled),
+       SMP::conformal_map(sphere(2)), SMP::conformal_map(two),
+       SMP::conformal_map(Indexed_triangle_mesh())}) {
+    EXPECT_NE(map.error, SMP::OK);
+    EXPECT_TRUE(map.uv.empty());
+    EXPECT_NE(map.report.message, "");
+  }
 }
 
 // --- A closed mesh cut along seams

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -160,9 +161,9 @@ TEST(Hierarchical_method, reaches_it_on_large_charts)
 {
   for(const auto& [name, mesh] : large_charts(1)) {
     Surface_mesh surface_mesh = to_surface_mesh(mesh);
+    const Comparison direct = direct_half(surface_mesh, Conformal_weights::EXACT);
     for(const double tolerance : {1e-2, 1e-4}) {
-      const auto c
-        = compare_with_direct(surface_mesh, with_method(Conformal_method::HLSCM, tolerance));
+      const auto c = compare(surface_mesh, with_method(Conformal_method::HLSCM, tolerance), direct);
       EXPECT_EQ(error_in_comparison(c, tolerance), "") << row_of(name, c, tolerance);
       EXPECT_GE(c.hierarchical.report.levels.size(), 3u);
     }
@@ -186,8 +187,11 @@ void expect_agreement(const std::vector<Options>& all_options, const Describe& d
 {
   for(const auto& [name, mesh] : ordinary_charts()) {
     Surface_mesh surface_mesh = to_surface_mesh(mesh);
+    std::map<Conformal_weights, Comparison> direct;
     for(const HLSCM_options& options : all_options) {
-      const auto c = compare_with_direct(surface_mesh, options);
+      if(direct.count(options.weights) == 0)
+        direct[options.weights] = direct_half(surface_mesh, options.weights);
+      const auto c = compare(surface_mesh, options, direct[options.weights]);
       EXPECT_EQ(error_in_comparison(c, options.tolerance), "")
         << describe(options) << " on " << row_of(name, c, options.tolerance);
     }
@@ -291,8 +295,9 @@ TEST(Hierarchical_method, comes_nearer_with_lower_tolerances)
     Surface_mesh surface_mesh = to_surface_mesh(mesh);
     double last_gap = std::numeric_limits<double>::infinity();
     std::size_t last_iterations = 0;
+    const Comparison direct = direct_half(surface_mesh, Conformal_weights::EXACT);
     for(const double tolerance : {1e-1, 1e-3, 1e-5, 1e-7}) {
-      const auto c = compare_with_direct(surface_mesh, with_many_levels(tolerance));
+      const auto c = compare(surface_mesh, with_many_levels(tolerance), direct);
       EXPECT_LE(c.gap(), last_gap * (1. + 1e-6)) << name << " " << tolerance;
       EXPECT_GE(c.hierarchical.report.iterations, last_iterations) << name << " " << tolerance;
       if(tolerance <= 1e-3) { // two or three steps are too few for an estimate

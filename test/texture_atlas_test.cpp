@@ -73,6 +73,23 @@ TEST(Texture_atlas, is_one_to_one_on_every_surface)
 }
 
 // 14,400 triangles that go through a level of 1,500
+TEST(Texture_atlas, is_one_to_one_by_least_squares_too)
+{
+  const Indexed_triangle_mesh mesh = with_noise(torus(40, 20), 0.02, seed);
+  SMT::Texture_atlas_options options = small_texture();
+  options.method = CGAL::Surface_mesh_parameterization::Conformal_method::HLSCM;
+  for(const std::size_t direct_faces : {std::size_t(0), options.direct_faces}) {
+    options.direct_faces = direct_faces;
+    const SMT::Texture_atlas_result result = SMT::build_texture_atlas(mesh, options);
+    ASSERT_EQ(result.error, "") << direct_faces;
+    EXPECT_EQ(error_in_atlas(mesh, result.atlas), "") << direct_faces << seed_text;
+    for(const SMT::Chart_report& chart : result.report.charts)
+      EXPECT_TRUE(chart.is_one_to_one && chart.distortion.is_within(options.bound))
+        << direct_faces << ": " << chart.distortion.area_scale << ", "
+        << chart.distortion.quasi_conformal;
+  }
+}
+
 TEST(Texture_atlas, is_valid_when_charts_are_tried_on_a_level_first)
 {
   const Indexed_triangle_mesh mesh = with_noise(torus(120, 60), 0.02, seed);

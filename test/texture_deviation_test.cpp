@@ -169,11 +169,25 @@ combination(const Wedge_mesh& mesh, const SMM::Triangle_indices& t,
   return w[0] * at(0) + w[1] * at(1) + w[2] * at(2);
 }
 
+// Whether p is clearly left or right, below or above of a triangle in the texture.
+bool is_beside(const Wedge_mesh& mesh, const SMM::Triangle_indices& t, const Point_2& p)
+{
+  for(int i = 0; i < 2; ++i) {
+    const auto [lo, hi] = std::minmax({mesh.uv[t[0]][i], mesh.uv[t[1]][i], mesh.uv[t[2]][i]});
+    const double margin = 1e-6 * (hi - lo);
+    if(p[i] < lo - margin || p[i] > hi + margin)
+      return true;
+  }
+  return false;
+}
+
 // The point of the surface that has a texture coordinate: that of the first of the triangles where
 // no weight is below -1e-9, by looking at all of them.
 std::optional<Point_3> point_at(const Wedge_mesh& mesh, const Point_2& p)
 {
   for(const SMM::Triangle_indices& t : mesh.triangles) {
+    if(is_beside(mesh, t, p))
+      continue;
     const auto w = weights_of(mesh, t, p);
     if(w[0] >= -1e-9 && w[1] >= -1e-9 && w[2] >= -1e-9)
       return CGAL::ORIGIN + combination(mesh, t, w);

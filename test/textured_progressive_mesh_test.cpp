@@ -320,6 +320,7 @@ TEST(Selectively_refined_mesh, is_a_surface_for_any_request)
 {
   for(const auto& [name, mesh] : textured_meshes(seed)) {
     const Textured_progressive_mesh pm = built(mesh);
+    const Textured_topology fine = textured_topology_of(pm, pm.progressive_mesh.triangles);
     SMM::Selectively_refined_mesh selective(pm);
     Random random(seed);
     for(int i = 0; i < 12; ++i) {
@@ -332,7 +333,8 @@ TEST(Selectively_refined_mesh, is_a_surface_for_any_request)
       selective.adapt(wanted);
       for(Vertex_index v = 0; v < pm.points.size(); ++v)
         ASSERT_TRUE(!wanted(v) || selective.has_vertex(v)) << name;
-      ASSERT_EQ(error_in_mesh(pm, living(selective)), "") << name << seed_text;
+      ASSERT_EQ(error_in_topology(fine, textured_topology_of(pm, living(selective))), "")
+        << name << seed_text;
     }
   }
 }
@@ -341,6 +343,7 @@ TEST(Selectively_refined_mesh, comes_back_from_random_walks)
 {
   for(const auto& [name, mesh] : textured_meshes(seed)) {
     const Textured_progressive_mesh pm = built(mesh);
+    const Textured_topology fine = textured_topology_of(pm, pm.progressive_mesh.triangles);
     SMM::Selectively_refined_mesh selective(pm);
     const std::vector<Triangle_indices> coarsest = selective.triangles();
     Random random(seed);
@@ -355,7 +358,8 @@ TEST(Selectively_refined_mesh, comes_back_from_random_walks)
           ASSERT_NE(is_gone, selective.has_vertex(v));
         }
         if(step % 40 == 0) {
-          ASSERT_EQ(error_in_mesh(pm, living(selective)), "") << name << seed_text;
+          ASSERT_EQ(error_in_topology(fine, textured_topology_of(pm, living(selective))), "")
+            << name << seed_text;
         }
       }
       selective.adapt([](Vertex_index) { return false; });

@@ -20,8 +20,9 @@ foreach(file IN LISTS config_files)
   endif()
 endforeach()
 
+# Without optimisation: soon compiled, and there is little to run
 run(${CMAKE_COMMAND} -S ${consumer_dir} -B ${work_dir}/build -G ${generator}
-    -D CMAKE_CXX_COMPILER=${compiler} -D CMAKE_BUILD_TYPE=Release
+    -D CMAKE_CXX_COMPILER=${compiler} -D CMAKE_BUILD_TYPE=Release -D CMAKE_CXX_FLAGS_RELEASE=-O0
     -D CMAKE_PREFIX_PATH=${prefix} -D CGAL_DIR=${cgal_dir})
 run(${CMAKE_COMMAND} --build ${work_dir}/build --config Release)
 run(${CMAKE_CTEST_COMMAND} --test-dir ${work_dir}/build -C Release --output-on-failure

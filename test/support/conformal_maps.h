@@ -173,20 +173,35 @@ inline double energy_of(Surface_mesh& mesh, const Parameters& uv, SMP::Conformal
   return sum;
 }
 
-inline Comparison compare_with_direct(Surface_mesh& mesh, SMP::HLSCM_options options,
-                                      const Pins& pins = Pins())
+// The half of a comparison that is the same for all options with these weights.
+inline Comparison direct_half(Surface_mesh& mesh, SMP::Conformal_weights weights,
+                              const Pins& pins = Pins())
 {
   Comparison c;
-  c.hierarchical = parameterize(mesh, options, pins);
-  options.method = SMP::Conformal_method::DIRECT;
+  SMP::HLSCM_options options = with_method(SMP::Conformal_method::DIRECT);
+  options.weights = weights;
   c.direct = parameterize(mesh, options, pins);
-  c.hierarchical_flips = measure(mesh, c.hierarchical.uv).flipped_faces;
   const SMP::Distortion_measures direct = measure(mesh, c.direct.uv);
   c.direct_flips = direct.flipped_faces;
   c.area_scale_range = direct.area_scale_range;
-  c.hierarchical_energy = energy_of(mesh, c.hierarchical.uv, options.weights);
-  c.direct_energy = energy_of(mesh, c.direct.uv, options.weights);
+  c.direct_energy = energy_of(mesh, c.direct.uv, weights);
   return c;
+}
+
+inline Comparison compare(Surface_mesh& mesh, const SMP::HLSCM_options& options, Comparison direct,
+                          const Pins& pins = Pins())
+{
+  Comparison c = std::move(direct);
+  c.hierarchical = parameterize(mesh, options, pins);
+  c.hierarchical_flips = measure(mesh, c.hierarchical.uv).flipped_faces;
+  c.hierarchical_energy = energy_of(mesh, c.hierarchical.uv, options.weights);
+  return c;
+}
+
+inline Comparison compare_with_direct(Surface_mesh& mesh, const SMP::HLSCM_options& options,
+                                      const Pins& pins = Pins())
+{
+  return compare(mesh, options, direct_half(mesh, options.weights, pins), pins);
 }
 
 // One row of a table: chart, faces, tolerance, gap, iterations, flips of both.

@@ -147,20 +147,31 @@ inline std::string difference(const Topology& a, const Topology& b)
   return {};
 }
 
+// What a set of wedge triangles has in common with that of the fine mesh.
+struct Textured_topology
+{
+  Topology surface, charts;
+  Texture_signs signs;
+};
+
+inline Textured_topology textured_topology_of(const Textured_progressive_mesh& mesh,
+                                              const std::vector<Triangle_indices>& triangles)
+{
+  return {topology_of(on_surface(mesh, triangles)), topology_of(triangles),
+          texture_signs(mesh, triangles)};
+}
+
 // A set of wedge triangles is a surface and a set of charts like those of the fine mesh, with each
 // seam closed, and with no triangle turned over in the texture.
-inline std::string error_in_mesh(const Textured_progressive_mesh& mesh,
-                                 const std::vector<Triangle_indices>& triangles)
+inline std::string error_in_topology(const Textured_topology& fine, const Textured_topology& level)
 {
-  const std::vector<Triangle_indices>& fine = mesh.progressive_mesh.triangles;
-  std::string error = difference(topology_of(on_surface(mesh, fine)),
-                                 topology_of(on_surface(mesh, triangles)));
+  std::string error = difference(fine.surface, level.surface);
   if(!error.empty())
     return "the surface: " + error;
-  error = difference(topology_of(fine), topology_of(triangles));
+  error = difference(fine.charts, level.charts);
   if(!error.empty())
     return "the charts: " + error;
-  const Texture_signs before = texture_signs(mesh, fine), after = texture_signs(mesh, triangles);
+  const Texture_signs &before = fine.signs, &after = level.signs;
   if((after.has_negative && !before.has_negative) || (after.has_positive && !before.has_positive)
      || (after.has_zero && !before.has_zero))
     return "a triangle has turned over in the texture";
@@ -173,13 +184,15 @@ inline std::string error_in_textured_levels(const Textured_progressive_mesh& mes
 {
   using CGAL::Surface_mesh_multiresolution::triangles_after;
   const std::size_t n = mesh.number_of_collapses();
+  const Textured_topology fine = textured_topology_of(mesh, mesh.progressive_mesh.triangles);
   for(std::size_t i = 0; i <= samples; ++i) {
     const std::size_t k = mesh.whole_position(n * i / samples);
-    const auto triangles = triangles_after(mesh.progressive_mesh, k);
-    const std::string error = error_in_mesh(mesh, triangles);
+    const Textured_topology level
+      = textured_topology_of(mesh, triangles_after(mesh.progressive_mesh, k));
+    const std::string error = error_in_topology(fine, level);
     if(!error.empty())
       return error + " after " + std::to_string(k) + " of " + std::to_string(n) + " collapses";
-    if(topology_of(on_surface(mesh, triangles)).vertices != mesh.number_of_vertices_after(k))
+    if(level.surface.vertices != mesh.number_of_vertices_after(k))
       return "a wrong number of vertices";
   }
   return {};
