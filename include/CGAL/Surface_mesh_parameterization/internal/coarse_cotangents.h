@@ -164,7 +164,8 @@ inline void Coarse_metric::find_owners(const Prolongation& prolongation,
                              : triangle_with({rank[s[0]], rank[s[1]], rank[s[2]]});
     }
   });
-  std::vector<std::uint32_t> owner(m_fine.mesh.triangles.size());
+  Blocked_execution::internal::Uninitialized_vector<std::uint32_t> owner(
+    m_fine.mesh.triangles.size());
   Blocked_execution::blocked_for(owner.size(), 16384, [&](std::size_t begin, std::size_t end) {
     for(std::size_t t = begin; t < end; ++t)
       owner[t] = owner_of(std::uint32_t(t), rank, owner_of_vertex);
