@@ -132,13 +132,16 @@ surviving_triangles(const std::vector<Triangle_indices>& triangles,
     Blocked_execution::number_of_blocks(triangles.size(), block_of_level));
   Blocked_execution::blocked_for(triangles.size(), block_of_level,
                                  [&](std::size_t begin, std::size_t end) {
+    Blocked_execution::internal::Uninitialized_vector<Triangle_indices> part(end - begin);
+    std::size_t count = 0;
     for(std::size_t i = begin; i < end; ++i) {
       const Triangle_indices& t = triangles[i];
       const Triangle_indices s
         = {rank[ancestor[t[0]]], rank[ancestor[t[1]]], rank[ancestor[t[2]]]};
-      if(s[0] != s[1] && s[1] != s[2] && s[2] != s[0])
-        parts[begin / block_of_level].push_back(s);
+      part[count] = s;
+      count += (s[0] != s[1]) & (s[1] != s[2]) & (s[2] != s[0]) ? 1 : 0;
     }
+    parts[begin / block_of_level].assign(part.begin(), part.begin() + count);
   });
   return Blocked_execution::internal::joined(parts);
 }
