@@ -242,6 +242,10 @@ std::vector<Named_mesh> operator_meshes()
     {"holes", with_holes(hills, 4, 3)},
     {"jagged", with_jagged_border(hills, 0.5, 4)},
     {"wheel", fan(30)},
+    {"wheel of 8", fan(8)}, // rows of up to 8 and 16 entries are made in another way
+    {"wheel of 9", fan(9)},
+    {"wheel of 16", fan(16)},
+    {"wheel of 17", fan(17)},
     {"cylinder", cylinder(9, 6)},
     {"zero-area triangles", with_zero_area_triangles(hills, 6, 5)},
     {"duplicate points", with_duplicate_points(hills, 6, 6)},

@@ -188,9 +188,25 @@ TYPED_TEST(Matrices, product_of_many_rows_is_the_plain_one)
   }
   const auto h = Matrix_builder::build<TypeParam>(
     lengths, [&](std::uint32_t i, Matrix_row& row) { row = rows[i]; });
+  const auto set_real = [&rows](std::uint32_t i, CGAL::Multigrid::Real_row<TypeParam>& row) {
+    std::vector<std::uint32_t> column;
+    std::vector<double> re;
+    for(const auto& entry : rows[i].entries) {
+      if(entry.im != 0.)
+        return false;
+      column.push_back(entry.column);
+      re.push_back(entry.re);
+    }
+    row.set(rows[i].diagonal, re.size(), column.data(), re.data());
+    return true;
+  };
+  const auto same = Matrix_builder::build<TypeParam>(
+    lengths, set_real, [&](std::uint32_t i, Matrix_row& row) { row = rows[i]; });
   const Dense_vector x = random_vector(int(n), random);
-  Complex_vector<TypeParam> y(n);
+  Complex_vector<TypeParam> y(n), y_same(n);
   h.multiply(to_vector<TypeParam>(x), y);
+  same.multiply(to_vector<TypeParam>(x), y_same);
+  EXPECT_EQ(y, y_same);
   for(std::uint32_t i = 0; i < n; ++i) {
     std::complex<double> expected = rows[i].diagonal * x(i);
     for(const auto& entry : rows[i].entries)

@@ -20,6 +20,45 @@ namespace Multigrid {
 /*!
 \ingroup PkgHLSCMMultigrid
 
+The place of a row in a matrix that is being built, for a row without imaginary parts. Entries that
+are not set become padding.
+*/
+template <class Real>
+class Real_row
+{
+public:
+  /// Constructs the place whose entry `k` is at `k * Sliced_pattern::slice_rows`.
+  Real_row(std::uint32_t* column, Real* re, Real& diagonal)
+    : m_column(column), m_re(re), m_diagonal(diagonal)
+  {}
+
+  /// Sets the diagonal entry and the first `count` entries beside it.
+  ///
+  /// \param count not more than the announced length of the row
+  template <class Index>
+  void set(double diagonal, std::size_t count, const Index* column, const double* re)
+  {
+    m_diagonal = Real(diagonal);
+    for(std::size_t k = 0; k < count; ++k) {
+      m_column[k * Sliced_pattern::slice_rows] = std::uint32_t(column[k]);
+      m_re[k * Sliced_pattern::slice_rows] = Real(re[k]);
+    }
+    m_count = count;
+  }
+
+  /// Returns the number of entries that have been set.
+  std::size_t count() const { return m_count; }
+
+private:
+  std::uint32_t* m_column;
+  Real* m_re;
+  Real& m_diagonal;
+  std::size_t m_count = 0;
+};
+
+/*!
+\ingroup PkgHLSCMMultigrid
+
 The class `Matrix_builder` makes a `Hermitian_matrix` row by row.
 */
 class Matrix_builder
@@ -30,7 +69,16 @@ public:
   /// a row, in any order and possibly at the same time.
   template <class Real, class Fill>
   static Hermitian_matrix<Real> build(const std::vector<std::uint32_t>& row_lengths,
-                                      const Fill& fill);
+                                      const Fill& fill)
+  {
+    return build<Real>(row_lengths, [](std::uint32_t, Real_row<Real>&) { return false; }, fill);
+  }
+
+  /// Returns the same matrix, where most rows are real: `fill_real(i, row)` sets the `Real_row` and
+  /// returns `true`, or returns `false`, and `fill(i, row)` is called.
+  template <class Real, class Fill_real, class Fill>
+  static Hermitian_matrix<Real> build(const std::vector<std::uint32_t>& row_lengths,
+                                      const Fill_real& fill_real, const Fill& fill);
 
 private:
   static constexpr std::size_t rows = Sliced_pattern::slice_rows;
@@ -40,9 +88,11 @@ private:
   static void sort_window(const std::vector<std::uint32_t>& lengths, std::size_t begin,
                           std::size_t end, Sliced_pattern& pattern);
   template <class Real>
-  static void store_row(const Matrix_row& row, std::uint32_t i, std::size_t slot,
-                        Sliced_pattern& pattern, Hermitian_matrix<Real>& matrix,
-                        std::vector<Real>& imaginary_of_block);
+  static void store_row(const Matrix_row& row, std::size_t slot, Sliced_pattern& pattern,
+                        Hermitian_matrix<Real>& matrix, std::vector<Real>& imaginary_of_block);
+  template <class Real>
+  static void pad_row(std::size_t count, std::size_t slot, Sliced_pattern& pattern,
+                      Hermitian_matrix<Real>& matrix);
   template <class Real>
   static void join_imaginary(std::vector<std::vector<Real>>& blocks, Sliced_pattern& pattern,
                              Hermitian_matrix<Real>& matrix);
@@ -88,26 +138,37 @@ inline void Matrix_builder::sort_slots(const std::vector<std::uint32_t>& lengths
 }
 
 template <class Real>
-void Matrix_builder::store_row(const Matrix_row& row, std::uint32_t i, std::size_t slot,
-                               Sliced_pattern& pattern, Hermitian_matrix<Real>& matrix,
+void Matrix_builder::store_row(const Matrix_row& row, std::size_t slot, Sliced_pattern& pattern,
+                               Hermitian_matrix<Real>& matrix,
                                std::vector<Real>& imaginary_of_block)
 {
   const std::size_t s = slot / rows, r = slot % rows;
   const std::size_t width = pattern.slice_begin[s + 1] - pattern.slice_begin[s];
-  matrix.m_diagonal[i] = Real(row.diagonal);
-  for(std::size_t k = 0; k < width; ++k) {
+  matrix.m_diagonal[pattern.row_of_slot[slot]] = Real(row.diagonal);
+  for(std::size_t k = 0; k < row.entries.size(); ++k) {
     const std::size_t at = (pattern.slice_begin[s] + k) * rows + r;
-    // Padding refers to the row itself, which is in the cache.
-    const bool is_entry = k < row.entries.size();
-    pattern.column[at] = is_entry ? row.entries[k].column : i;
-    matrix.m_re[at] = is_entry ? Real(row.entries[k].re) : Real(0);
-    if(!is_entry || row.entries[k].im == 0.)
+    pattern.column[at] = row.entries[k].column;
+    matrix.m_re[at] = Real(row.entries[k].re);
+    if(row.entries[k].im == 0.)
       continue;
     if(pattern.imaginary[s] == Sliced_pattern::none) { // counted from the begin of the block
       pattern.imaginary[s] = std::uint32_t(imaginary_of_block.size() / rows);
       imaginary_of_block.resize(imaginary_of_block.size() + width * rows, Real(0));
     }
     imaginary_of_block[(pattern.imaginary[s] + k) * rows + r] = Real(row.entries[k].im);
+  }
+}
+
+// Fills what is left of a row of `count` entries. Padding refers to the row itself, which is in the
+// cache.
+template <class Real>
+void Matrix_builder::pad_row(std::size_t count, std::size_t slot, Sliced_pattern& pattern,
+                             Hermitian_matrix<Real>& matrix)
+{
+  const std::size_t s = slot / rows, end = pattern.slice_begin[s + 1];
+  for(std::size_t k = pattern.slice_begin[s] + count; k < end; ++k) {
+    pattern.column[k * rows + slot % rows] = pattern.row_of_slot[slot];
+    matrix.m_re[k * rows + slot % rows] = Real(0);
   }
 }
 
@@ -126,9 +187,9 @@ void Matrix_builder::join_imaginary(std::vector<std::vector<Real>>& blocks,
   }
 }
 
-template <class Real, class Fill>
+template <class Real, class Fill_real, class Fill>
 Hermitian_matrix<Real> Matrix_builder::build(const std::vector<std::uint32_t>& row_lengths,
-                                             const Fill& fill)
+                                             const Fill_real& fill_real, const Fill& fill)
 {
   auto pattern = std::make_shared<Sliced_pattern>();
   sort_slots(row_lengths, *pattern);
@@ -148,11 +209,21 @@ Hermitian_matrix<Real> Matrix_builder::build(const std::vector<std::uint32_t>& r
                                  [&](std::size_t begin, std::size_t end) {
     Matrix_row row;
     for(std::size_t slot = begin; slot < end; ++slot) {
-      row.diagonal = 0.;
-      row.entries.clear();
-      fill(pattern->row_of_slot[slot], row);
-      store_row(row, pattern->row_of_slot[slot], slot, *pattern, matrix,
-                imaginary[begin / (block_slices * rows)]);
+      const std::uint32_t i = pattern->row_of_slot[slot];
+      const std::size_t at = pattern->slice_begin[slot / rows] * rows + slot % rows;
+      Real_row<Real> place(pattern->column.data() + at, matrix.m_re.data() + at,
+                           matrix.m_diagonal[i]);
+      std::size_t count = 0;
+      if(fill_real(i, place))
+        count = place.count();
+      else {
+        row.diagonal = 0.;
+        row.entries.clear();
+        fill(i, row);
+        store_row(row, slot, *pattern, matrix, imaginary[begin / (block_slices * rows)]);
+        count = row.entries.size();
+      }
+      pad_row(count, slot, *pattern, matrix);
     }
   });
   join_imaginary(imaginary, *pattern, matrix);

@@ -173,9 +173,10 @@ inline void sort_by_smallest_vertex(std::size_t number_of_vertices,
   Blocked_execution::blocked_for(triangles.size(), block_of_points,
                                  [&](std::size_t begin, std::size_t end) {
     for(std::size_t i = begin; i < end; ++i) {
-      Triangle_indices& t = triangles[i];
-      while(t[0] > t[1] || t[0] > t[2])
-        std::rotate(t.begin(), t.begin() + 1, t.end());
+      const Triangle_indices t = triangles[i];
+      const bool is_1 = t[1] < t[0] && t[1] <= t[2], is_2 = t[2] < t[0] && t[2] < t[1];
+      const unsigned int first = is_1 ? 1 : (is_2 ? 2 : 0);
+      triangles[i] = {t[first], t[(9u >> 2 * first) & 3u], t[(18u >> 2 * first) & 3u]};
     }
   });
   std::vector<Triangle_indices> sorted;

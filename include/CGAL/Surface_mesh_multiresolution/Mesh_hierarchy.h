@@ -47,6 +47,9 @@ struct Mesh_level
   std::vector<Vertex_index> vertices; ///< for each vertex its index in the fine mesh
   Indexed_triangle_mesh mesh;         ///< the level's mesh
   Prolongation from_coarser;          ///< from the next coarser level; empty at the coarsest
+  /// For each stencil of `from_coarser` the triangle of the next coarser level whose vertices it
+  /// refers to; empty if the stencils refer to others.
+  std::vector<std::uint32_t> coarser_triangles;
 
   /// Returns the index in this level of a vertex of the fine mesh. Precondition: the level has it.
   std::size_t position(Vertex_index v) const
@@ -129,13 +132,16 @@ surviving_triangles(const std::vector<Triangle_indices>& triangles,
     Blocked_execution::number_of_blocks(triangles.size(), block_of_level));
   Blocked_execution::blocked_for(triangles.size(), block_of_level,
                                  [&](std::size_t begin, std::size_t end) {
+    Blocked_execution::internal::Uninitialized_vector<Triangle_indices> part(end - begin);
+    std::size_t count = 0;
     for(std::size_t i = begin; i < end; ++i) {
       const Triangle_indices& t = triangles[i];
       const Triangle_indices s
         = {rank[ancestor[t[0]]], rank[ancestor[t[1]]], rank[ancestor[t[2]]]};
-      if(s[0] != s[1] && s[1] != s[2] && s[2] != s[0])
-        parts[begin / block_of_level].push_back(s);
+      part[count] = s;
+      count += (s[0] != s[1]) & (s[1] != s[2]) & (s[2] != s[0]) ? 1 : 0;
     }
+    parts[begin / block_of_level].assign(part.begin(), part.begin() + count);
   });
   return Blocked_execution::internal::joined(parts);
 }
@@ -190,11 +196,13 @@ inline std::vector<Mesh_level> build_hierarchy(Indexed_triangle_mesh mesh,
     std::vector<Vertex_index> kept = Blocked_execution::internal::select(
       ancestor.size(), [&ancestor](Vertex_index v) { return ancestor[v] == v; });
     Mesh_level coarse = internal::coarsen(fine, ancestor, kept);
-    std::vector<Prolongation::Stencil> stencils
-      = options.rule == Prolongation_rule::WALK
-      ? internal::walk_stencils(fine.mesh, coarse.mesh, kept, ancestor)
-      : internal::vsplit_stencils(fine.mesh, pm, cuts[c - 1], cuts[c], index);
-    fine.from_coarser = Prolongation(std::move(kept), std::move(stencils));
+    internal::Located_stencils located;
+    if(options.rule == Prolongation_rule::WALK)
+      located = internal::walk_stencils(fine.mesh, coarse.mesh, kept, ancestor);
+    else
+      located.stencils = internal::vsplit_stencils(fine.mesh, pm, cuts[c - 1], cuts[c], index);
+    fine.from_coarser = Prolongation(std::move(kept), std::move(located.stencils));
+    fine.coarser_triangles = std::move(located.triangles);
     Blocked_execution::blocked_for(coarse.vertices.size(), internal::block_of_level,
                                    [&](std::size_t begin, std::size_t end) {
       for(std::size_t v = begin; v < end; ++v)

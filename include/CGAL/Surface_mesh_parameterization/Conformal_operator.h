@@ -4,14 +4,12 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_CONFORMAL_OPERATOR_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_CONFORMAL_OPERATOR_H
 
-#include <CGAL/Blocked_execution/blocked_for.h>
-#include <CGAL/Blocked_execution/internal/Uninitialized_vector.h>
 #include <CGAL/Multigrid/Matrix_builder.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/Triangles_at_vertices.h>
-#include <CGAL/Surface_mesh_parameterization/Conformal_triangle.h>
+#include <CGAL/Surface_mesh_parameterization/internal/Half_cotangents.h>
+#include <CGAL/Surface_mesh_parameterization/internal/conformal_rows.h>
 
 #include <algorithm>
-#include <array>
 #include <complex>
 #include <utility>
 #include <vector>
@@ -60,104 +58,6 @@ struct Conformal_operator
 
 namespace internal {
 
-inline Conformal_triangle
-conformal_triangle(const Surface_mesh_multiresolution::Indexed_triangle_mesh& mesh, std::size_t t)
-{
-  const auto& v = mesh.triangles[t];
-  return Conformal_triangle(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]);
-}
-
-inline std::array<double, 3> half_cotangents(const Conformal_triangle& t)
-{
-  return {0.5 * t.cotangent(0), 0.5 * t.cotangent(1), 0.5 * t.cotangent(2)};
-}
-
-// Half the cotangents of all triangles, three each: all that the energy needs to know of a metric.
-struct Half_cotangents
-{
-  // 3 t + c: of the angle at corner c of triangle t
-  Blocked_execution::internal::Uninitialized_vector<double> value;
-  std::size_t mollified = 0;
-
-  Half_cotangents() {}
-
-  // Those of the triangles as they lie in space.
-  explicit Half_cotangents(const Surface_mesh_multiresolution::Indexed_triangle_mesh& mesh)
-    : value(3 * mesh.triangles.size())
-  {
-    const auto fill = [&](std::size_t begin, std::size_t end) {
-      std::size_t count = 0;
-      for(std::size_t t = begin; t < end; ++t) {
-        const Conformal_triangle triangle = conformal_triangle(mesh, t);
-        set(t, half_cotangents(triangle));
-        count += triangle.is_mollified() ? 1 : 0;
-      }
-      return count;
-    };
-    mollified = Blocked_execution::blocked_sum<std::size_t>(mesh.triangles.size(), 16384, fill);
-  }
-
-  void set(std::size_t t, const std::array<double, 3>& c)
-  {
-    std::copy(c.begin(), c.end(), value.begin() + 3 * t);
-  }
-};
-
-// The row of v: from each triangle (v, a, b) the entries of Conformal_triangle's H_T. Inside the
-// surface every neighbour is once the a and once the b of a triangle.
-template <class At>
-void fill_conformal_row(
-  std::uint32_t v, const std::vector<Surface_mesh_multiresolution::Triangle_indices>& triangles,
-  const At& at, const Half_cotangents& cot, const std::vector<double>& weights,
-  Multigrid::Matrix_row& row)
-{
-  typedef Multigrid::Matrix_row::Entry Entry;
-  const auto weight = [&weights](std::uint32_t t) { return weights.empty() ? 1. : weights[t]; };
-  for(const std::uint32_t* corner = at.begin(v); corner != at.end(v); ++corner) {
-    const std::uint32_t t = *corner / 3, c = *corner % 3;
-    const std::uint32_t c1 = c == 2 ? 0 : c + 1, c2 = c == 0 ? 2 : c - 1;
-    const double at_a = cot.value[3 * t + c1], at_b = cot.value[3 * t + c2];
-    row.entries.push_back({triangles[t][c1], -weight(t) * at_b, 0.5 * weight(t)});
-    row.diagonal += weight(t) * (at_a + at_b);
-  }
-  const std::size_t count = row.entries.size();
-  for(const std::uint32_t* corner = at.begin(v); corner != at.end(v); ++corner) {
-    const std::uint32_t t = *corner / 3, c = *corner % 3;
-    const std::uint32_t b = triangles[t][c == 0 ? 2 : c - 1];
-    const double at_a = cot.value[3 * t + (c == 2 ? 0 : c + 1)];
-    const auto end = row.entries.begin() + count;
-    auto entry = std::find_if(row.entries.begin(), end,
-                              [b](const Entry& e) { return e.column == b; });
-    if(entry == end)
-      entry = row.entries.insert(row.entries.end(), Entry{b, 0., 0.});
-    entry->re -= weight(t) * at_a;
-    entry->im -= 0.5 * weight(t);
-  }
-}
-
-// For each vertex how many others it has a triangle with: one more than its triangles at the
-// border, where the wedges (a, b) of the triangles (v, a, b) do not close, so that the sum of the
-// differences a - b is not 0.
-inline std::vector<std::uint32_t>
-numbers_of_neighbors(const std::vector<Surface_mesh_multiresolution::Triangle_indices>& triangles,
-                     const Surface_mesh_multiresolution::internal::Triangles_at_vertices& at)
-{
-  std::vector<std::uint32_t> result(at.number_of_vertices());
-  Blocked_execution::blocked_for(result.size(), 16384, [&](std::size_t begin, std::size_t end) {
-    for(std::size_t v = begin; v < end; ++v) {
-      const std::uint32_t* const last = at.end(std::uint32_t(v));
-      std::uint32_t sum = 0; // modulo 2^32
-      for(const std::uint32_t* corner = at.begin(std::uint32_t(v)); corner != last; ++corner) {
-        const auto& t = triangles[*corner / 3];
-        const std::uint32_t c = *corner % 3;
-        sum += t[c == 2 ? 0 : c + 1] - t[c == 0 ? 2 : c - 1];
-      }
-      result[v] = at.number(std::uint32_t(v)) + (sum == 0 ? 0 : 1);
-    }
-  });
-  return result;
-}
-
 // The conformal operator of triangles with the given cotangents, without pins.
 template <class Real>
 Conformal_operator<Real>
@@ -168,10 +68,21 @@ assemble_conformal_operator(
 {
   Conformal_operator<Real> result;
   result.mollified_triangles = cot.mollified;
+  const std::vector<std::uint32_t> lengths = numbers_of_neighbors(triangles, at);
+  const auto set_real = [&](std::uint32_t v, Multigrid::Real_row<Real>& row) {
+    const bool is_inside = lengths[v] == at.number(v) && triangle_weights.empty();
+    if(is_inside && lengths[v] <= 8)
+      set_inner_row<8>(v, triangles, at, cot, row);
+    else if(is_inside && lengths[v] <= 16)
+      set_inner_row<16>(v, triangles, at, cot, row);
+    else
+      return false;
+    return true;
+  };
   const auto fill = [&](std::uint32_t v, Multigrid::Matrix_row& row) {
     fill_conformal_row(v, triangles, at, cot, triangle_weights, row);
   };
-  result.matrix = Multigrid::Matrix_builder::build<Real>(numbers_of_neighbors(triangles, at), fill);
+  result.matrix = Multigrid::Matrix_builder::build<Real>(lengths, set_real, fill);
   return result;
 }
 

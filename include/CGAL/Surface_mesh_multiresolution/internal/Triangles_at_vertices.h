@@ -14,6 +14,21 @@ namespace CGAL {
 namespace Surface_mesh_multiresolution {
 namespace internal {
 
+// Corner 3 t + c as the vertex c of triangle t, and its other two vertices in their order. Without
+// branches, which nobody could guess.
+struct Triangle_corner
+{
+  std::uint32_t triangle, next, last;
+
+  explicit Triangle_corner(std::uint32_t corner)
+    : triangle(corner / 3)
+  {
+    const std::uint32_t twice_c = 2 * (corner - 3 * triangle);
+    next = (9u >> twice_c) & 3u;  // 1, 2, 0
+    last = (18u >> twice_c) & 3u; // 2, 0, 1
+  }
+};
+
 // For each vertex the corners that it has in triangles: corner 3 t + c is vertex c of triangle t.
 class Triangles_at_vertices
 {

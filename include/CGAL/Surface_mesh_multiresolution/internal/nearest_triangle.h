@@ -115,7 +115,7 @@ inline Nearest_point nearest_in_triangle(const std::vector<Indexed_triangle_mesh
 struct Nearest_triangle
 {
   Nearest_point point;
-  Triangle_indices triangle = {0, 0, 0};
+  std::uint32_t triangle = 0;
 };
 
 // The triangle of the star of `star` that has the foot of the perpendicular from p. The first that
@@ -132,7 +132,7 @@ inline Nearest_triangle triangle_below(const Triangles_at_vertices& at,
     const Triangle_indices& t = mesh.triangles[*corner / 3];
     const Nearest_point candidate = foot_of_origin(triangle_around(mesh.points, t, p));
     if(candidate.squared_distance < best.point.squared_distance) {
-      best = {candidate, t};
+      best = {candidate, *corner / 3};
       if(candidate.squared_distance < near)
         break;
     }
@@ -157,19 +157,26 @@ inline Nearest_triangle walk_to_nearest(const Triangles_at_vertices& at,
       const Triangle_indices& t = mesh.triangles[*corner / 3];
       const Nearest_point candidate = nearest_on_sides(triangle_around(mesh.points, t, p));
       if(candidate.squared_distance < best.point.squared_distance)
-        best = {candidate, t};
+        best = {candidate, *corner / 3};
     }
     const auto heaviest = std::max_element(best.point.weight.begin(), best.point.weight.end());
-    const Vertex_index next = best.triangle[heaviest - best.point.weight.begin()];
+    const Vertex_index next = mesh.triangles[best.triangle][heaviest - best.point.weight.begin()];
     if(next == star || !(best.point.squared_distance < before))
       return best;
     star = next;
   }
 }
 
+// Stencils, and for each the triangle of the coarse mesh whose vertices it refers to.
+struct Located_stencils
+{
+  std::vector<Prolongation::Stencil> stencils;
+  std::vector<std::uint32_t> triangles;
+};
+
 // For each vertex of `fine` that is not kept, the weights of the nearest triangle of `coarse` that
 // a walk from its ancestor finds.
-inline std::vector<Prolongation::Stencil>
+inline Located_stencils
 walk_stencils(const Indexed_triangle_mesh& fine, const Indexed_triangle_mesh& coarse,
               const std::vector<Vertex_index>& kept, const std::vector<Vertex_index>& ancestor)
 {
@@ -177,14 +184,16 @@ walk_stencils(const Indexed_triangle_mesh& fine, const Indexed_triangle_mesh& co
   const std::vector<Vertex_index> rank = ranks(kept, fine.points.size());
   const std::vector<Vertex_index> removed = Blocked_execution::internal::select(
     fine.points.size(), [&ancestor](Vertex_index v) { return ancestor[v] != v; });
-  std::vector<Prolongation::Stencil> result;
-  Blocked_execution::internal::resize_blocked(result, removed.size());
+  Located_stencils result;
+  Blocked_execution::internal::resize_blocked(result.stencils, removed.size());
+  result.triangles.resize(removed.size());
   Blocked_execution::blocked_for(removed.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for(std::size_t i = begin; i < end; ++i) {
       const Vertex_index v = removed[i];
       const Nearest_triangle best = walk_to_nearest(at, coarse, rank[ancestor[v]], fine.points[v]);
-      const Triangle_indices& t = best.triangle;
-      result[i] = {v, {kept[t[0]], kept[t[1]], kept[t[2]]}, best.point.weight};
+      const Triangle_indices& t = coarse.triangles[best.triangle];
+      result.stencils[i] = {v, {kept[t[0]], kept[t[1]], kept[t[2]]}, best.point.weight};
+      result.triangles[i] = best.triangle;
     }
   });
   return result;

@@ -172,7 +172,7 @@ void Conformal_hierarchy<CoarsestSolver>::build_operators(std::vector<double> tr
   Triangles_at_vertices at = corners(count - 1);
   Half_cotangents cot(m_levels.back().mesh);
   for(std::size_t l = count; l-- > 0;) {
-    const Level& level = m_levels[l];
+    Level& level = m_levels[l];
     const auto assemble = [&](auto& op) {
       typedef std::decay_t<decltype(op.matrix.diagonal()[0])> Real;
       op = assemble_conformal_operator<Real>(level.mesh.triangles, at, cot, weights[l]);
@@ -186,7 +186,8 @@ void Conformal_hierarchy<CoarsestSolver>::build_operators(std::vector<double> tr
     if(l > 0) {
       Triangles_at_vertices coarse_at = corners(l - 1);
       cot = coarse_cotangents({{level.mesh, at}, cot}, {m_levels[l - 1].mesh, coarse_at},
-                              level.from_coarser);
+                              level.from_coarser, level.coarser_triangles);
+      level.coarser_triangles = std::vector<std::uint32_t>(); // they would stay in the memory
       at = std::move(coarse_at);
     }
     if(!after_level(l))

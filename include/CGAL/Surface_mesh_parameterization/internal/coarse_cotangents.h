@@ -55,12 +55,13 @@ public:
   typedef Surface_mesh_multiresolution::Triangle_indices Triangle_indices;
   typedef Surface_mesh_multiresolution::Prolongation Prolongation;
 
+  // `triangles`: for each stencil the coarse triangle of its sources, or none if they must be
+  // searched for
   Coarse_metric(const Metric_mesh& fine, const Connected_mesh& coarse,
-                const Prolongation& prolongation)
+                const Prolongation& prolongation, const std::vector<std::uint32_t>& triangles)
     : m_fine(fine), m_coarse(coarse), m_kept(prolongation.kept())
   {
-    find_gradients();
-    find_owners(prolongation);
+    find_owners(prolongation, triangles);
   }
 
   // The cotangents of the coarse level; those of its own geometry where nothing better is known.
@@ -81,8 +82,8 @@ private:
     double area = 0.;
   };
 
-  void find_gradients();
-  void find_owners(const Prolongation& prolongation);
+  void find_gradients(std::size_t begin, std::size_t end, std::vector<Gradients>& gradients) const;
+  void find_owners(const Prolongation& prolongation, const std::vector<std::uint32_t>& triangles);
   std::uint32_t triangle_with(const std::array<std::uint32_t, 3>& corners) const;
   std::uint32_t owner_of(std::uint32_t t, const std::vector<std::uint32_t>& rank,
                          const std::vector<std::uint32_t>& owner_of_vertex) const;
@@ -93,29 +94,27 @@ private:
   const Metric_mesh& m_fine;
   const Connected_mesh& m_coarse;
   const std::vector<std::uint32_t>& m_kept;
-  std::vector<Gradients> m_gradients;             // of the coarse triangles
   // The fine triangles below each coarse one
   Blocked_execution::internal::Uninitialized_vector<std::uint32_t> m_begin, m_below;
 };
 
-inline void Coarse_metric::find_gradients()
+// Of the coarse triangles [begin, end).
+inline void Coarse_metric::find_gradients(std::size_t begin, std::size_t end,
+                                          std::vector<Gradients>& gradients) const
 {
   const Mesh& mesh = m_coarse.mesh;
-  m_gradients.resize(mesh.triangles.size());
-  Blocked_execution::blocked_for(m_gradients.size(), 16384,
-                                 [&](std::size_t begin, std::size_t end) {
-    for(std::size_t t = begin; t < end; ++t) {
-      const Triangle_indices& v = mesh.triangles[t];
-      const Vector a = mesh.points[v[1]] - mesh.points[v[0]];
-      const Vector b = mesh.points[v[2]] - mesh.points[v[0]];
-      const double aa = a * a, ab = a * b, bb = b * b, determinant = aa * bb - ab * ab;
-      if(determinant > 1e-12 * aa * bb)
-        m_gradients[t] = {(bb / determinant) * a - (ab / determinant) * b,
-                          (aa / determinant) * b - (ab / determinant) * a};
-      else // nothing covers it: it keeps its own cotangents
-        m_gradients[t] = {Vector(0., 0., 0.), Vector(0., 0., 0.)};
-    }
-  });
+  gradients.resize(end - begin);
+  for(std::size_t t = begin; t < end; ++t) {
+    const Triangle_indices& v = mesh.triangles[t];
+    const Vector a = mesh.points[v[1]] - mesh.points[v[0]];
+    const Vector b = mesh.points[v[2]] - mesh.points[v[0]];
+    const double aa = a * a, ab = a * b, bb = b * b, determinant = aa * bb - ab * ab;
+    if(determinant > 1e-12 * aa * bb)
+      gradients[t - begin] = {(bb / determinant) * a - (ab / determinant) * b,
+                              (aa / determinant) * b - (ab / determinant) * a};
+    else // nothing covers it: it keeps its own cotangents
+      gradients[t - begin] = {Vector(0., 0., 0.), Vector(0., 0., 0.)};
+  }
 }
 
 // The coarse triangle that has the three corners, if there is one.
@@ -145,16 +144,13 @@ Coarse_metric::owner_of(std::uint32_t t, const std::vector<std::uint32_t>& rank,
   const Triangle_indices& v = m_fine.mesh.triangles[t];
   const std::uint32_t a = owner_of_vertex[v[0]], b = owner_of_vertex[v[1]],
                       c = owner_of_vertex[v[2]];
-  if(a != none && (a == b || a == c))
-    return a;
-  if(b != none)
-    return b;
-  if(a != none || c != none)
-    return a != none ? a : c;
-  return triangle_with({rank[v[0]], rank[v[1]], rank[v[2]]});
+  const std::uint32_t first = a != none ? a : c, other = b != none ? b : first;
+  const std::uint32_t owner = a != none && (a == b || a == c) ? a : other;
+  return owner != none ? owner : triangle_with({rank[v[0]], rank[v[1]], rank[v[2]]});
 }
 
-inline void Coarse_metric::find_owners(const Prolongation& prolongation)
+inline void Coarse_metric::find_owners(const Prolongation& prolongation,
+                                       const std::vector<std::uint32_t>& triangles)
 {
   const std::vector<std::uint32_t> rank
     = Surface_mesh_multiresolution::internal::ranks(m_kept, m_fine.mesh.points.size());
@@ -163,10 +159,13 @@ inline void Coarse_metric::find_owners(const Prolongation& prolongation)
   Blocked_execution::blocked_for(stencils.size(), 16384, [&](std::size_t begin, std::size_t end) {
     for(std::size_t i = begin; i < end; ++i) {
       const auto& s = stencils[i].source;
-      owner_of_vertex[stencils[i].vertex] = triangle_with({rank[s[0]], rank[s[1]], rank[s[2]]});
+      owner_of_vertex[stencils[i].vertex]
+        = !triangles.empty() ? triangles[i]
+                             : triangle_with({rank[s[0]], rank[s[1]], rank[s[2]]});
     }
   });
-  std::vector<std::uint32_t> owner(m_fine.mesh.triangles.size());
+  Blocked_execution::internal::Uninitialized_vector<std::uint32_t> owner(
+    m_fine.mesh.triangles.size());
   Blocked_execution::blocked_for(owner.size(), 16384, [&](std::size_t begin, std::size_t end) {
     for(std::size_t t = begin; t < end; ++t)
       owner[t] = owner_of(std::uint32_t(t), rank, owner_of_vertex);
@@ -221,15 +220,16 @@ inline std::uint32_t Coarse_metric::triangle_toward(std::uint32_t v, const Vecto
   const auto& p = m_fine.mesh.points;
   std::uint32_t best = none;
   double most = -0.2;
-  for(const std::uint32_t* c = m_fine.at.begin(v); c != m_fine.at.end(v); ++c) {
-    const Triangle_indices& t = m_fine.mesh.triangles[*c / 3];
-    const Vector a = p[t[(*c + 1) % 3]] - p[v], b = p[t[(*c + 2) % 3]] - p[v];
+  for(const std::uint32_t* corner = m_fine.at.begin(v); corner != m_fine.at.end(v); ++corner) {
+    const Surface_mesh_multiresolution::internal::Triangle_corner c(*corner);
+    const Triangle_indices& t = m_fine.mesh.triangles[c.triangle];
+    const Vector a = p[t[c.next]] - p[v], b = p[t[c.last]] - p[v];
     const double aa = a * a, ab = a * b, bb = b * b, ad = a * direction, bd = b * direction;
     const double x = bb * ad - ab * bd, y = aa * bd - ab * ad; // times a positive number
-    const double inside = (std::min)(x, y) / (std::abs(x) + std::abs(y));
-    if(inside > most) { // false for what is not a number
-      most = inside;
-      best = *c / 3;
+    const double inside = (std::min)(x, y), size = std::abs(x) + std::abs(y);
+    if(inside > most * size) { // false for what is not a number
+      most = inside / size;
+      best = c.triangle;
     }
   }
   return best;
@@ -244,12 +244,14 @@ inline Half_cotangents Coarse_metric::cotangents() const
   const auto& triangles = m_coarse.mesh.triangles;
   Half_cotangents result;
   result.value.resize(3 * triangles.size());
-  Blocked_execution::blocked_for(triangles.size(), 4096, [&](std::size_t begin, std::size_t end) {
+  Blocked_execution::blocked_for(triangles.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    std::vector<Gradients> gradients;
+    find_gradients(begin, end, gradients);
     for(std::size_t t = begin; t < end; ++t) {
       Sum sum;
       for(std::uint32_t i = m_begin[t]; i < m_begin[t + 1]; ++i) {
         prefetch(i);
-        add(m_below[i], m_gradients[t], sum);
+        add(m_below[i], gradients[t - begin], sum);
       }
       if(sum.area < enough) { // no larger than a fine triangle: ask those that it begins in
         const auto& q = m_coarse.mesh.points;
@@ -259,7 +261,7 @@ inline Half_cotangents Coarse_metric::cotangents() const
           const Vector to_middle = ((next - q[v[c]]) + (last - q[v[c]])) / 3.;
           const std::uint32_t at_corner = triangle_toward(m_kept[v[c]], to_middle);
           if(at_corner != none)
-            add(at_corner, m_gradients[t], sum);
+            add(at_corner, gradients[t - begin], sum);
         }
       }
       const double a = sum.value[0] / sum.area, b = sum.value[1] / sum.area,
@@ -273,11 +275,14 @@ inline Half_cotangents Coarse_metric::cotangents() const
   return result;
 }
 
-// The cotangents of a coarse level in the metric of a fine one. Linear time.
-inline Half_cotangents coarse_cotangents(const Metric_mesh& fine, const Connected_mesh& coarse,
-                                         const Surface_mesh_multiresolution::Prolongation& p)
+// The cotangents of a coarse level in the metric of a fine one. `triangles`: for each stencil the
+// coarse triangle of its sources, if it is known. Linear time.
+inline Half_cotangents
+coarse_cotangents(const Metric_mesh& fine, const Connected_mesh& coarse,
+                  const Surface_mesh_multiresolution::Prolongation& p,
+                  const std::vector<std::uint32_t>& triangles = std::vector<std::uint32_t>())
 {
-  return Coarse_metric(fine, coarse, p).cotangents();
+  return Coarse_metric(fine, coarse, p, triangles).cotangents();
 }
 
 } // namespace internal
