@@ -22,7 +22,7 @@ namespace PMP = CGAL::Polygon_mesh_processing;
 
 int main()
 {
-  const int n = 60; // cells in each direction: more vertices than a coarsest mesh has
+  const int n = 120; // cells in each direction: enough vertices for several levels
   Mesh mesh;
   const auto wave = [n](int i, int j) {
     const double x = double(i) / n, y = double(j) / n;
@@ -43,5 +43,7 @@ int main()
             << measures.quasi_conformal_mean << ", " << measures.flipped_faces << " flipped faces"
             << std::endl;
   const bool is_conformal = measures.quasi_conformal_mean < 1.05 && measures.flipped_faces == 0;
-  return parameterizer.report().converged && is_conformal ? EXIT_SUCCESS : EXIT_FAILURE;
+  const bool is_multigrid = parameterizer.report().levels.size() > 1;
+  return parameterizer.report().converged && is_multigrid && is_conformal ? EXIT_SUCCESS
+                                                                          : EXIT_FAILURE;
 }

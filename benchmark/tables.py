@@ -1,0 +1,231 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026  The HLSCM for CGAL authors.
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Writes the tables of README.md, doc/performance.md and benchmark/README.md from results/*.csv.
+
+A table stands between the lines `<!-- table NAME -->` and `<!-- end of table -->`. With --check
+nothing is written, and the exit status is 1 if a table is not what the CSV files say.
+"""
+
+import argparse
+import csv
+import pathlib
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+FILES = ["README.md", "doc/performance.md", "benchmark/README.md"]
+
+CHARTS = {"bunny_1115k": "bunny 1.11M", "horse_1550k": "horse 1.55M",
+          "lion_head_1067k": "lion-head 1.07M", "camel_1250k": "camel 1.25M"}
+METHODS = {"hlscm_1e-2": "**hlscm, tolerance 1e-2**",
+           "hlscm_1e-2_2_threads": "the same with two threads",
+           "hlscm_1e-4": "hlscm, tolerance 1e-4",
+           "spectral_1e-2": "spectral, tolerance 1e-2",
+           "direct": "direct: complex CHOLMOD",
+           "cascadic": "the paper's cascade",
+           "cgal_lscm_default": "CGAL's LSCM, default solver"}
+GAPS = {"spectral_1e-2": "(no pins)", "direct": "0", "cgal_lscm_default": "(its own energy)"}
+
+
+def read(name):
+    """The rows of a file of results."""
+    with open(ROOT / "benchmark" / "results" / name, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+
+def table(header, rows):
+    """Markdown of a table; cells are strings."""
+    lines = ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]
+    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
+
+
+def number(row, column, digits=2):
+    """A column with so many digits behind the point."""
+    return f"{float(row[column]):.{digits}f}"
+
+
+def median_of(rows, chart, method):
+    """The row with the medians of a method on a chart, or its only run; None if there is none."""
+    all_runs = [row for row in rows if row["chart"] == chart and row["method"] == method]
+    medians = [row for row in all_runs if row["repetition"] == "median"]
+    return (medians or all_runs or [None])[0]
+
+
+def million_faces():
+    """All methods on charts of about a million faces."""
+    rows = read("million_faces.csv")
+    lines = []
+    for chart, title in CHARTS.items():
+        for method, name in METHODS.items():
+            row = median_of(rows, chart, method)
+            if row is None:
+                continue
+            seconds = number(row, "seconds_total", 2 if float(row["seconds_total"]) < 20 else 1)
+            gap = GAPS.get(method) or f"{float(row['energy_gap']):.1e}".replace("e-0", "e-")
+            lines.append([title, name, f"**{seconds}**" if method == "hlscm_1e-2" else seconds,
+                          gap.replace("e+00", ""), row["flips"],
+                          number(row, "bytes_per_face", 0)])
+            title = ""
+    return table(["chart", "method", "seconds", "gap", "flips", "bytes a face"], lines)
+
+
+def ratios():
+    """How many times as fast the library is, by chart: to 1e-2 and 1e-4, and with two threads."""
+    rows = read("million_faces.csv")
+    lines = []
+    for chart, title in CHARTS.items():
+        def quotient(slow, fast, chart=chart):
+            pair = [median_of(rows, chart, method) for method in (slow, fast)]
+            if None in pair:
+                return ""
+            return f"{float(pair[0]['seconds_total']) / float(pair[1]['seconds_total']):.2f}"
+        lines.append([title, quotient("direct", "hlscm_1e-2"), quotient("direct", "hlscm_1e-4"),
+                      quotient("direct", "spectral_1e-2"),
+                      quotient("cgal_lscm_default", "hlscm_1e-2"),
+                      quotient("hlscm_1e-2", "hlscm_1e-2_2_threads")])
+    return table(["chart", "1e-2 beside direct", "1e-4 beside direct", "spectral beside direct",
+                  "1e-2 beside CGAL's default", "two threads beside one"], lines)
+
+
+def scaling():
+    """Time and memory for a face, by size; with all columns of benchmark/README.md."""
+    return table(["chart", "faces", "seconds", "µs a face", "of the system", "iterations",
+                  "bytes a face", "two threads, s", "speed-up"],
+                 [[chart, f"{faces / 1e6:.2f}M", f"{seconds:.3g}", f"{1e6 * seconds / faces:.2f}",
+                   f"{1e6 * float(row['seconds_system']) / faces:.2f}", row["iterations"],
+                   number(row, "bytes_per_face", 0), f"{both:.3g}", f"{seconds / both:.2f}"]
+                  for chart, faces, seconds, both, row in scaling_rows()])
+
+
+def growth():
+    """The same, shorter."""
+    return table(["chart", "faces", "µs a face", "iterations", "bytes a face",
+                  "speed-up by two threads"],
+                 [[chart, f"{faces / 1e6:.2f}M", f"{1e6 * seconds / faces:.2f}",
+                   row["iterations"], number(row, "bytes_per_face", 0), f"{seconds / both:.2f}"]
+                  for chart, faces, seconds, both, row in scaling_rows()])
+
+
+def scaling_rows():
+    """Chart, faces, seconds by one thread and by two, and the row of the former."""
+    rows = read("scaling.csv")
+    charts = sorted({(row["chart"].split("_")[0], int(row["faces"]), row["chart"]) for row in rows},
+                    key=lambda entry: (entry[0] != "terrain", entry[1]))
+    for shape, faces, chart in charts:
+        one = median_of(rows, chart, "hlscm_1e-2")
+        two = median_of(rows, chart, "hlscm_1e-2_2_threads")
+        yield shape, faces, float(one["seconds_total"]), float(two["seconds_total"]), one
+
+
+def stages():
+    """The stages by one thread beside their bounds."""
+    def cells(row):
+        bound = {"bytes copied": f"{float(row['amount'] or 0) / 1e6:.0f} MB copied",
+                 "cost evaluations": f"{float(row['amount'] or 0) / 1e6:.2f} M cost evaluations"}
+        has_bound = row["bound_by"] in bound
+        return [row["stage"], number(row, "seconds", 3), f"{100 * float(row['part']):.1f} %",
+                bound.get(row["bound_by"], "-"),
+                number(row, "bound_seconds", 3) if has_bound else "-",
+                number(row, "ratio", 1) if has_bound else "-",
+                number(row, "page_fault_seconds", 3)]
+    return table(["stage", "seconds", "part", "bounded by", "bound, s", "seconds / bound",
+                  "new pages, s"],
+                 [cells(row) for row in read("stages.csv")
+                  if row["chart"] == "bunny_1115k" and row["threads"] == "1"])
+
+
+def stages_two_threads():
+    """The stages by one thread and by two."""
+    rows = [row for row in read("stages.csv") if row["chart"] == "bunny_1115k"]
+    two = {row["stage"]: row for row in rows if row["threads"] == "2"}
+    return table(["stage", "one thread, s", "two, s", "speed-up"],
+                 [[row["stage"], number(row, "seconds", 3), number(two[row["stage"]], "seconds", 3),
+                   f"{float(row['seconds']) / float(two[row['stage']]['seconds']):.2f}"]
+                  for row in rows if row["threads"] == "1"])
+
+
+def atlases():
+    """Atlases, light models and normal maps, in full."""
+    return table(["surface", "faces", "charts", "used", "segment", "map", "pack", "atlas s",
+                  "all s", "light faces", "with map", "without"],
+                 [[row["mesh"], f"{int(row['faces']):,}", row["charts"], used(row, 1),
+                   number(row, "seconds_segment"), number(row, "seconds_map"),
+                   number(row, "seconds_pack"), number(row, "seconds_atlas"),
+                   number(row, "seconds_total"), f"{int(row['light_faces']):,}",
+                   f"{number(row, 'angle_mean')} / {number(row, 'angle_95', 1)}",
+                   f"{number(row, 'angle_mean_without_map')} / "
+                   f"{number(row, 'angle_95_without_map', 1)}"] for row in read("atlases.csv")])
+
+
+def used(row, digits):
+    """How much of the texture is used."""
+    return f"{100 * float(row['utilisation']):.{digits}f} %"
+
+
+def short(faces):
+    """A number of faces as people say it."""
+    return f"{round(faces / 1000)}K" if faces < 300000 else f"{faces / 1e6:.2f}M"
+
+
+def atlases_beside_paper():
+    """Table 2 of the paper, and the lightest models of ours."""
+    paper = [["bunny", "70K", "paper", "14", "", "52", "4K", ""],
+             ["horse", "96K", "paper", "58", "", "112", "8K", ""],
+             ["hand", "650K", "paper", "102", "", "534", "29K", ""],
+             ["buddha", "1.97M", "paper", "627", "", "1184", "46K", ""]]
+    ours = [[row["mesh"], short(int(row["faces"])), "", row["charts"], used(row, 0),
+             number(row, "seconds_atlas"), f"{int(row['light_faces']) / 1000:.1f}K",
+             number(row, "seconds_total")] for row in read("atlases.csv")
+            if int(row["light_faces"]) < 0.05 * int(row["faces"])]
+    return table(["surface", "faces", "", "charts", "texture used", "atlas s", "light faces",
+                  "all s"], paper + ours)
+
+
+def atlases_short():
+    """The models with a tenth of the faces of some surfaces."""
+    return table(["surface", "charts", "texture used", "atlas, seconds", "all, seconds",
+                  "normals of a light model with 10 % of the faces off by"],
+                 [[f"{row['mesh']}, {int(row['faces']):,} faces", row["charts"], used(row, 0),
+                   number(row, "seconds_atlas"), number(row, "seconds_total"),
+                   f"{number(row, 'angle_mean', 1)} degrees (without the map "
+                   f"{number(row, 'angle_mean_without_map', 1)})"] for row in read("atlases.csv")
+                  if int(row["light_faces"]) > 0.05 * int(row["faces"])
+                  and (row["mesh"] != "armadillo" and not 100000 < int(row["faces"]) < 500000)])
+
+
+TABLES = {table.__name__: table for table in (
+    million_faces, ratios, scaling, growth, stages, stages_two_threads, atlases,
+    atlases_beside_paper, atlases_short)}
+BEGIN, END = "<!-- table ", "<!-- end of table -->"
+
+
+def with_tables(text):
+    """The text of a file with its tables made anew."""
+    parts = text.split(BEGIN)
+    result = [parts[0]]
+    for part in parts[1:]:
+        name, rest = part.split(" -->\n", 1)
+        result.append(f"{name} -->\n{TABLES[name]()}\n{END}{rest.split(END, 1)[1]}")
+    return BEGIN.join(result)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--check", action="store_true", help="only compare")
+    arguments = parser.parse_args()
+    outdated = []
+    for name in FILES:
+        path = ROOT / name
+        text = path.read_text(encoding="utf-8")
+        new_text = with_tables(text)
+        if new_text == text:
+            continue
+        outdated.append(name)
+        if not arguments.check:
+            path.write_text(new_text, encoding="utf-8")
+    if arguments.check and outdated:
+        sys.exit(f"not what benchmark/results says (benchmark/tables.py): {', '.join(outdated)}")
+
+
+if __name__ == "__main__":
+    main()
