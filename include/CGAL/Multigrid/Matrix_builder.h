@@ -210,7 +210,8 @@ Hermitian_matrix<Real> Matrix_builder::build(const std::vector<std::uint32_t>& r
     Matrix_row row;
     for(std::size_t slot = begin; slot < end; ++slot) {
       const std::uint32_t i = pattern->row_of_slot[slot];
-      const std::size_t at = pattern->slice_begin[slot / rows] * rows + slot % rows;
+      const std::size_t at // somewhere in the arrays even if the row has no entries
+        = (std::min)(pattern->slice_begin[slot / rows] * rows + slot % rows, size);
       Real_row<Real> place(pattern->column.data() + at, matrix.m_re.data() + at,
                            matrix.m_diagonal[i]);
       std::size_t count = 0;

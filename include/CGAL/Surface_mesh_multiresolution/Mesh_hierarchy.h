@@ -139,7 +139,7 @@ surviving_triangles(const std::vector<Triangle_indices>& triangles,
       const Triangle_indices s
         = {rank[ancestor[t[0]]], rank[ancestor[t[1]]], rank[ancestor[t[2]]]};
       part[count] = s;
-      count += (s[0] != s[1]) & (s[1] != s[2]) & (s[2] != s[0]) ? 1 : 0;
+      count += unsigned(s[0] != s[1]) & unsigned(s[1] != s[2]) & unsigned(s[2] != s[0]);
     }
     parts[begin / block_of_level].assign(part.begin(), part.begin() + count);
   });

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_RING_LINES_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_RING_LINES_H
 
+#include <CGAL/Blocked_execution/internal/Uninitialized_vector.h>
 #include <CGAL/Surface_mesh_multiresolution/Indexed_triangle_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/prefetch.h>
 
@@ -79,8 +80,6 @@ private:
 
   struct alignas(64) Line
   {
-    Line() {} // not set: who builds the rings touches the memory first
-
     Vertex_index ring[line_capacity];
     std::uint32_t degree; // with the two flags
     std::uint32_t unused;
@@ -93,7 +92,8 @@ private:
     m_small_degree[v] = std::uint8_t((std::min)(degree(v), std::uint32_t(255)));
   }
 
-  std::vector<Line> m_lines;
+  // Not set by resize(): who builds the rings touches the memory first
+  Blocked_execution::internal::Uninitialized_vector<Line> m_lines;
   std::vector<std::uint8_t> m_small_degree;
   std::vector<std::vector<Vertex_index>> m_spill;
 };
