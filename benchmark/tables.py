@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026  The HLSCM for CGAL authors.
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes the tables of README.md, doc/performance.md and benchmark/README.md from results/*.csv.
+"""Writes the tables of README.md, the manual and benchmark/README.md from results/*.csv.
 
 A table stands between the lines `<!-- table NAME -->` and `<!-- end of table -->`. With --check
 nothing is written, and the exit status is 1 if a table is not what the CSV files say.
@@ -13,10 +13,11 @@ import pathlib
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-FILES = ["README.md", "doc/performance.md", "benchmark/README.md"]
+FILES = ["README.md", "doc/performance.md", "doc/hlscm_manual.txt", "benchmark/README.md"]
 
 CHARTS = {"bunny_1115k": "bunny 1.11M", "horse_1550k": "horse 1.55M",
-          "lion_head_1067k": "lion-head 1.07M", "camel_1250k": "camel 1.25M"}
+          "lion_head_1067k": "lion-head 1.07M", "camel_1250k": "camel 1.25M",
+          "horse_6206k": "horse 6.21M"}
 METHODS = {"hlscm_1e-2": "**hlscm, tolerance 1e-2**",
            "hlscm_1e-2_2_threads": "the same with two threads",
            "hlscm_1e-4": "hlscm, tolerance 1e-4",
@@ -193,9 +194,26 @@ def atlases_short():
                   and (row["mesh"] != "armadillo" and not 100000 < int(row["faces"]) < 500000)])
 
 
+def live():
+    """What changes of a map cost beside its first solution."""
+    rows = [row for row in read("live_map.csv") if row["tolerance"] == "0.01"]
+    steps = {"first": "first solution, hierarchy included",
+             "preview of it": "one of five pins moved, preview",
+             "pin moved": "the same, whole map",
+             "the same pin dragged on (median)": "dragged on (median)",
+             "pin released": "released",
+             "new positions": "new positions of all vertices",
+             "no pins": "all pins released"}
+    seconds = {(row["chart"], row["step"]): float(row["seconds"]) for row in rows}
+    charts = [chart for chart in CHARTS if (chart, "first") in seconds]
+    return table(["step"] + [CHARTS[chart] for chart in charts],
+                 [[name] + [f"{seconds[chart, step]:.2g}" for chart in charts]
+                  for step, name in steps.items()])
+
+
 TABLES = {table.__name__: table for table in (
     million_faces, ratios, scaling, growth, stages, stages_two_threads, atlases,
-    atlases_beside_paper, atlases_short)}
+    atlases_beside_paper, atlases_short, live)}
 BEGIN, END = "<!-- table ", "<!-- end of table -->"
 
 

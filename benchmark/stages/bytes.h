@@ -62,21 +62,21 @@ inline double ring_bytes(double v, double f)
 inline double border_bytes(double v) { return (3 * 64 + 16) * v; }
 
 // Per level: ancestors, ranks and indices; points and triangles of the coarse one; corners of its
-// triangles; stencils of 28 bytes, whose transposed terms have 24.
+// triangles; stencils of 28 bytes and the triangle of each, whose transposed terms have 24.
 inline double level_bytes(const std::vector<Level_size>& sizes)
 {
   double sum = 0;
   for(std::size_t l = 1; l < sizes.size(); ++l) {
     const Level_size &fine = sizes[l], &coarse = sizes[l - 1];
     sum += (6 * 4 + 24) * fine.vertices + (8 + 48 + 8) * coarse.vertices
-           + (8 + 3 * 28 + 24) * fine.removed + 12 * fine.faces + (24 + 36) * coarse.faces;
+           + (8 + 3 * 28 + 4 + 24) * fine.removed + 12 * fine.faces + (24 + 36) * coarse.faces;
   }
   return sum;
 }
 
 // Per level: corners of the triangles; cotangents from points; rows from corners, triangles and two
 // cotangents for each corner; the matrix, of `row_bytes` a row. Cotangents of the next level:
-// owners, and points and cotangents of the fine triangles; gradients of 48 bytes a coarse triangle.
+// owners, and points and cotangents of the fine triangles; points of the coarse ones.
 inline double operator_bytes(const std::vector<Level_size>& sizes, double row_bytes)
 {
   double sum = 0;
@@ -85,7 +85,7 @@ inline double operator_bytes(const std::vector<Level_size>& sizes, double row_by
     sum += (8 + 4 + row_bytes) * level.vertices + (36 + 12 + 12 + 12 + 24) * level.faces;
     if(l > 0)
       sum += (24 + 4) * level.vertices + (12 + 12 + 24 + 12) * level.faces
-             + (24 + 48 + 24) * sizes[l - 1].faces;
+             + (24 + 24) * sizes[l - 1].faces;
   }
   sum += (24 + 24) * sizes.back().faces; // the cotangents of the finest level, from its points
   return sum;
