@@ -205,15 +205,68 @@ def live():
              "new positions": "new positions of all vertices",
              "no pins": "all pins released"}
     seconds = {(row["chart"], row["step"]): float(row["seconds"]) for row in rows}
+
+    def text(value):
+        return f"{value:.2f}" if value >= 0.1 else f"{value:.2g}"
+
     charts = [chart for chart in CHARTS if (chart, "first") in seconds]
     return table(["step"] + [CHARTS[chart] for chart in charts],
-                 [[name] + [f"{seconds[chart, step]:.2g}" for chart in charts]
+                 [[name] + [text(seconds[chart, step]) for chart in charts]
                   for step, name in steps.items()])
+
+
+def from_to(values, digits=0):
+    """The range of some values."""
+    low, high = (f"{value:.{digits}f}" for value in (min(values), max(values)))
+    return low if low == high else f"{low} to {high}"
+
+
+def levels():
+    """Levels of detail of three charts and their files."""
+    rows = read("levels.csv")
+
+    def column(name, step, scale=1.):
+        return [scale * float(row[name]) for row in rows if row["step"].startswith(step)]
+
+    def quotients(numerator, denominator, scale=1.):
+        return [scale * a / b for a, b in zip(column("number", numerator),
+                                              column("number", denominator))]
+
+    def listed(values, digits):
+        return ", ".join(f"{value:.{digits}f}" for value in values)
+
+    alone = [float(row["seconds"]) for row in rows if row["step"] == "parameterize"]
+    whole = column("seconds", "parameterize; build and write")
+    steps = column("per_second", "coarsen step", 1e-6) + column("per_second", "refine step", 1e-6)
+    walks = column("per_second", "refine vertex", 1e-6) \
+        + column("per_second", "coarsen vertex", 1e-6)
+    size, lossless = "progressive mesh; 16", "progressive mesh; lossless"
+    return table(["", ""], [
+        ["map, progressive mesh and its file, beside the map alone",
+         listed([a / b for a, b in zip(whole, alone)], 2) + " times the time"],
+        ["a textured mesh decimated from nothing",
+         listed(column("per_second", "build it without", 1e-6), 2) + " million faces a second"],
+        ["extraction of a level",
+         from_to(column("per_second", "extract", 1e-6)) + " million triangles a second"],
+        ["up and down by one collapse or split", from_to(steps) + " million a second"],
+        ["selective refinement, vertex by vertex", from_to(walks)
+         + " million a second; a new viewpoint " + from_to(column("seconds", "adapt", 1e3), 1)
+         + " ms"],
+        ["a file of 16 bits: writing, reading",
+         from_to(column("per_second", "write a progressive mesh; 16", 1e-6), 1) + ", and "
+         + listed(column("per_second", "read a progressive mesh; 16", 1e-6), 1)
+         + " million splits a second"],
+        ["its size", from_to(quotients(size, "read a progressive mesh; 16"), 1)
+         + f" bytes a split: {from_to(quotients(size, 'PLY', 100))} % of binary PLY with floats, "
+         + f"{from_to(quotients(size, 'OBJ', 100), 1)} % of OBJ; "
+         + f"{from_to(quotients(size, 'Draco'), 1)} times that of Draco, which has one level only"],
+        ["the same without loss", f"{from_to(quotients(lossless, 'PLY', 100))} % of the PLY; "
+         "it keeps 64-bit coordinates"]])
 
 
 TABLES = {table.__name__: table for table in (
     million_faces, ratios, scaling, growth, stages, stages_two_threads, atlases,
-    atlases_beside_paper, atlases_short, live)}
+    atlases_beside_paper, atlases_short, live, levels)}
 BEGIN, END = "<!-- table ", "<!-- end of table -->"
 
 
