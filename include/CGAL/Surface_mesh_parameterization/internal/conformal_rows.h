@@ -28,19 +28,20 @@ void fill_conformal_row(
   Multigrid::Matrix_row& row)
 {
   typedef Multigrid::Matrix_row::Entry Entry;
+  typedef Surface_mesh_multiresolution::internal::Triangle_corner Triangle_corner;
   const auto weight = [&weights](std::uint32_t t) { return weights.empty() ? 1. : weights[t]; };
   for(const std::uint32_t* corner = at.begin(v); corner != at.end(v); ++corner) {
-    const std::uint32_t t = *corner / 3, c = *corner % 3;
-    const std::uint32_t c1 = c == 2 ? 0 : c + 1, c2 = c == 0 ? 2 : c - 1;
-    const double at_a = cot.value[3 * t + c1], at_b = cot.value[3 * t + c2];
-    row.entries.push_back({triangles[t][c1], -weight(t) * at_b, 0.5 * weight(t)});
+    const Triangle_corner c(*corner);
+    const std::uint32_t t = c.triangle;
+    const double at_a = cot.value[3 * t + c.next], at_b = cot.value[3 * t + c.last];
+    row.entries.push_back({triangles[t][c.next], -weight(t) * at_b, 0.5 * weight(t)});
     row.diagonal += weight(t) * (at_a + at_b);
   }
   const std::size_t count = row.entries.size();
   for(const std::uint32_t* corner = at.begin(v); corner != at.end(v); ++corner) {
-    const std::uint32_t t = *corner / 3, c = *corner % 3;
-    const std::uint32_t b = triangles[t][c == 0 ? 2 : c - 1];
-    const double at_a = cot.value[3 * t + (c == 2 ? 0 : c + 1)];
+    const Triangle_corner c(*corner);
+    const std::uint32_t t = c.triangle, b = triangles[t][c.last];
+    const double at_a = cot.value[3 * t + c.next];
     const auto end = row.entries.begin() + count;
     auto entry = std::find_if(row.entries.begin(), end,
                               [b](const Entry& e) { return e.column == b; });
