@@ -129,7 +129,7 @@ void measure_rays([[maybe_unused]] const Baking_table& table,
   SMT::Baking_by_rays_options options;
   options.width = options.height = 2048;
   options.max_distance = 0.05;
-  const SMM::Indexed_triangle_mesh surface = {fine.points, fine.triangles};
+  const CGAL::Indexed_mesh::Indexed_triangle_mesh surface = {fine.points, fine.triangles};
   table.add("rays (Embree)", options, 1, [&] {
     return SMT::bake_normal_map_by_rays<SMT::Embree_ray_caster>(surface, light, options);
   });

@@ -138,7 +138,7 @@ void measure_levels(const SMM::Textured_progressive_mesh& pm, const Table& table
   table.add("prepare extraction", median_seconds_of(repetitions, [&] {
     const SMM::Level_extractor other(pm);
   }), double(fine), "triangles");
-  std::vector<SMM::Triangle_indices> triangles;
+  std::vector<CGAL::Indexed_mesh::Triangle_indices> triangles;
   for(const int percent : {100, 70, 50, 25, 10, 4, 1}) {
     const std::size_t k = levels.position_of_triangles(fine * std::size_t(percent) / 100);
     levels.extract(k, triangles);
@@ -250,15 +250,15 @@ void measure_selection(const SMM::Textured_progressive_mesh& pm, const Table& ta
   SMM::Selectively_refined_mesh selective(pm);
   const SMM::Level_extractor levels(pm);
   const auto n = double(pm.points.size());
-  const auto first = SMM::Vertex_index(pm.number_of_vertices_after(pm.number_of_collapses()));
+  const auto first = CGAL::Indexed_mesh::Vertex_index(pm.number_of_vertices_after(pm.number_of_collapses()));
   std::vector<double> up, down;
   for(int i = 0; i < repetitions; ++i) {
     up.push_back(seconds_of([&] {
-      for(SMM::Vertex_index v = first; v < pm.points.size(); ++v)
+      for(CGAL::Indexed_mesh::Vertex_index v = first; v < pm.points.size(); ++v)
         selective.refine(v);
     }));
     down.push_back(seconds_of([&] {
-      for(auto v = SMM::Vertex_index(pm.points.size()); v-- > first;)
+      for(auto v = CGAL::Indexed_mesh::Vertex_index(pm.points.size()); v-- > first;)
         selective.coarsen(v);
     }));
   }
@@ -275,7 +275,7 @@ void measure_selection(const SMM::Textured_progressive_mesh& pm, const Table& ta
   std::size_t triangles = 0;
   for(int frame = 0; frame < 60; ++frame) {
     const auto eye = pm.points[pm.points.size() - 1 - 10 * std::size_t(frame)];
-    const auto needs = [&](SMM::Vertex_index v) {
+    const auto needs = [&](CGAL::Indexed_mesh::Vertex_index v) {
       const double far = 1e-9 * size * size + squared_distance(eye, pm.points[v]);
       const double near = 0.01 * size * size / far;
       return double(v) < n * std::min(1., 0.2 * near * near);

@@ -91,7 +91,7 @@ private:
   }
 
   const SMT::Indexed_triangle_mesh& m_mesh;
-  SMT::internal::Triangle_adjacency m_adjacency;
+  CGAL::Indexed_mesh::Triangle_adjacency m_adjacency;
   std::vector<double> m_distance;
   std::vector<std::uint32_t> m_label;
 };

@@ -74,7 +74,7 @@ SMP::internal::Chart copy_of(const Mesh& mesh)
 double seconds_per_evaluation(const Mesh& mesh)
 {
   SMP::internal::Chart chart = copy_of(mesh);
-  SMP::internal::prepare_chart(chart, SMM::no_vertex);
+  SMP::internal::prepare_chart(chart, CGAL::Indexed_mesh::no_vertex);
   SMM::Flat_collapse_options options;
   options.target_vertices = chart.mesh.points.size() - 1;
   double best = 1;
@@ -145,10 +145,10 @@ void Staged_map::prepare_chart()
   stage("unused vertices and unit of length", m_v, "vertices", copying(normalize_bytes(m_v, m_f)),
         [this] {
           SMP::internal::remove_unused_vertices(m_chart);
-          m_chart.scale = SMM::normalize(m_chart.mesh);
+          m_chart.scale = CGAL::Indexed_mesh::normalize(m_chart.mesh);
         });
   stage("spatial order", m_v, "vertices", copying(sort_bytes(m_v, m_f)), [this] {
-    const std::vector<SMM::Vertex_index> order = SMM::sort_spatially(m_chart.mesh);
+    const std::vector<CGAL::Indexed_mesh::Vertex_index> order = CGAL::Indexed_mesh::sort_spatially(m_chart.mesh);
     std::vector<std::uint32_t> source(order.size());
     for(std::size_t v = 0; v < order.size(); ++v)
       source[v] = m_chart.source[order[v]];
@@ -157,10 +157,10 @@ void Staged_map::prepare_chart()
   stage("rings", m_v, "vertices", copying(ring_bytes(m_v, m_f)),
         [this] { SMP::internal::connect(m_chart); });
   stage("component; borders; pins", m_v, "vertices", copying(border_bytes(m_v)), [this] {
-    const std::vector<bool> is_reached = SMM::internal::component_of(m_chart.rings, 0);
+    const std::vector<bool> is_reached = CGAL::Indexed_mesh::component_of(m_chart.rings, 0);
     if(std::find(is_reached.begin(), is_reached.end(), false) != is_reached.end())
       throw std::runtime_error("the chart has several components");
-    m_chart.borders = SMM::internal::border_loops(m_chart.rings);
+    m_chart.borders = CGAL::Indexed_mesh::border_loops(m_chart.rings);
     SMP::internal::check_topology(m_chart);
     m_pins = SMP::internal::far_border_pins(m_chart);
   });
@@ -208,9 +208,9 @@ void Staged_map::build_operators()
   Stage& operators = stage("operators", m_f, "faces", {}, [this] {
     std::vector<SMM::Mesh_level>& levels = m_hierarchy.levels();
     m_hierarchy.build_operators({}, [&levels](std::size_t l) {
-      levels[l].mesh.points = std::vector<SMM::Indexed_triangle_mesh::Point_3>();
+      levels[l].mesh.points = std::vector<CGAL::Indexed_mesh::Indexed_triangle_mesh::Point_3>();
       if(l + 1 < levels.size())
-        levels[l].mesh.triangles = std::vector<SMM::Triangle_indices>();
+        levels[l].mesh.triangles = std::vector<CGAL::Indexed_mesh::Triangle_indices>();
       return true;
     });
     m_hierarchy.build_cycle();

@@ -79,10 +79,10 @@ Uvs map_by(Parameterizer parameterizer, Mesh& mesh)
   return fitted(result);
 }
 
-std::vector<SMM::Vertex_index> numbers(std::size_t n)
+std::vector<CGAL::Indexed_mesh::Vertex_index> numbers(std::size_t n)
 {
-  std::vector<SMM::Vertex_index> result(n);
-  std::iota(result.begin(), result.end(), SMM::Vertex_index(0));
+  std::vector<CGAL::Indexed_mesh::Vertex_index> result(n);
+  std::iota(result.begin(), result.end(), CGAL::Indexed_mesh::Vertex_index(0));
   return result;
 }
 
@@ -116,13 +116,13 @@ struct Number_of_faces
   }
 };
 
-std::vector<SMM::Triangle_indices> triangles_of(const Mesh& mesh)
+std::vector<CGAL::Indexed_mesh::Triangle_indices> triangles_of(const Mesh& mesh)
 {
-  std::vector<SMM::Triangle_indices> result;
+  std::vector<CGAL::Indexed_mesh::Triangle_indices> result;
   for(const auto f : mesh.faces()) {
     const auto h = mesh.halfedge(f);
-    result.push_back({SMM::Vertex_index(mesh.source(h)), SMM::Vertex_index(mesh.target(h)),
-                      SMM::Vertex_index(mesh.target(mesh.next(h)))});
+    result.push_back({CGAL::Indexed_mesh::Vertex_index(mesh.source(h)), CGAL::Indexed_mesh::Vertex_index(mesh.target(h)),
+                      CGAL::Indexed_mesh::Vertex_index(mesh.target(mesh.next(h)))});
   }
   return result;
 }
@@ -139,13 +139,13 @@ SMM::Wedge_mesh by_quadrics(const Mesh& mesh, const SMM::Wedge_mesh& fine,
                        .get_placement(quadrics.get_placement()));
   coarse.collect_garbage();
   SMM::Wedge_mesh result;
-  result.points = SMM::internal::copy_points(coarse);
+  result.points = CGAL::Indexed_mesh::copy_points(coarse);
   result.triangles = triangles_of(coarse);
   result.uv.resize(result.points.size());
   result.vertex = numbers(result.points.size());
   const SMM::internal::Textured_view fine_view(fine), view(result);
   const SMM::internal::Nearest_start start(view, fine_view);
-  for(SMM::Vertex_index v = 0; v < result.uv.size(); ++v) {
+  for(CGAL::Indexed_mesh::Vertex_index v = 0; v < result.uv.size(); ++v) {
     const SMM::internal::Surface_point nearest
       = SMM::internal::descend_to_nearest(fine_view, start.start(v), view.point(v));
     const auto uv = fine_view.uv(nearest.triangle, nearest.weight);

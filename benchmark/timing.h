@@ -4,14 +4,14 @@
 #ifndef HLSCM_BENCHMARK_TIMING_H
 #define HLSCM_BENCHMARK_TIMING_H
 
-#include <CGAL/Surface_mesh_parameterization/internal/Progress.h>
+#include <CGAL/Blocked_execution/Progress.h>
 
 #include <algorithm>
 #include <vector>
 
 namespace timing {
 
-using CGAL::Surface_mesh_parameterization::internal::Stopwatch;
+using CGAL::Blocked_execution::Stopwatch;
 
 /// The wall time of work().
 template <class Work>

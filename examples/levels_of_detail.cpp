@@ -79,16 +79,16 @@ int main(int argc, char* argv[])
   // into which they collapse
   const std::size_t fine = levels.position_of_triangles(num_faces(mesh) / 4);
   const std::size_t coarse = levels.position_of_triangles(num_faces(mesh) / 8);
-  const std::vector<SMM::Vertex_index> ancestors = levels.ancestors(fine, coarse);
+  const std::vector<CGAL::Indexed_mesh::Vertex_index> ancestors = levels.ancestors(fine, coarse);
   std::vector<Kernel::Point_3> morphed;
-  for(SMM::Vertex_index w = 0; w < ancestors.size(); ++w)
+  for(CGAL::Indexed_mesh::Vertex_index w = 0; w < ancestors.size(); ++w)
     morphed.push_back(CGAL::midpoint(pm.points[pm.vertex[w]], pm.points[pm.vertex[ancestors[w]]]));
   std::cout << "a geomorph of " << morphed.size() << " vertices\n";
 
   // All vertices near the first point, and few elsewhere
   SMM::Selectively_refined_mesh selective(pm);
   const Kernel::Point_3 eye = mesh.point(*vertices(mesh).begin());
-  selective.adapt([&](SMM::Vertex_index v) {
+  selective.adapt([&](CGAL::Indexed_mesh::Vertex_index v) {
     return CGAL::squared_distance(pm.points[v], eye) < 4.;
   });
   std::cout << "finer near the eye: " << selective.number_of_triangles() << " faces\n";

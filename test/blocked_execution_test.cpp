@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <CGAL/Blocked_execution/blocked_for.h>
-#include <CGAL/Blocked_execution/internal/select.h>
-#include <CGAL/Blocked_execution/internal/sort_by_key.h>
-#include <CGAL/Surface_mesh_multiresolution/Indexed_triangle_mesh.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/Triangles_at_vertices.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/nth_cost.h>
+#include <CGAL/Blocked_execution/sort_and_select.h>
+#include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
+#include <CGAL/Indexed_mesh/Triangles_at_vertices.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/decimation/Batched_collapses.h>
 
 #include <gtest/gtest.h>
 
@@ -69,7 +68,7 @@ TEST(Blocked_execution, sort_by_key_is_the_stable_sort_without_the_things_that_h
     for(const unsigned int threads : numbers_of_threads) {
       const BE::Thread_scope scope(threads);
       std::vector<std::uint32_t> order;
-      const auto begin = BE::internal::sort_by_key(
+      const auto begin = BE::sort_by_key(
         below,
         [&keys](const auto& use) {
           for(std::uint32_t i = 0; i < keys.size(); ++i)
@@ -91,13 +90,13 @@ TEST(Blocked_execution, sort_by_key_is_the_stable_sort_without_the_things_that_h
 TEST(Blocked_execution, nothing_can_be_sorted_and_selected)
 {
   const BE::Thread_scope scope(2);
-  const auto begin = BE::internal::sort_by_key(
+  const auto begin = BE::sort_by_key(
     0, [](const auto&) {}, [](std::size_t n) { EXPECT_EQ(n, 0u); },
     [](std::uint32_t, std::uint32_t) {});
   EXPECT_EQ(begin.size(), 1u);
-  EXPECT_TRUE(BE::internal::select(0, [](std::uint32_t) { return true; }).empty());
-  EXPECT_TRUE(BE::internal::select(9, [](std::uint32_t) { return false; }).empty());
-  EXPECT_TRUE(SMM::internal::sorted_order({}).empty());
+  EXPECT_TRUE(BE::select(0, [](std::uint32_t) { return true; }).empty());
+  EXPECT_TRUE(BE::select(9, [](std::uint32_t) { return false; }).empty());
+  EXPECT_TRUE(CGAL::Indexed_mesh::sorted_order({}).empty());
 }
 
 TEST(Blocked_execution, select_keeps_the_order)
@@ -109,7 +108,7 @@ TEST(Blocked_execution, select_keeps_the_order)
       expected.push_back(i);
   for(const unsigned int threads : numbers_of_threads) {
     const BE::Thread_scope scope(threads);
-    EXPECT_EQ(BE::internal::select(keys.size(), [&](std::uint32_t i) { return keys[i] == 1; }),
+    EXPECT_EQ(BE::select(keys.size(), [&](std::uint32_t i) { return keys[i] == 1; }),
               expected);
   }
 }
@@ -119,10 +118,10 @@ TEST(Blocked_execution, resize_blocked_makes_zeros_and_keeps_what_is_there)
   for(const unsigned int threads : numbers_of_threads) {
     const BE::Thread_scope scope(threads);
     std::vector<double> v;
-    BE::internal::resize_blocked(v, 700001);
+    BE::resize_blocked(v, 700001);
     EXPECT_EQ(v, std::vector<double>(700001, 0.));
     v[5] = 1.;
-    BE::internal::resize_blocked(v, 900001);
+    BE::resize_blocked(v, 900001);
     EXPECT_EQ(v.size(), 900001u);
     EXPECT_EQ(std::accumulate(v.begin(), v.end(), 0.), 1.);
   }
@@ -135,7 +134,7 @@ TEST(Blocked_execution, the_spatial_order_is_the_stable_order_of_the_codes)
     const std::vector<std::uint32_t> expected = stable_order(keys);
     for(const unsigned int threads : numbers_of_threads) {
       const BE::Thread_scope scope(threads);
-      EXPECT_EQ(SMM::internal::sorted_order(keys), expected);
+      EXPECT_EQ(CGAL::Indexed_mesh::sorted_order(keys), expected);
     }
   }
 }
@@ -144,12 +143,12 @@ TEST(Blocked_execution, corners_are_at_their_vertices_in_the_order_of_the_triang
 {
   const std::size_t n = 40000;
   const std::vector<std::uint32_t> vertices = random_keys(90000, n, 17);
-  std::vector<SMM::Triangle_indices> triangles;
+  std::vector<CGAL::Indexed_mesh::Triangle_indices> triangles;
   for(std::size_t i = 0; i < vertices.size(); i += 3)
     triangles.push_back({vertices[i], vertices[i + 1], vertices[i + 2]});
   for(const unsigned int threads : numbers_of_threads) {
     const BE::Thread_scope scope(threads);
-    const SMM::internal::Triangles_at_vertices at(triangles, n);
+    const CGAL::Indexed_mesh::Triangles_at_vertices at(triangles, n);
     ASSERT_EQ(at.number_of_vertices(), n);
     std::size_t sum = 0;
     for(std::uint32_t v = 0; v < n; ++v) {
@@ -171,7 +170,7 @@ TEST(Blocked_execution, the_nth_cost_is_that_of_the_sorted_ones)
   for(float& c : cost)
     c = random() % 5 == 0 ? infinity : (random() % 9 == 0 ? 0.f : normal(random));
   const auto members
-    = BE::internal::select(cost.size(), [](std::uint32_t i) { return i % 3 != 0; });
+    = BE::select(cost.size(), [](std::uint32_t i) { return i % 3 != 0; });
   std::vector<float> finite;
   for(const std::uint32_t i : members)
     if(cost[i] < infinity)

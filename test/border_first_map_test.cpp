@@ -8,9 +8,9 @@
 #include <support/mesh_generators.h>
 
 #include <CGAL/Surface_mesh_parameterization/border_first_map.h>
-#include <CGAL/Surface_mesh_parameterization/internal/crossing_edges.h>
+#include <CGAL/Surface_mesh_parameterization/self_overlap.h>
 #include <CGAL/Surface_mesh_texturing/Chart_distortion.h>
-#include <CGAL/Surface_mesh_texturing/internal/is_simple_border.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/map_chart.h>
 
 #include <gtest/gtest.h>
 
@@ -44,11 +44,11 @@ double length(const Uv& uv, Vertex_index p, Vertex_index q)
 std::array<double, 2> length_ratios(const Indexed_triangle_mesh& mesh, const Uv& uv,
                                     bool only_border)
 {
-  const SMT::internal::Triangle_adjacency adjacency(mesh.triangles);
+  const CGAL::Indexed_mesh::Triangle_adjacency adjacency(mesh.triangles);
   std::array<double, 2> result = {std::numeric_limits<double>::infinity(), 0.};
   for(std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
     for(int c = 0; c < 3; ++c) {
-      if(only_border && adjacency.opposite(t, c) != CGAL::Surface_mesh_multiresolution::no_vertex)
+      if(only_border && adjacency.opposite(t, c) != CGAL::Indexed_mesh::no_vertex)
         continue;
       const Vertex_index p = mesh.triangles[t][c], q = mesh.triangles[t][(c + 1) % 3];
       const double ratio = length(uv, p, q) / length(mesh, p, q);
@@ -170,7 +170,7 @@ TEST(Border_first_map, opens_seams_that_end_in_saddles)
       const Indexed_triangle_mesh chart = slit_saddle(excess, rings, 40);
       const SMP::Border_first_map map = SMP::border_first_map(chart);
       ASSERT_EQ(map.error, "");
-      const auto border = SMT::internal::border_edges(chart.triangles);
+      const auto border = CGAL::Indexed_mesh::border_edges(chart.triangles);
       EXPECT_TRUE(SMT::internal::is_simple_border(border, map.uv))
         << excess << ' ' << rings;
       const SMT::Chart_distortion distortion = SMT::measure_chart_distortion(chart, map.uv);
@@ -218,13 +218,13 @@ TEST(Crossing_edges, are_those_of_all_pairs)
     for(std::uint32_t i = 0; i < 30; ++i)
       edges.push_back({i, (i + 1) % 30});
     std::vector<std::array<Edge, 2>> found, expected;
-    SMP::internal::visit_crossing_edges(edges, points, [&](const Edge& e, const Edge& f) {
+    SMP::visit_crossing_edges(edges, points, [&](const Edge& e, const Edge& f) {
       found.push_back({(std::min)(e, f), (std::max)(e, f)});
       return true;
     });
     for(std::size_t i = 0; i < 30; ++i)
       for(std::size_t j = i + 2; j < (i == 0 ? 29u : 30u); ++j)
-        if(SMP::internal::rounded_segments_meet(points[edges[i][0]], points[edges[i][1]],
+        if(SMP::rounded_segments_meet(points[edges[i][0]], points[edges[i][1]],
                                                 points[edges[j][0]], points[edges[j][1]]))
           expected.push_back({(std::min)(edges[i], edges[j]), (std::max)(edges[i], edges[j])});
     std::sort(found.begin(), found.end());

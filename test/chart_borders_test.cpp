@@ -184,8 +184,8 @@ TEST(Chart_borders, stay_simple_where_collapses_are_those_of_another)
     for(std::size_t t = 0; t < mesh.triangles.size(); ++t)
       for(int c = 0; c < 3; ++c)
         uv[mesh.triangles[t][c]] = wedged.uv[wedged.wedges[t][c]];
-    SMM::normalize(surface);
-    SMM::Flat_collapse_engine<> engine(surface, SMM::internal::Vertex_rings(surface), {});
+    CGAL::Indexed_mesh::normalize(surface);
+    SMM::Flat_collapse_engine<> engine(surface, CGAL::Indexed_mesh::Vertex_rings(surface), {});
     SMM::Flat_collapse_options flat;
     flat.target_vertices = 20;
     const auto result = SMM::build_textured_progressive_mesh(engine.run(flat), mesh.points, uv);

@@ -125,7 +125,7 @@ std::vector<Named_mesh> surfaces(std::uint64_t seed)
 
 std::string error_of_disk(const Indexed_triangle_mesh& mesh)
 {
-  const SMT::internal::Triangle_adjacency adjacency(mesh.triangles);
+  const CGAL::Indexed_mesh::Triangle_adjacency adjacency(mesh.triangles);
   std::vector<std::uint32_t> after(mesh.points.size(), SMT::no_vertex);
   std::size_t border_edges = 0;
   std::uint32_t some = 0;
@@ -169,7 +169,7 @@ std::string error_of_charts(const Indexed_triangle_mesh& mesh, const Chart_growt
     const std::string error = error_of_disk(chart.mesh);
     if(!error.empty())
       return name + error;
-    const auto border = SMT::internal::border_edges(chart.mesh.triangles);
+    const auto border = CGAL::Indexed_mesh::border_edges(chart.mesh.triangles);
     const auto trial = SMT::internal::try_map(chart.mesh, border);
     if(!trial.is_disk)
       return name + "no map";
@@ -287,7 +287,7 @@ TEST(Chart_growth, seams_of_a_box_are_its_edges)
 {
   const Indexed_triangle_mesh mesh = box(8, 6, 7);
   const Chart_growth_result result = grow_charts(mesh);
-  const SMT::internal::Triangle_adjacency adjacency(mesh.triangles);
+  const CGAL::Indexed_mesh::Triangle_adjacency adjacency(mesh.triangles);
   for(std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
     for(int c = 0; c < 3; ++c)
       if(result.charts.is_seam(t, c)) {

@@ -46,7 +46,7 @@ Progressive_mesh random_collapses(const Indexed_triangle_mesh& mesh, Random& ran
   Progressive_mesh pm;
   pm.number_of_vertices = mesh.points.size();
   pm.triangles = mesh.triangles;
-  SMM::internal::Vertex_rings rings(mesh);
+  CGAL::Indexed_mesh::Vertex_rings rings(mesh);
   std::vector<Vertex_index> alive(mesh.points.size());
   for(Vertex_index v = 0; v < alive.size(); ++v)
     alive[v] = v;

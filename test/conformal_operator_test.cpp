@@ -14,7 +14,7 @@
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
 #include <CGAL/Surface_mesh_multiresolution/Mesh_hierarchy.h>
 #include <CGAL/Surface_mesh_parameterization/Conformal_operator.h>
-#include <CGAL/Surface_mesh_parameterization/internal/coarse_cotangents.h>
+#include <CGAL/Surface_mesh_parameterization/internal/solver/coarse_cotangents.h>
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@
 namespace conformal_operator_test {
 
 using namespace test_support;
-using CGAL::Surface_mesh_multiresolution::normalize;
+using CGAL::Indexed_mesh::normalize;
 using CGAL::Surface_mesh_parameterization::Conformal_operator;
 using CGAL::Surface_mesh_parameterization::conformal_operator;
 using CGAL::Surface_mesh_parameterization::Conformal_triangle;
@@ -521,7 +521,7 @@ struct Metric_hierarchy
     namespace SMP = CGAL::Surface_mesh_parameterization;
     SMM::Flat_collapse_options decimation;
     decimation.target_vertices = mesh.points.size() / 40;
-    const auto pm = SMM::Flat_collapse_engine<>(mesh, SMM::internal::Vertex_rings(mesh), {})
+    const auto pm = SMM::Flat_collapse_engine<>(mesh, CGAL::Indexed_mesh::Vertex_rings(mesh), {})
                       .run(decimation);
     SMM::Hierarchy_options options;
     options.coarsest_size = decimation.target_vertices;
@@ -535,7 +535,7 @@ struct Metric_hierarchy
         levels[l].from_coarser);
   }
 
-  CGAL::Surface_mesh_multiresolution::internal::Triangles_at_vertices corners(std::size_t l) const
+  CGAL::Indexed_mesh::Triangles_at_vertices corners(std::size_t l) const
   {
     return {levels[l].mesh.triangles, levels[l].vertices.size()};
   }

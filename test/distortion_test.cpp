@@ -504,9 +504,9 @@ TEST(Overlap, is_a_common_area_of_two_faces)
     EXPECT_EQ(has_overlap(mesh, uv), is_overlap) << "seed " << seed << " area " << area;
     // The definition alone, without the shortcuts
     Surface_mesh surface_mesh = to_surface_mesh(mesh);
-    const SMP::internal::Uv_view<Surface_mesh, Uv_map> view(surface_mesh,
+    const SMP::Uv_view<Surface_mesh, Uv_map> view(surface_mesh,
                                                             to_uv_map(surface_mesh, uv));
-    EXPECT_EQ(SMP::internal::has_overlapping_triangles(view), is_overlap) << "seed " << seed;
+    EXPECT_EQ(SMP::has_overlapping_triangles(view), is_overlap) << "seed " << seed;
   }
   EXPECT_GE(trials, 90);
   EXPECT_GE(overlapping, 20);

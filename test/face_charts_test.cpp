@@ -11,7 +11,7 @@
 #include <CGAL/Surface_mesh_texturing/charts_of_texture.h>
 #include <CGAL/Surface_mesh_texturing/chart_topology.h>
 #include <CGAL/Surface_mesh_texturing/cut_to_disks.h>
-#include <CGAL/Surface_mesh_texturing/internal/halve_chart.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/map_charts.h>
 #include <CGAL/Surface_mesh_texturing/straighten_charts.h>
 
 #include <gtest/gtest.h>

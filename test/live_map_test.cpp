@@ -48,7 +48,7 @@ struct Problem
   conformal_operator(bool has_pins) const
   {
     Indexed_triangle_mesh normalized = mesh;
-    CGAL::Surface_mesh_multiresolution::normalize(normalized);
+    CGAL::Indexed_mesh::normalize(normalized);
     std::vector<bool> is_pinned(mesh.points.size(), false);
     if(has_pins)
       for(const auto& pin : pins)

@@ -29,7 +29,7 @@ namespace policies_test {
 namespace SMM = CGAL::Surface_mesh_multiresolution;
 namespace SMS = CGAL::Surface_mesh_simplification;
 using namespace test_support;
-using SMM::internal::Vertex_rings;
+using CGAL::Indexed_mesh::Vertex_rings;
 using SMS::internal::Accept_all_filter;
 
 typedef CGAL::Simple_cartesian<double> Kernel;
@@ -37,8 +37,8 @@ typedef CGAL::Surface_mesh<Point_3> Surface_mesh;
 typedef Surface_mesh::Vertex_index Descriptor;
 typedef boost::property_map<Surface_mesh, CGAL::vertex_point_t>::type Vertex_point_map;
 typedef SMS::Edge_profile<Surface_mesh, Vertex_point_map, Kernel> Profile;
-typedef SMS::internal::Optional<Point_3> Optional_point;
-typedef SMS::internal::Halfedge_collapse Measured_collapse;
+typedef SMS::Optional_of_policies<Point_3> Optional_point;
+typedef SMS::Measured_collapse Measured_collapse;
 
 constexpr std::uint64_t seed = 715;
 const std::string seed_text = ", seed " + std::to_string(seed);
@@ -114,7 +114,7 @@ std::vector<Named_mesh> smooth_meshes()
     {"square", grid(1, 1)},
   };
   for(Named_mesh& input : result)
-    SMM::normalize(input.mesh);
+    CGAL::Indexed_mesh::normalize(input.mesh);
   return result;
 }
 
@@ -160,7 +160,7 @@ struct Spying_cost
   const Use* use;
 
   template <class Flat_profile, class Placement>
-  SMS::internal::Optional<double>
+  SMS::Optional_of_policies<double>
   operator()(const Flat_profile& profile, const Placement& placement) const
   {
     (*use)(profile, placement);
@@ -254,7 +254,7 @@ Indexed_triangle_mesh star_mesh(const std::vector<Point_3>& ring, bool is_border
 
 // Fills the star with the ring of a `star_mesh()`.
 void measure_star(const Indexed_triangle_mesh& mesh, bool is_border,
-                  SMS::internal::Vertex_star& star)
+                  SMS::Vertex_star& star)
 {
   star.reset(int(mesh.points.size()) - 1, is_border);
   for(int i = 0; i < star.degree(); ++i) {
@@ -266,13 +266,13 @@ void measure_star(const Indexed_triangle_mesh& mesh, bool is_border,
 
 // All targets of a star against the definition, with the bounds of `measures_are_the_definitions`.
 void expect_star_measures(const Indexed_triangle_mesh& mesh, bool is_border,
-                          const SMS::internal::Vertex_star& star)
+                          const SMS::Vertex_star& star)
 {
   const Replay replay(mesh.triangles, mesh.points.size());
   for(int k = 0; k < star.degree(); k += is_border ? star.degree() - 1 : 1) {
     SCOPED_TRACE("target " + std::to_string(k));
     const Direct_measure direct = measure_directly(mesh.points, replay, 0, Vertex_index(k + 1));
-    const SMS::internal::Collapse_measure seen = star.measure(k);
+    const SMS::Collapse_measure seen = star.measure(k);
     EXPECT_EQ(is_border, direct.is_border);
     EXPECT_NEAR(seen.volume, direct.volume, 3e-6);
     EXPECT_NEAR(seen.border_area, direct.border_area, 3e-6);
@@ -290,11 +290,11 @@ void expect_star_measures(const Indexed_triangle_mesh& mesh, bool is_border,
 TEST(Vertex_star, measures_of_all_targets_are_the_definitions)
 {
   Random random(seed);
-  SMS::internal::Vertex_star star;
+  SMS::Vertex_star star;
   for(int round = 0; round < 100; ++round)
     for(const double noise : {0.1, 0.5}) // a fan that is nearly flat, and one that is no longer one
       for(const bool is_border : {false, true})
-        for(int d = is_border ? 2 : 3; d <= SMS::internal::Vertex_star::max_degree; ++d) {
+        for(int d = is_border ? 2 : 3; d <= SMS::Vertex_star::max_degree; ++d) {
           SCOPED_TRACE((is_border ? "border, degree " : "inside, degree ") + std::to_string(d)
                        + ", noise " + std::to_string(noise) + ", round " + std::to_string(round)
                        + seed_text);
@@ -320,7 +320,7 @@ TEST(Vertex_star, triangle_without_area_has_no_turn)
   const Indexed_triangle_mesh mesh = star_mesh(
     {Point_3(1, 0, 0), Point_3(2, 0, 0), Point_3(0, 1, 0), Point_3(-1, 0, 0), Point_3(0, -1, 0)},
     false);
-  SMS::internal::Vertex_star star;
+  SMS::Vertex_star star;
   measure_star(mesh, false, star);
   EXPECT_NEAR(star.measure(4).min_signed_squared_cosine, 1., 1e-6);
   EXPECT_EQ(star.min_squared_quality(), 0.f);
@@ -656,7 +656,7 @@ double largest_removed_defect(const Indexed_triangle_mesh& mesh, const Progressi
 TEST(Angular_defect_filter, bound_is_kept_in_both_engines)
 {
   Indexed_triangle_mesh mesh = with_noise(irregular_grid(20, 20, seed), 0.4, seed);
-  SMM::normalize(mesh);
+  CGAL::Indexed_mesh::normalize(mesh);
   for(const double bound : {20., 45., 70.}) {
     SMM::Edge_collapse_options edge_options;
     edge_options.target_vertices = 100;
@@ -741,7 +741,7 @@ TEST(Halfedge_collapse_placement, keeps_the_border_with_any_cost)
 struct Plane_distance_cost
 {
   template <class AnyProfile, class Placement>
-  SMS::internal::Optional<typename AnyProfile::FT>
+  SMS::Optional_of_policies<typename AnyProfile::FT>
   operator()(const AnyProfile& profile, const Placement& placement) const
   {
     if(!placement)

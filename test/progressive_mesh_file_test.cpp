@@ -170,7 +170,7 @@ TEST(Progressive_mesh_file_parts, impossible_splits_are_refused)
   const Indexed_triangle_mesh mesh = grid(2, 2); // 4 inside, of six neighbours; 1 has four, open
   const auto is_split = [&mesh](const Ring_split& split) {
     SMM::internal::Corner_rings rings;
-    EXPECT_EQ(rings.build(mesh.triangles, mesh.points.size()), SMM::internal::Ring_defect::NONE);
+    EXPECT_EQ(rings.build(mesh.triangles, mesh.points.size()), CGAL::Indexed_mesh::Ring_defect::NONE);
     Ignore_neighbors ignore;
     EXPECT_FALSE(rings.split(split, ignore)) << "without room";
     rings.make_room(mesh.points.size() + 1, mesh.triangles.size() + 2);
@@ -198,7 +198,7 @@ TEST(Progressive_mesh_file_parts, bases_that_are_no_manifolds_are_refused)
   const auto defect = [](const std::vector<Triangle_indices>& triangles, std::size_t vertices) {
     return SMM::internal::Corner_rings().build(triangles, vertices);
   };
-  using SMM::internal::Ring_defect;
+  using CGAL::Indexed_mesh::Ring_defect;
   EXPECT_EQ(defect({{0, 1, 2}}, 3), Ring_defect::NONE);
   EXPECT_EQ(defect({{0, 1, 2}}, 4), Ring_defect::ISOLATED);
   EXPECT_EQ(defect({{0, 1, 1}}, 2), Ring_defect::REPEATED_HALFEDGE);

@@ -36,7 +36,7 @@ namespace progressive_mesh_test {
 namespace SMM = CGAL::Surface_mesh_multiresolution;
 namespace SMS = CGAL::Surface_mesh_simplification;
 using namespace test_support;
-using SMM::internal::Ring_defect;
+using CGAL::Indexed_mesh::Ring_defect;
 
 typedef CGAL::Simple_cartesian<double> Kernel;
 typedef CGAL::Surface_mesh<Kernel::Point_3> Surface_mesh;
@@ -66,7 +66,7 @@ SMM::Flat_collapse_options flat_options(SMM::Collapse_order order, std::size_t t
 Progressive_mesh decimate(Indexed_triangle_mesh mesh, Engine engine, std::size_t target_vertices,
                           const std::vector<bool>& is_locked = {})
 {
-  SMM::normalize(mesh);
+  CGAL::Indexed_mesh::normalize(mesh);
   if(engine == Engine::CGAL) {
     SMM::Edge_collapse_options options;
     options.target_vertices = target_vertices;
@@ -236,8 +236,8 @@ TEST(Vertex_rings, splits_undo_collapses)
       const std::uint32_t d = rings.degree(c.removed);
       const Vertex_index* r = rings.ring(c.removed);
       const bool is_open = rings.is_border(c.removed);
-      sides.push_back({is_open && k + 1 == d ? SMM::no_vertex : r[(k + 1) % d],
-                       is_open && k == 0 ? SMM::no_vertex : r[(k + d - 1) % d]});
+      sides.push_back({is_open && k + 1 == d ? CGAL::Indexed_mesh::no_vertex : r[(k + 1) % d],
+                       is_open && k == 0 ? CGAL::Indexed_mesh::no_vertex : r[(k + d - 1) % d]});
       rings.collapse(c.removed, k);
     }
     for(; !done.empty(); done.pop_back(), sides.pop_back()) {
@@ -327,7 +327,7 @@ TEST(Vertex_rings, defects_are_named)
     return std::make_pair(rings.defect(), rings.defective_vertex());
   };
   typedef std::pair<Ring_defect, Vertex_index> Defect;
-  EXPECT_EQ(defect_of(3, {{0, 1, 2}}), Defect(Ring_defect::NONE, SMM::no_vertex));
+  EXPECT_EQ(defect_of(3, {{0, 1, 2}}), Defect(Ring_defect::NONE, CGAL::Indexed_mesh::no_vertex));
   EXPECT_EQ(defect_of(4, {{0, 1, 2}}), Defect(Ring_defect::ISOLATED, 3));
   EXPECT_EQ(defect_of(5, {{1, 2, 0}, {3, 4, 0}}), Defect(Ring_defect::SEVERAL_FANS, 0));
   EXPECT_EQ(defect_of(4, {{0, 1, 2}, {0, 1, 3}}), Defect(Ring_defect::REPEATED_HALFEDGE, 0));
@@ -717,7 +717,7 @@ struct Fixed_price
   std::vector<double> price;
 
   template <class Profile, class OptionalPoint>
-  SMS::internal::Optional<double> operator()(const Profile& profile, const OptionalPoint&) const
+  SMS::Optional_of_policies<double> operator()(const Profile& profile, const OptionalPoint&) const
   {
     return price[profile.v0()];
   }
@@ -779,8 +779,8 @@ TEST(Flat_collapse_engine, blocks_and_threads)
 {
   Indexed_triangle_mesh mesh
     = with_holes(with_hills(irregular_grid(280, 280, seed), 20., seed), 300, seed);
-  SMM::normalize(mesh);
-  SMM::sort_spatially(mesh);
+  CGAL::Indexed_mesh::normalize(mesh);
+  CGAL::Indexed_mesh::sort_spatially(mesh);
   const std::size_t n = mesh.points.size();
   const auto is_locked = random_locks(n, 0.001, seed);
   for(const std::size_t target : {n - 3, std::size_t(70000), std::size_t(5000)}) {
@@ -820,7 +820,7 @@ TEST(Flat_collapse_engine, result_does_not_depend_on_size_and_place)
 TEST(Progress, is_told_and_may_cancel)
 {
   Indexed_triangle_mesh mesh = with_hills(irregular_grid(200, 200, seed), 5., seed);
-  SMM::normalize(mesh);
+  CGAL::Indexed_mesh::normalize(mesh);
   for(const Engine engine : all_engines)
     for(const double last : {0., 0.3, 2.}) {
       if(engine == Engine::CGAL && last > 1.)
@@ -892,7 +892,7 @@ std::string error_in_recording(TriangleMesh& mesh, const Cost& cost,
   typedef SMM::Progressive_mesh_recorder<TriangleMesh, Cost> Recorder;
   typedef SMS::Halfedge_collapse_placement<Cost, SMS::internal::Accept_all_filter,
                                            typename Recorder::Vertex_is_locked_map> Placement;
-  const auto points = SMM::internal::copy_points(mesh);
+  const auto points = CGAL::Indexed_mesh::copy_points(mesh);
   Recorder recorder(mesh, is_locked, cost);
   SMS::edge_collapse(mesh, Stop_at{40},
                      CGAL::parameters::get_cost(cost).visitor(recorder)
@@ -992,7 +992,7 @@ TEST(Build_progressive_mesh, numbers_as_the_mesh_does)
 struct Price_of_place
 {
   template <class Profile, class Placement>
-  SMS::internal::Optional<double> operator()(const Profile& profile, const Placement&) const
+  SMS::Optional_of_policies<double> operator()(const Profile& profile, const Placement&) const
   {
     return std::abs(profile.p0().x() - 1000.);
   }

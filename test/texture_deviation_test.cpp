@@ -42,10 +42,10 @@ const std::string seed_text = ", seed " + std::to_string(seed);
 
 Progressive_mesh decimate(Indexed_triangle_mesh mesh, const std::vector<bool>& is_locked = {})
 {
-  SMM::normalize(mesh);
+  CGAL::Indexed_mesh::normalize(mesh);
   SMM::Flat_collapse_options options;
   options.target_vertices = 0; // as far as it goes
-  SMM::internal::Vertex_rings rings(mesh);
+  CGAL::Indexed_mesh::Vertex_rings rings(mesh);
   return SMM::Flat_collapse_engine<>(mesh, std::move(rings), is_locked).run(options);
 }
 
@@ -153,7 +153,7 @@ std::vector<std::size_t> positions(const Textured_progressive_mesh& mesh)
 // --- The definitions
 
 // The weights of the triangles at p, for triangles in the plane.
-std::array<double, 3> weights_of(const Wedge_mesh& mesh, const SMM::Triangle_indices& t,
+std::array<double, 3> weights_of(const Wedge_mesh& mesh, const CGAL::Indexed_mesh::Triangle_indices& t,
                                  const Point_2& p)
 {
   const Point_2 &a = mesh.uv[t[0]], &b = mesh.uv[t[1]], &c = mesh.uv[t[2]];
@@ -162,7 +162,7 @@ std::array<double, 3> weights_of(const Wedge_mesh& mesh, const SMM::Triangle_ind
 }
 
 CGAL::Simple_cartesian<double>::Vector_3
-combination(const Wedge_mesh& mesh, const SMM::Triangle_indices& t,
+combination(const Wedge_mesh& mesh, const CGAL::Indexed_mesh::Triangle_indices& t,
             const std::array<double, 3>& w)
 {
   const auto at = [&](int c) { return mesh.points[mesh.vertex[t[c]]] - CGAL::ORIGIN; };
@@ -170,7 +170,7 @@ combination(const Wedge_mesh& mesh, const SMM::Triangle_indices& t,
 }
 
 // Whether p is clearly left or right, below or above of a triangle in the texture.
-bool is_beside(const Wedge_mesh& mesh, const SMM::Triangle_indices& t, const Point_2& p)
+bool is_beside(const Wedge_mesh& mesh, const CGAL::Indexed_mesh::Triangle_indices& t, const Point_2& p)
 {
   for(int i = 0; i < 2; ++i) {
     const auto [lo, hi] = std::minmax({mesh.uv[t[0]][i], mesh.uv[t[1]][i], mesh.uv[t[2]][i]});
@@ -185,7 +185,7 @@ bool is_beside(const Wedge_mesh& mesh, const SMM::Triangle_indices& t, const Poi
 // no weight is below -1e-9, by looking at all of them.
 std::optional<Point_3> point_at(const Wedge_mesh& mesh, const Point_2& p)
 {
-  for(const SMM::Triangle_indices& t : mesh.triangles) {
+  for(const CGAL::Indexed_mesh::Triangle_indices& t : mesh.triangles) {
     if(is_beside(mesh, t, p))
       continue;
     const auto w = weights_of(mesh, t, p);

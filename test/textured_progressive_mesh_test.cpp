@@ -221,8 +221,8 @@ TEST(Textured_progressive_mesh, is_made_of_the_collapses_of_another)
       for(int c = 0; c < 3; ++c)
         uv[mesh.triangles[t][c]] = mesh.uv[mesh.wedges[t][c]];
     Indexed_triangle_mesh copy = surface;
-    SMM::normalize(copy);
-    SMM::Flat_collapse_engine<> engine(copy, SMM::internal::Vertex_rings(copy), {});
+    CGAL::Indexed_mesh::normalize(copy);
+    SMM::Flat_collapse_engine<> engine(copy, CGAL::Indexed_mesh::Vertex_rings(copy), {});
     SMM::Flat_collapse_options flat;
     flat.target_vertices = 20;
     const Progressive_mesh pm = engine.run(flat);

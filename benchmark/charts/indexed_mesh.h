@@ -6,15 +6,15 @@
 
 #include "Chart.h"
 
-#include <CGAL/Surface_mesh_multiresolution/Indexed_triangle_mesh.h>
+#include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
 
 namespace charts {
 
 // The chart as the library's flat data structures take it, in the order of the chart.
-inline CGAL::Surface_mesh_multiresolution::Indexed_triangle_mesh
+inline CGAL::Indexed_mesh::Indexed_triangle_mesh
 make_indexed_mesh(const Chart& chart)
 {
-  CGAL::Surface_mesh_multiresolution::Indexed_triangle_mesh mesh;
+  CGAL::Indexed_mesh::Indexed_triangle_mesh mesh;
   mesh.points.reserve(chart.points.size());
   for(const Point& p : chart.points)
     mesh.points.emplace_back(p[0], p[1], p[2]);

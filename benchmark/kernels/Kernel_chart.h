@@ -17,7 +17,7 @@
 namespace kernels {
 
 namespace SMM = CGAL::Surface_mesh_multiresolution;
-using SMM::internal::Vertex_rings;
+using CGAL::Indexed_mesh::Vertex_rings;
 
 constexpr std::size_t coarsest_size = 2000; // the parameterizer's default
 
@@ -48,12 +48,12 @@ inline charts::Chart make_shuffled_square(std::size_t faces)
 }
 
 // As the library works on it: mean edge length 1, in spatial order.
-inline const SMM::Indexed_triangle_mesh& sorted_mesh(std::size_t faces)
+inline const CGAL::Indexed_mesh::Indexed_triangle_mesh& sorted_mesh(std::size_t faces)
 {
   return made_once(faces, [](std::size_t number) {
-    SMM::Indexed_triangle_mesh mesh = charts::make_indexed_mesh(make_bumpy_square(number));
-    SMM::normalize(mesh);
-    SMM::sort_spatially(mesh);
+    CGAL::Indexed_mesh::Indexed_triangle_mesh mesh = charts::make_indexed_mesh(make_bumpy_square(number));
+    CGAL::Indexed_mesh::normalize(mesh);
+    CGAL::Indexed_mesh::sort_spatially(mesh);
     return mesh;
   });
 }
@@ -64,7 +64,7 @@ inline const Vertex_rings& rings(std::size_t faces)
 }
 
 // The pins: two opposite corners of the square, that is the least and the greatest x + y.
-inline std::vector<bool> pinned_vertices(const SMM::Indexed_triangle_mesh& mesh)
+inline std::vector<bool> pinned_vertices(const CGAL::Indexed_mesh::Indexed_triangle_mesh& mesh)
 {
   const auto is_less = [](const auto& p, const auto& q) { return p.x() + p.y() < q.x() + q.y(); };
   const auto corners = std::minmax_element(mesh.points.begin(), mesh.points.end(), is_less);
@@ -77,7 +77,7 @@ inline std::vector<bool> pinned_vertices(const SMM::Indexed_triangle_mesh& mesh)
 inline const SMM::Progressive_mesh& progressive_mesh(std::size_t faces)
 {
   return made_once(faces, [](std::size_t number) {
-    const SMM::Indexed_triangle_mesh& mesh = sorted_mesh(number);
+    const CGAL::Indexed_mesh::Indexed_triangle_mesh& mesh = sorted_mesh(number);
     SMM::Flat_collapse_options options;
     options.target_vertices = coarsest_size;
     SMM::Flat_collapse_engine<> engine(mesh, rings(number), pinned_vertices(mesh));

@@ -20,7 +20,7 @@ const SMM::Textured_progressive_mesh& textured_mesh(std::size_t faces)
     mesh.progressive_mesh = progressive_mesh(number);
     mesh.points = sorted_mesh(number).points;
     for(const auto& p : mesh.points) {
-      mesh.vertex.push_back(SMM::Vertex_index(mesh.vertex.size()));
+      mesh.vertex.push_back(CGAL::Indexed_mesh::Vertex_index(mesh.vertex.size()));
       mesh.uv.emplace_back(p.x(), p.y());
     }
     return SMM::coarse_first(mesh);

@@ -14,13 +14,13 @@ using namespace kernels;
 
 void sort_chart(benchmark::State& state, charts::Chart (*make)(std::size_t))
 {
-  const SMM::Indexed_triangle_mesh unsorted =
+  const CGAL::Indexed_mesh::Indexed_triangle_mesh unsorted =
       charts::make_indexed_mesh(make(std::size_t(state.range(0))));
   for(auto _ : state) {
     state.PauseTiming();
-    SMM::Indexed_triangle_mesh mesh = unsorted;
+    CGAL::Indexed_mesh::Indexed_triangle_mesh mesh = unsorted;
     state.ResumeTiming();
-    benchmark::DoNotOptimize(SMM::sort_spatially(mesh));
+    benchmark::DoNotOptimize(CGAL::Indexed_mesh::sort_spatially(mesh));
   }
   set_rate(state, "vertices/s", double(unsorted.points.size()));
 }
@@ -32,7 +32,7 @@ BENCHMARK(sort_spatially_shuffled)->Apply(small_and_large);
 
 void vertex_rings(benchmark::State& state)
 {
-  const SMM::Indexed_triangle_mesh& mesh = sorted_mesh(std::size_t(state.range(0)));
+  const CGAL::Indexed_mesh::Indexed_triangle_mesh& mesh = sorted_mesh(std::size_t(state.range(0)));
   for(auto _ : state)
     benchmark::DoNotOptimize(Vertex_rings(mesh));
   set_rate(state, "vertices/s", double(mesh.points.size()));
@@ -43,7 +43,7 @@ BENCHMARK(vertex_rings)->Apply(small_and_large);
 void decimate(benchmark::State& state, std::size_t target, SMM::Collapse_order order)
 {
   const std::size_t faces = std::size_t(state.range(0));
-  const SMM::Indexed_triangle_mesh& mesh = sorted_mesh(faces);
+  const CGAL::Indexed_mesh::Indexed_triangle_mesh& mesh = sorted_mesh(faces);
   const std::vector<bool> is_pinned = pinned_vertices(mesh);
   SMM::Flat_collapse_options options;
   options.target_vertices = target;
@@ -93,7 +93,7 @@ void hierarchy(benchmark::State& state, SMM::Prolongation_rule rule)
   std::size_t number_of_levels = 0;
   for(auto _ : state) {
     state.PauseTiming();
-    SMM::Indexed_triangle_mesh mesh = sorted_mesh(faces);
+    CGAL::Indexed_mesh::Indexed_triangle_mesh mesh = sorted_mesh(faces);
     state.ResumeTiming();
     number_of_levels = SMM::build_hierarchy(std::move(mesh), pm, options).size();
   }

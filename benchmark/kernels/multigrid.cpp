@@ -9,7 +9,7 @@
 #include <CGAL/Multigrid/Multigrid_levels.h>
 #include <CGAL/Multigrid/Sparse_cholesky.h>
 #include <CGAL/Surface_mesh_parameterization/Conformal_operator.h>
-#include <CGAL/Surface_mesh_parameterization/internal/coarse_cotangents.h>
+#include <CGAL/Surface_mesh_parameterization/internal/solver/coarse_cotangents.h>
 
 #include <deque>
 #include <memory>
@@ -35,7 +35,7 @@ template <class Real>
 const MG::Hermitian_matrix<Real>& matrix(std::size_t faces)
 {
   return made_once(faces, [](std::size_t number) {
-    const SMM::Indexed_triangle_mesh& mesh = sorted_mesh(number);
+    const CGAL::Indexed_mesh::Indexed_triangle_mesh& mesh = sorted_mesh(number);
     return SMP::conformal_operator<Real>(mesh, kernels::pinned_vertices(mesh)).matrix;
   });
 }
@@ -90,7 +90,7 @@ double number_of_entries(const MG::Hermitian_matrix<Real>& h)
 template <class Real>
 void assemble(benchmark::State& state)
 {
-  const SMM::Indexed_triangle_mesh& mesh = sorted_mesh(std::size_t(state.range(0)));
+  const CGAL::Indexed_mesh::Indexed_triangle_mesh& mesh = sorted_mesh(std::size_t(state.range(0)));
   const std::vector<bool> is_pinned = kernels::pinned_vertices(mesh);
   for(auto _ : state)
     benchmark::DoNotOptimize(SMP::conformal_operator<Real>(mesh, is_pinned));
@@ -102,7 +102,7 @@ BENCHMARK_TEMPLATE(assemble, float)->Apply(small_and_large);
 // The cotangents of the second finest level in the metric of the finest.
 void coarse_cotangents(benchmark::State& state)
 {
-  typedef SMM::internal::Triangles_at_vertices Triangles_at_vertices;
+  typedef CGAL::Indexed_mesh::Triangles_at_vertices Triangles_at_vertices;
   const std::vector<SMM::Mesh_level>& all = levels(std::size_t(state.range(0)));
   const SMM::Mesh_level &fine = all.back(), &coarse = all[all.size() - 2];
   const Triangles_at_vertices fine_at(fine.mesh.triangles, fine.vertices.size());

@@ -22,7 +22,7 @@ using CGAL::Surface_mesh_parameterization::Decimation_engine;
 
 // Decimates by an engine as the parameterizer does: the same policies, the same number of vertices
 // at the end. `mesh` is normalized and in spatial order.
-inline SMM::Progressive_mesh decimate(const SMM::Indexed_triangle_mesh& mesh,
+inline SMM::Progressive_mesh decimate(const CGAL::Indexed_mesh::Indexed_triangle_mesh& mesh,
                                       Decimation_engine engine)
 {
   const CGAL::Surface_mesh_parameterization::HLSCM_options defaults;
@@ -37,15 +37,15 @@ inline SMM::Progressive_mesh decimate(const SMM::Indexed_triangle_mesh& mesh,
   options.target_vertices = defaults.coarsest_size;
   options.order = engine == Decimation_engine::FLAT ? SMM::Collapse_order::BATCHED
                                                     : SMM::Collapse_order::STRICT;
-  SMM::Flat_collapse_engine<> flat(mesh, SMM::internal::Vertex_rings(mesh), is_locked);
+  SMM::Flat_collapse_engine<> flat(mesh, CGAL::Indexed_mesh::Vertex_rings(mesh), is_locked);
   return flat.run(options);
 }
 
 // The mean of 4 sqrt(3) A / (sum of squared lengths), which is 1 for equilateral triangles.
-inline double mean_quality(const SMM::Indexed_triangle_mesh& mesh)
+inline double mean_quality(const CGAL::Indexed_mesh::Indexed_triangle_mesh& mesh)
 {
   double sum = 0;
-  for(const SMM::Triangle_indices& t : mesh.triangles) {
+  for(const CGAL::Indexed_mesh::Triangle_indices& t : mesh.triangles) {
     const auto &p = mesh.points[t[0]], &q = mesh.points[t[1]], &r = mesh.points[t[2]];
     const double squares =
         CGAL::squared_distance(p, q) + CGAL::squared_distance(q, r) + CGAL::squared_distance(r, p);
@@ -69,7 +69,7 @@ inline double mean_distance(const SMM::Mesh_level& fine)
 }
 
 // How good the coarsest mesh is, lengths in mean edges of the fine one.
-inline void measure_coarse_mesh(SMM::Indexed_triangle_mesh mesh, const SMM::Progressive_mesh& pm,
+inline void measure_coarse_mesh(CGAL::Indexed_mesh::Indexed_triangle_mesh mesh, const SMM::Progressive_mesh& pm,
                                 Measurement& measurement)
 {
   SMM::Hierarchy_options options; // from the fine mesh to the coarsest in one step
@@ -86,9 +86,9 @@ inline void measure_coarse_mesh(SMM::Indexed_triangle_mesh mesh, const SMM::Prog
 // Times an engine alone, from two arrays to the progressive mesh.
 inline Measurement run_decimation(const std::string& chart_path, Decimation_engine engine)
 {
-  SMM::Indexed_triangle_mesh mesh = charts::make_indexed_mesh(charts::read_chart(chart_path));
-  SMM::normalize(mesh);
-  SMM::sort_spatially(mesh);
+  CGAL::Indexed_mesh::Indexed_triangle_mesh mesh = charts::make_indexed_mesh(charts::read_chart(chart_path));
+  CGAL::Indexed_mesh::normalize(mesh);
+  CGAL::Indexed_mesh::sort_spatially(mesh);
   Measurement measurement;
   measurement.numbers = {{"faces", double(mesh.triangles.size())},
                          {"vertices", double(mesh.points.size())},

@@ -16,8 +16,8 @@ class RayCaster
 public:
   /// Prepares the search on a surface; its arrays live as long.
   RayCaster(
-    const std::vector<CGAL::Surface_mesh_multiresolution::Indexed_triangle_mesh::Point_3>& points,
-    const std::vector<CGAL::Surface_mesh_multiresolution::Triangle_indices>& triangles);
+    const std::vector<CGAL::Indexed_mesh::Indexed_triangle_mesh::Point_3>& points,
+    const std::vector<CGAL::Indexed_mesh::Triangle_indices>& triangles);
 
   /// Returns why nothing can be found, as a sentence; empty if all is well.
   std::string error() const;
@@ -28,7 +28,7 @@ public:
   /// \param direction a unit vector
   /// \param nearest not negative
   CGAL::Surface_mesh_texturing::Ray_hit
-  cast(const CGAL::Surface_mesh_multiresolution::Indexed_triangle_mesh::Point_3& origin,
+  cast(const CGAL::Indexed_mesh::Indexed_triangle_mesh::Point_3& origin,
        const CGAL::Surface_mesh_texturing::Vector_3& direction, double nearest,
        double farthest) const;
 };

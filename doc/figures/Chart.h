@@ -5,7 +5,7 @@
 #define HLSCM_FIGURES_CHART_H
 
 #include <CGAL/Surface_mesh.h>
-#include <CGAL/Surface_mesh_multiresolution/Indexed_triangle_mesh.h>
+#include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
 
 #include <complex>
 #include <string>
@@ -23,7 +23,7 @@ typedef CGAL::Surface_mesh<Kernel::Point_3> Mesh;
 
 struct Pin
 {
-  SMM::Vertex_index vertex;
+  CGAL::Indexed_mesh::Vertex_index vertex;
   Complex value;
 };
 
@@ -31,11 +31,11 @@ struct Pin
 struct Chart
 {
   std::string name;
-  SMM::Indexed_triangle_mesh mesh;
+  CGAL::Indexed_mesh::Indexed_triangle_mesh mesh;
 };
 
 // The same vertices and faces, in the same order.
-inline Mesh surface_mesh(const SMM::Indexed_triangle_mesh& indexed)
+inline Mesh surface_mesh(const CGAL::Indexed_mesh::Indexed_triangle_mesh& indexed)
 {
   typedef Mesh::Vertex_index V;
   Mesh mesh;

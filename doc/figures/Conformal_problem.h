@@ -24,11 +24,11 @@ namespace SMP = CGAL::Surface_mesh_parameterization;
 class Conformal_problem
 {
 public:
-  Conformal_problem(const SMM::Indexed_triangle_mesh& mesh, std::vector<Pin> pins)
+  Conformal_problem(const CGAL::Indexed_mesh::Indexed_triangle_mesh& mesh, std::vector<Pin> pins)
     : m_pins(std::move(pins))
   {
-    SMM::Indexed_triangle_mesh normalized = mesh; // the energy does not depend on the scale
-    SMM::normalize(normalized);
+    CGAL::Indexed_mesh::Indexed_triangle_mesh normalized = mesh; // the energy does not depend on the scale
+    CGAL::Indexed_mesh::normalize(normalized);
     std::vector<bool> is_pinned(mesh.points.size(), false);
     for(const Pin& pin : m_pins)
       is_pinned[pin.vertex] = true;
@@ -48,7 +48,7 @@ public:
 
   // The orthogonal projection to the plane through the first two pins in which `mesh` is the
   // widest, turned and scaled so that these pins come to their places.
-  Uv projection(const SMM::Indexed_triangle_mesh& mesh) const
+  Uv projection(const CGAL::Indexed_mesh::Indexed_triangle_mesh& mesh) const
   {
     typedef Kernel::Vector_3 Vector;
       const auto origin = mesh.points[m_pins[0].vertex];

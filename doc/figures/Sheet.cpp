@@ -22,7 +22,7 @@ hlscm::Progress_bar& silent()
 
 } // namespace
 
-Frame::Frame(const SMM::Indexed_triangle_mesh& mesh)
+Frame::Frame(const CGAL::Indexed_mesh::Indexed_triangle_mesh& mesh)
 {
   CGAL::Bbox_3 box;
   for(const auto& p : mesh.points)
@@ -33,7 +33,7 @@ Frame::Frame(const SMM::Indexed_triangle_mesh& mesh)
                              box.zmax() - box.zmin()});
 }
 
-Drawn_surface drawn(const SMM::Indexed_triangle_mesh& mesh, const Uv& uv, const Frame& frame)
+Drawn_surface drawn(const CGAL::Indexed_mesh::Indexed_triangle_mesh& mesh, const Uv& uv, const Frame& frame)
 {
   Drawn_surface surface;
   for(const auto& p : mesh.points)

@@ -4,12 +4,12 @@
 #ifndef HLSCM_FIGURES_SHEET_H
 #define HLSCM_FIGURES_SHEET_H
 
-#include "Canvas.h"
+#include "pictures/Canvas.h"
 #include "Chart.h"
-#include "Domain_picture.h"
-#include "Drawn_surface.h"
-#include "Surface_picture.h"
-#include "View.h"
+#include "pictures/Domain_picture.h"
+#include "pictures/Drawn_surface.h"
+#include "pictures/Surface_picture.h"
+#include "pictures/View.h"
 
 #include <filesystem>
 #include <string>
@@ -25,9 +25,9 @@ using hlscm::View;
 class Frame
 {
 public:
-  explicit Frame(const SMM::Indexed_triangle_mesh& mesh);
+  explicit Frame(const CGAL::Indexed_mesh::Indexed_triangle_mesh& mesh);
 
-  hlscm::Vector_3 operator()(const SMM::Indexed_triangle_mesh::Point_3& p) const
+  hlscm::Vector_3 operator()(const CGAL::Indexed_mesh::Indexed_triangle_mesh::Point_3& p) const
   {
     return {(p.x() - m_centre[0]) / m_half, (p.y() - m_centre[1]) / m_half,
             (p.z() - m_centre[2]) / m_half};
@@ -38,7 +38,7 @@ private:
   double m_half;
 };
 
-Drawn_surface drawn(const SMM::Indexed_triangle_mesh& mesh, const Uv& uv, const Frame& frame);
+Drawn_surface drawn(const CGAL::Indexed_mesh::Indexed_triangle_mesh& mesh, const Uv& uv, const Frame& frame);
 
 // A view of `surface` from a given direction, y up.
 View view_from(const hlscm::Vector_3& toward_the_eye, const Drawn_surface& surface);

@@ -4,7 +4,7 @@
 #ifndef HLSCM_FIGURES_STROKE_TEXT_H
 #define HLSCM_FIGURES_STROKE_TEXT_H
 
-#include "Canvas.h"
+#include "pictures/Canvas.h"
 
 #include <string>
 

@@ -33,16 +33,16 @@ struct No_cost
 // The fine mesh and its map of least energy; two opposite corners of the plane are pinned.
 struct Fine_level
 {
-  explicit Fine_level(const SMM::Indexed_triangle_mesh& m)
+  explicit Fine_level(const CGAL::Indexed_mesh::Indexed_triangle_mesh& m)
     : mesh(m)
-    , corners{0, cells, SMM::Vertex_index(m.points.size() - 1 - cells),
-              SMM::Vertex_index(m.points.size() - 1)}
+    , corners{0, cells, CGAL::Indexed_mesh::Vertex_index(m.points.size() - 1 - cells),
+              CGAL::Indexed_mesh::Vertex_index(m.points.size() - 1)}
     , pins{{corners.front(), 0.}, {corners.back(), 1.}}
     , problem(mesh, pins), uv(problem.minimiser()), energy(problem.energy(uv))
   {}
 
-  SMM::Indexed_triangle_mesh mesh;
-  std::vector<SMM::Vertex_index> corners;
+  CGAL::Indexed_mesh::Indexed_triangle_mesh mesh;
+  std::vector<CGAL::Indexed_mesh::Vertex_index> corners;
   std::vector<Pin> pins;
   Conformal_problem problem;
   Uv uv;
@@ -52,7 +52,7 @@ struct Fine_level
 // Energies are in units of the least one.
 struct Coarse_level
 {
-  SMM::Indexed_triangle_mesh mesh;
+  CGAL::Indexed_mesh::Indexed_triangle_mesh mesh;
   Uv uv;
   double height = 0.; // of the highest vertex
   Uv first_guess;     // on the fine mesh
@@ -67,10 +67,10 @@ SMM::Progressive_mesh decimate(const Fine_level& fine, const Cost& cost, const F
   options.target_vertices = coarse_vertices;
   options.order = SMM::Collapse_order::STRICT;
   options.is_locked.assign(fine.mesh.points.size(), false);
-  for(const SMM::Vertex_index v : fine.corners)
+  for(const CGAL::Indexed_mesh::Vertex_index v : fine.corners)
     options.is_locked[v] = true;
-  SMM::Indexed_triangle_mesh normalized = fine.mesh;
-  SMM::normalize(normalized);
+  CGAL::Indexed_mesh::Indexed_triangle_mesh normalized = fine.mesh;
+  CGAL::Indexed_mesh::normalize(normalized);
   return SMM::build_progressive_mesh(surface_mesh(normalized), options, cost, filter)
     .progressive_mesh;
 }
@@ -85,7 +85,7 @@ Coarse_level coarse_level(const Fine_level& fine, const SMM::Progressive_mesh& p
   const std::vector<SMM::Mesh_level> levels = SMM::build_hierarchy(fine.mesh, pm, options);
   std::vector<Pin> pins;
   for(const Pin& pin : fine.pins)
-    pins.push_back({SMM::Vertex_index(levels[0].position(pin.vertex)), pin.value});
+    pins.push_back({CGAL::Indexed_mesh::Vertex_index(levels[0].position(pin.vertex)), pin.value});
 
   Coarse_level coarse;
   coarse.mesh = levels[0].mesh;
@@ -137,7 +137,7 @@ void draw(const Fine_level& fine, const Coarse_level& lost, const Coarse_level& 
   const View view = view_from({0.45, 0.62, 0.8}, drawn(fine.mesh, fine.uv, frame));
   Sheet sheet(1240., 560.);
   const auto draw_panel = [&](const char* name, const Panel& panel,
-                              const SMM::Indexed_triangle_mesh& mesh, const Uv& uv,
+                              const CGAL::Indexed_mesh::Indexed_triangle_mesh& mesh, const Uv& uv,
                               bool has_edges) {
     const Drawn_surface surface = drawn(mesh, uv, frame);
     sheet.draw_surface(view, panel, surface, Pattern::ISOLINES);

@@ -19,7 +19,7 @@ namespace {
 
 struct Level
 {
-  SMM::Indexed_triangle_mesh mesh;
+  CGAL::Indexed_mesh::Indexed_triangle_mesh mesh;
   Uv uv;
 };
 
@@ -32,7 +32,7 @@ struct Solution
   {
     std::vector<Pin> pins;
     for(const SMP::HLSCM_pin& pin : report.pins)
-      pins.push_back({SMM::Vertex_index(pin.vertex), Complex(pin.u, pin.v)});
+      pins.push_back({CGAL::Indexed_mesh::Vertex_index(pin.vertex), Complex(pin.u, pin.v)});
     return pins;
   }
 };
@@ -62,12 +62,12 @@ Solution solve(const Chart& chart, SMP::HLSCM_options options)
 class Columns
 {
 public:
-  Columns(const SMM::Indexed_triangle_mesh& mesh, std::size_t number, double width)
+  Columns(const CGAL::Indexed_mesh::Indexed_triangle_mesh& mesh, std::size_t number, double width)
     : m_frame(mesh), m_view(drawn(mesh, Uv(mesh.points.size(), 0.), m_frame)), m_width(width)
     , m_sheet(double(number) * (width + margin) + margin, 1.9 * width + 4. * margin)
   {}
 
-  void add(const std::string& name, const SMM::Indexed_triangle_mesh& mesh, const Uv& uv)
+  void add(const std::string& name, const CGAL::Indexed_mesh::Indexed_triangle_mesh& mesh, const Uv& uv)
   {
     const Drawn_surface surface = drawn(mesh, uv, m_frame);
     const Panel above{m_left, 3. * margin, m_width, m_width};

@@ -19,9 +19,9 @@ namespace figures {
 // The vertices place(x, z), row by row, for x and z in [-1, 1], as `cells` x `cells` squares whose
 // diagonals point to the centre. Seen from +y the triangles are counterclockwise.
 template <class Place>
-SMM::Indexed_triangle_mesh square_grid(unsigned int cells, const Place& place)
+CGAL::Indexed_mesh::Indexed_triangle_mesh square_grid(unsigned int cells, const Place& place)
 {
-  SMM::Indexed_triangle_mesh mesh;
+  CGAL::Indexed_mesh::Indexed_triangle_mesh mesh;
   for(unsigned int j = 0; j <= cells; ++j)
     for(unsigned int i = 0; i <= cells; ++i)
       mesh.points.push_back(place(2. * i / cells - 1., 2. * j / cells - 1.));
@@ -61,7 +61,7 @@ public:
 
   // On a grid whose inner vertices are moved by up to a quarter of a cell, differently for each
   // seed.
-  SMM::Indexed_triangle_mesh mesh(unsigned int cells, std::uint32_t seed) const
+  CGAL::Indexed_mesh::Indexed_triangle_mesh mesh(unsigned int cells, std::uint32_t seed) const
   {
     std::minstd_rand random(seed);
     const auto shift = [&] { // not by a distribution of the standard: those differ
@@ -97,7 +97,7 @@ private:
 };
 
 // Hills, for a machine without a real mesh.
-inline SMM::Indexed_triangle_mesh hills(unsigned int cells)
+inline CGAL::Indexed_mesh::Indexed_triangle_mesh hills(unsigned int cells)
 {
   return square_grid(cells, [](double x, double z) {
     const double y = 0.35 * std::exp(-8. * ((x - 0.2) * (x - 0.2) + (z + 0.3) * (z + 0.3)))

@@ -6,9 +6,9 @@
 // `hlscm atlas IN -o DIR` gives any surface texture coordinates, and `hlscm bake IN -o DIR` makes a
 // light model with a normal map.
 
-#include "Commands.h"
-#include "Interruption.h"
-#include "Program_error.h"
+#include "commands/Commands.h"
+#include "common/Interruption.h"
+#include "common/Program_error.h"
 
 #include <cstdio>
 #include <new>

@@ -6,6 +6,7 @@
 Usage: check_layers.py INCLUDE_DIR [CGAL_INCLUDE_DIR]
 
 - A header includes only headers of its own layer and of the layers below.
+- The folder internal/ of a layer is for this layer alone.
 - No header includes itself, directly or through others.
 - The layers below Multigrid do not include Eigen; Multigrid knows no mesh.
 - No header has the path of one of CGAL's own (the two are installed side by side).
@@ -21,6 +22,7 @@ from pathlib import Path
 LAYERS = [
     "Blocked_execution",
     "Surface_mesh_simplification",
+    "Indexed_mesh",
     "Surface_mesh_multiresolution",
     "Multigrid",
     "Surface_mesh_parameterization",
@@ -30,14 +32,15 @@ FACADE = len(LAYERS) + 1
 
 EIGEN = re.compile(r"(^|/)(unsupported/)?Eigen(/|_|$)")
 MESH = re.compile(
-    r"^CGAL/(Surface_mesh|Polyhedron|Polygon_mesh_processing|boost/graph|Surface_mesh_\w+)(/|_3|\.h)")
+    r"^CGAL/(Surface_mesh|Indexed_mesh|Polyhedron|Polygon_mesh_processing|boost/graph|Surface_mesh_\w+)(/|_3|\.h)")
 
 # What a layer must not include, besides the layers above it
 FORBIDDEN = {
     1: [(EIGEN, "Eigen"), (MESH, "a mesh")],
     2: [(EIGEN, "Eigen")],
     3: [(EIGEN, "Eigen")],
-    4: [(MESH, "a mesh")],
+    4: [(EIGEN, "Eigen")],
+    5: [(MESH, "a mesh")],
 }
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
@@ -76,6 +79,8 @@ def find_layer_errors(includes):
         for target in targets:
             if target in includes and (layer_of(target) or 0) > layer:
                 yield f"{header}: layer {layer} includes {target} of layer {layer_of(target)}"
+            elif target in includes and layer_of(target) != layer and "/internal/" in target:
+                yield f"{header}: includes {target}, which is internal to another layer"
             for pattern, what in FORBIDDEN.get(layer, []):
                 if pattern.search(target):
                     yield f"{header}: layer {layer} includes {what}: {target}"

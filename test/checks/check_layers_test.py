@@ -50,8 +50,14 @@ class Check_layers(unittest.TestCase):
     def test_rejects_include_up(self):
         self.expect("includes " + HIERARCHY, {POLICY: [HIERARCHY], HIERARCHY: []})
 
+    def test_rejects_foreign_internal(self):
+        internal = "CGAL/Surface_mesh_multiresolution/internal/levels/Level.h"
+        self.assertEqual(errors_of({HIERARCHY: [internal], internal: []}), [])
+        self.expect("internal to another layer", {PARAMETERIZER: [internal], internal: []})
+        self.expect("internal to another layer", {"CGAL/facade.h": [internal], internal: []})
+
     def test_rejects_facade_below(self):
-        self.expect("of layer 7", {CYCLE: ["CGAL/facade.h"], "CGAL/facade.h": []})
+        self.expect("of layer 8", {CYCLE: ["CGAL/facade.h"], "CGAL/facade.h": []})
 
     def test_rejects_eigen_below_multigrid(self):
         self.expect("Eigen", {HIERARCHY: ["Eigen/Sparse"]})

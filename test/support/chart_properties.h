@@ -59,7 +59,7 @@ inline std::string error_in_disks(const Indexed_triangle_mesh& mesh, const Face_
 inline std::vector<std::uint32_t> random_labels(const std::vector<Triangle_indices>& triangles,
                                                 std::size_t number, Random& random)
 {
-  const CGAL::Surface_mesh_texturing::internal::Triangle_adjacency adjacency(triangles);
+  const CGAL::Indexed_mesh::Triangle_adjacency adjacency(triangles);
   std::vector<std::uint32_t> label(triangles.size(), std::uint32_t(-1)), front;
   for(std::uint32_t i = 0; i < number; ++i) {
     const std::uint32_t t = std::uint32_t(uniform_index(random, triangles.size()));

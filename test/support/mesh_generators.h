@@ -4,7 +4,7 @@
 #ifndef HLSCM_TEST_SUPPORT_MESH_GENERATORS_H
 #define HLSCM_TEST_SUPPORT_MESH_GENERATORS_H
 
-#include <CGAL/Surface_mesh_multiresolution/Indexed_triangle_mesh.h>
+#include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
 #include <CGAL/number_utils.h>
 
 #include <algorithm>
@@ -17,9 +17,9 @@
 
 namespace test_support {
 
-using CGAL::Surface_mesh_multiresolution::Indexed_triangle_mesh;
-using CGAL::Surface_mesh_multiresolution::Triangle_indices;
-using CGAL::Surface_mesh_multiresolution::Vertex_index;
+using CGAL::Indexed_mesh::Indexed_triangle_mesh;
+using CGAL::Indexed_mesh::Triangle_indices;
+using CGAL::Indexed_mesh::Vertex_index;
 typedef Indexed_triangle_mesh::Point_3 Point_3;
 
 // Random numbers that are the same everywhere: the standard's distributions are not.

@@ -9,7 +9,7 @@
 #include <support/mesh_generators.h>
 
 #include <CGAL/Surface_mesh_multiresolution/Textured_progressive_mesh.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/Vertex_rings.h>
+#include <CGAL/Indexed_mesh/Vertex_rings.h>
 
 #include <algorithm>
 #include <vector>
@@ -18,7 +18,7 @@ namespace test_support {
 
 using CGAL::Surface_mesh_multiresolution::Progressive_mesh;
 using CGAL::Surface_mesh_multiresolution::Textured_progressive_mesh;
-using CGAL::Surface_mesh_multiresolution::internal::Vertex_rings;
+using CGAL::Indexed_mesh::Vertex_rings;
 
 // Random halfedge collapses as long as topology allows any; geometry is ignored.
 inline Progressive_mesh random_collapses(const Indexed_triangle_mesh& mesh,

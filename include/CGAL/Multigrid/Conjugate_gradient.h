@@ -40,7 +40,7 @@ Iteration_report minimize_energy(const Hermitian_matrix<Real>& h, Complex_vector
   const std::size_t n = x.size();
   Complex_vector<Real> r, p, q, z;
   for(Complex_vector<Real>* vector : {&r, &p, &q, &z})
-    Blocked_execution::internal::resize_blocked(*vector, n);
+    Blocked_execution::resize_blocked(*vector, n);
   h.for_each_row_sum(x, [&](std::size_t i, Complex s) { r[i] = -(h.diagonal()[i] * x[i] + s); });
   Iteration_control control(stop, energy);
   double curvature = 0.;

@@ -4,7 +4,7 @@
 #ifndef CGAL_MULTIGRID_HERMITIAN_MATRIX_H
 #define CGAL_MULTIGRID_HERMITIAN_MATRIX_H
 
-#include <CGAL/Blocked_execution/internal/Uninitialized_vector.h>
+#include <CGAL/Blocked_execution/memory.h>
 #include <CGAL/Multigrid/vector_operations.h>
 
 #include <algorithm>
@@ -128,7 +128,7 @@ public:
 private:
   std::shared_ptr<const Sliced_pattern> m_pattern;
   std::vector<Real> m_diagonal, m_im;
-  Blocked_execution::internal::Uninitialized_vector<Real> m_re;
+  Blocked_execution::Uninitialized_vector<Real> m_re;
 };
 
 namespace internal {

@@ -7,7 +7,7 @@
 #include <CGAL/Multigrid/Hermitian_matrix.h>
 
 #include <CGAL/Blocked_execution/blocked_for.h>
-#include <CGAL/Blocked_execution/internal/Uninitialized_vector.h>
+#include <CGAL/Blocked_execution/memory.h>
 
 #include <algorithm>
 #include <array>
@@ -196,7 +196,7 @@ Hermitian_matrix<Real> Matrix_builder::build(const std::vector<std::uint32_t>& r
   const std::size_t slices = pattern->slice_begin.size() - 1;
   const std::size_t size = pattern->slice_begin[slices] * rows;
   pattern->imaginary.assign(slices, Sliced_pattern::none);
-  Blocked_execution::internal::resize_blocked(pattern->column, size);
+  Blocked_execution::resize_blocked(pattern->column, size);
   Hermitian_matrix<Real> matrix;
   matrix.m_re.resize(size);
   if(slices > 0) // its last slots may have no row

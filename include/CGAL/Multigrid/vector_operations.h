@@ -5,7 +5,7 @@
 #define CGAL_MULTIGRID_VECTOR_OPERATIONS_H
 
 #include <CGAL/Blocked_execution/blocked_for.h>
-#include <CGAL/Blocked_execution/internal/Uninitialized_vector.h>
+#include <CGAL/Blocked_execution/memory.h>
 
 #include <algorithm>
 #include <cmath>
@@ -72,7 +72,7 @@ void for_each_index(std::size_t n, const Body& body)
 template <class Real>
 void set_zero(std::size_t n, Complex_vector<Real>& x)
 {
-  Blocked_execution::internal::resize_blocked(x, n);
+  Blocked_execution::resize_blocked(x, n);
   for_each_index(n, [&x](std::size_t i) { x[i] = 0; });
 }
 

@@ -5,11 +5,10 @@
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_FLAT_COLLAPSE_ENGINE_H
 
 #include <CGAL/Blocked_execution/blocked_for.h>
-#include <CGAL/Surface_mesh_multiresolution/Flat_collapse_options.h>
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_policies.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/Batched_collapses.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/Strict_collapses.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/decimation/Batched_collapses.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/decimation/Strict_collapses.h>
 
 #include <algorithm>
 #include <utility>
@@ -48,7 +47,7 @@ public:
   /// the engine.
   ///
   /// \param is_locked for each vertex whether it must stay; empty for none
-  Flat_collapse_engine(const Indexed_triangle_mesh& mesh, internal::Vertex_rings rings,
+  Flat_collapse_engine(const Indexed_triangle_mesh& mesh, Indexed_mesh::Vertex_rings rings,
                        const std::vector<bool>& is_locked,
                        const Cost& cost = hierarchy_collapse_cost(),
                        const Filter& filter = hierarchy_collapse_filter(),
@@ -78,7 +77,7 @@ Flat_collapse_engine<Cost, Filter, Texture>::run(const Flat_collapse_options& op
   const std::vector<Triangle_indices>& triangles = m_surface.mesh.triangles;
   Progressive_mesh pm;
   pm.number_of_vertices = m_surface.number_of_vertices();
-  Blocked_execution::internal::resize_blocked(pm.triangles, triangles.size());
+  Blocked_execution::resize_blocked(pm.triangles, triangles.size());
   Blocked_execution::blocked_for(triangles.size(), 16384, [&](std::size_t begin, std::size_t end) {
     std::copy(triangles.begin() + begin, triangles.begin() + end, pm.triangles.begin() + begin);
   });

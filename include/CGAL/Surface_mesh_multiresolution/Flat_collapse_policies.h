@@ -11,8 +11,31 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Triangle_shape_cost.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Volume_and_border_area_cost.h>
 
+#include <cstddef>
+#include <functional>
+
 namespace CGAL {
 namespace Surface_mesh_multiresolution {
+
+/// \ingroup PkgHLSCMMultiresolution
+/// The order in which the flat engine takes the collapses.
+enum class Collapse_order
+{
+  BATCHED, ///< passes over the cheapest part in memory order: as good for a hierarchy, faster
+  STRICT   ///< always the cheapest collapse of all (Ray and Lévy 2003, algorithm 2)
+};
+
+/// \ingroup PkgHLSCMMultiresolution
+/// The options of `Flat_collapse_engine`.
+struct Flat_collapse_options
+{
+  std::size_t target_vertices = 2000; ///< where to stop
+  Collapse_order order = Collapse_order::BATCHED; ///< which collapse comes next
+  /// The part of the vertices, the cheapest, that a pass of the batched order may remove.
+  double pass_fraction = 0.7;
+  /// Told the part done in [0, 1] from time to time; returning false stops early.
+  std::function<bool(double)> progress;
+};
 
 /// \ingroup PkgHLSCMMultiresolution
 /// The cost that makes hierarchies for conformal maps: volume and border area, accumulated over

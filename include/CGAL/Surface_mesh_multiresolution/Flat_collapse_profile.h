@@ -4,8 +4,8 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_FLAT_COLLAPSE_PROFILE_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_FLAT_COLLAPSE_PROFILE_H
 
-#include <CGAL/Surface_mesh_multiresolution/internal/Vertex_rings.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Halfedge_collapse.h>
+#include <CGAL/Indexed_mesh/Vertex_rings.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Measured_collapse.h>
 
 #include <CGAL/property_map.h>
 
@@ -66,7 +66,7 @@ public:
   /// Constructs a view of nothing.
   Flat_surface() {}
   /// Constructs a view of a mesh and its connectivity, which must live as long as the view.
-  Flat_surface(const Indexed_triangle_mesh& mesh, const internal::Vertex_rings& rings)
+  Flat_surface(const Indexed_triangle_mesh& mesh, const Indexed_mesh::Vertex_rings& rings)
     : m_mesh(&mesh), m_rings(&rings) {}
 
   /// Returns the range of all vertices, the removed ones among them.
@@ -79,11 +79,11 @@ public:
   const std::vector<Indexed_triangle_mesh::Point_3>& points() const { return m_mesh->points; }
 
   /// Returns the current connectivity.
-  const internal::Vertex_rings& rings() const { return *m_rings; }
+  const Indexed_mesh::Vertex_rings& rings() const { return *m_rings; }
 
 private:
   const Indexed_triangle_mesh* m_mesh = nullptr;
-  const internal::Vertex_rings* m_rings = nullptr;
+  const Indexed_mesh::Vertex_rings* m_rings = nullptr;
 };
 
 /*!
@@ -119,7 +119,7 @@ public:
   typedef std::vector<Triangle> Triangle_vector;                   ///< triangles
   typedef std::vector<vertex_descriptor> vertex_descriptor_vector; ///< vertices
   /// The measures of a collapse that the policies of this package use.
-  typedef Surface_mesh_simplification::internal::Halfedge_collapse Collapse;
+  typedef Surface_mesh_simplification::Measured_collapse Collapse;
 
   /// An optional point that is either that of the kept vertex or none: policies may take it as it
   /// is, or as the optional type of CGAL's own policies.
@@ -137,9 +137,9 @@ public:
     /// Returns the point.
     const Point* operator->() const { return m_point; }
     /// Returns the same as CGAL's policies have it.
-    operator Surface_mesh_simplification::internal::Optional<Point>() const
+    operator Surface_mesh_simplification::Optional_of_policies<Point>() const
     {
-      typedef Surface_mesh_simplification::internal::Optional<Point> Optional;
+      typedef Surface_mesh_simplification::Optional_of_policies<Point> Optional;
       return m_point == nullptr ? Optional() : Optional(*m_point);
     }
 
@@ -225,7 +225,7 @@ private:
 inline void Flat_collapse_profile::append_star(Vertex_index center, Vertex_index other,
                                                Triangle_vector& result) const
 {
-  const internal::Vertex_rings& rings = m_surface.rings();
+  const Indexed_mesh::Vertex_rings& rings = m_surface.rings();
   const Vertex_index* r = rings.ring(center);
   const std::uint32_t d = rings.degree(center);
   const std::uint32_t count = rings.is_border(center) ? d - 1 : d;
@@ -251,7 +251,7 @@ inline Flat_collapse_profile::Triangle_vector Flat_collapse_profile::triangles()
 inline Flat_collapse_profile::vertex_descriptor_vector Flat_collapse_profile::link() const
 {
   vertex_descriptor_vector result;
-  const internal::Vertex_rings& rings = m_surface.rings();
+  const Indexed_mesh::Vertex_rings& rings = m_surface.rings();
   for(const Vertex_index center : {m_removed, m_kept})
     for(std::uint32_t i = 0; i < rings.degree(center); ++i) {
       const Vertex_index w = rings.ring(center)[i];

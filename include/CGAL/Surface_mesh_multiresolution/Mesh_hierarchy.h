@@ -5,11 +5,11 @@
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_MESH_HIERARCHY_H
 
 #include <CGAL/Blocked_execution/blocked_for.h>
-#include <CGAL/Blocked_execution/internal/select.h>
+#include <CGAL/Blocked_execution/sort_and_select.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
+#include <CGAL/Surface_mesh_multiresolution/Progressive_mesh_cursor.h>
 #include <CGAL/Surface_mesh_multiresolution/Prolongation.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/nearest_triangle.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/vsplit_stencils.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/levels/nearest_triangle.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +18,49 @@
 
 namespace CGAL {
 namespace Surface_mesh_multiresolution {
+namespace internal {
+
+// For each vertex that the collapses [first, last) remove from `fine` the weights of the nearest
+// of the triangles that fill its place right after its collapse. The last collapse comes first, as
+// in the vertex splits, so that all sources are known when a stencil is applied.
+inline std::vector<Prolongation::Stencil>
+vsplit_stencils(const Indexed_triangle_mesh& fine, const Progressive_mesh& pm, std::size_t first,
+                std::size_t last, const std::vector<Vertex_index>& index_in_fine)
+{
+  Progressive_mesh part;
+  part.number_of_vertices = fine.points.size();
+  part.triangles = fine.triangles;
+  for(std::size_t i = first; i < last; ++i)
+    part.collapses.push_back({index_in_fine[pm.collapses[i].removed],
+                              index_in_fine[pm.collapses[i].kept]});
+  Progressive_mesh_cursor cursor(part);
+  std::vector<Prolongation::Stencil> result;
+  result.reserve(last - first);
+  while(cursor.position() < part.collapses.size()) {
+    const Vertex_index v = part.collapses[cursor.position()].removed;
+    cursor.collapse();
+    Nearest_point best;
+    Triangle_indices best_triangle = {0, 0, 0};
+    for(const std::uint32_t t : cursor.last_changed_triangles()) {
+      const Triangle_indices& triangle = cursor.triangles()[t];
+      const Nearest_point candidate
+        = nearest_in_triangle(fine.points, triangle, fine.points[v]);
+      if(candidate.squared_distance < best.squared_distance) {
+        best = candidate;
+        best_triangle = triangle;
+      }
+    }
+    if(cursor.last_changed_triangles().empty()) { // the only triangle at v is gone
+      const Vertex_index kept = part.collapses[cursor.position() - 1].kept;
+      best_triangle = {kept, kept, kept};
+    }
+    result.push_back({v, best_triangle, best.weight});
+  }
+  std::reverse(result.begin(), result.end());
+  return result;
+}
+
+} // namespace internal
 
 /// \ingroup PkgHLSCMMultiresolution
 /// How the vertices that a coarse level does not have get their values.
@@ -132,7 +175,7 @@ surviving_triangles(const std::vector<Triangle_indices>& triangles,
     Blocked_execution::number_of_blocks(triangles.size(), block_of_level));
   Blocked_execution::blocked_for(triangles.size(), block_of_level,
                                  [&](std::size_t begin, std::size_t end) {
-    Blocked_execution::internal::Uninitialized_vector<Triangle_indices> part(end - begin);
+    Blocked_execution::Uninitialized_vector<Triangle_indices> part(end - begin);
     std::size_t count = 0;
     for(std::size_t i = begin; i < end; ++i) {
       const Triangle_indices& t = triangles[i];
@@ -143,7 +186,7 @@ surviving_triangles(const std::vector<Triangle_indices>& triangles,
     }
     parts[begin / block_of_level].assign(part.begin(), part.begin() + count);
   });
-  return Blocked_execution::internal::joined(parts);
+  return Blocked_execution::joined(parts);
 }
 
 // The level of the vertices `kept` of `fine`, which are the ancestors of all.
@@ -193,7 +236,7 @@ inline std::vector<Mesh_level> build_hierarchy(Indexed_triangle_mesh mesh,
     Mesh_level& fine = levels.back();
     const std::vector<Vertex_index> ancestor
       = internal::ancestors(fine.vertices.size(), pm, cuts[c - 1], cuts[c], index);
-    std::vector<Vertex_index> kept = Blocked_execution::internal::select(
+    std::vector<Vertex_index> kept = Blocked_execution::select(
       ancestor.size(), [&ancestor](Vertex_index v) { return ancestor[v] == v; });
     Mesh_level coarse = internal::coarsen(fine, ancestor, kept);
     internal::Located_stencils located;

@@ -5,8 +5,8 @@
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_PROGRESSIVE_MESH_DECODER_H
 
 #include <CGAL/Surface_mesh_multiresolution/Textured_progressive_mesh.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/Section_decoder.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/progressive_mesh_format.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/file/Section_decoder.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/file/progressive_mesh_format.h>
 
 #include <algorithm>
 #include <string>

@@ -5,7 +5,7 @@
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_PROGRESSIVE_MESH_FILE_H
 
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh_decoder.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/Progressive_mesh_encoder.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/file/Progressive_mesh_encoder.h>
 
 #include <array>
 #include <istream>

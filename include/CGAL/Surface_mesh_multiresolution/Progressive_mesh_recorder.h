@@ -5,7 +5,7 @@
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_PROGRESSIVE_MESH_RECORDER_H
 
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/mesh_arrays.h>
+#include <CGAL/Indexed_mesh/mesh_arrays.h>
 
 #include <CGAL/Surface_mesh_simplification/Edge_collapse_visitor_base.h>
 
@@ -197,7 +197,7 @@ Progressive_mesh_recorder(const TriangleMesh& mesh, const std::vector<bool>& is_
 {
   State& state = *m_state;
   state.number = get(Number_tag(), mesh);
-  const std::size_t n = internal::number_vertices(mesh, state.number);
+  const std::size_t n = Indexed_mesh::number_vertices(mesh, state.number);
   CGAL_precondition(is_locked.empty() || is_locked.size() == n);
   state.is_locked = is_locked.empty() ? std::vector<bool>(n, false) : is_locked;
   state.is_border.assign(n, false);
@@ -205,7 +205,7 @@ Progressive_mesh_recorder(const TriangleMesh& mesh, const std::vector<bool>& is_
     if(CGAL::is_border(h, mesh))
       state.is_border[get(state.number, target(h, mesh))] = true;
   state.pm.number_of_vertices = n;
-  state.pm.triangles = internal::copy_triangles(mesh, state.number);
+  state.pm.triangles = Indexed_mesh::copy_triangles(mesh, state.number);
 }
 
 template <class TriangleMesh, class Cost>

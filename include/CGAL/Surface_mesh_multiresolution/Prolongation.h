@@ -5,8 +5,8 @@
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_PROLONGATION_H
 
 #include <CGAL/Blocked_execution/blocked_for.h>
-#include <CGAL/Blocked_execution/internal/sort_by_key.h>
-#include <CGAL/Surface_mesh_multiresolution/Indexed_triangle_mesh.h>
+#include <CGAL/Blocked_execution/sort_and_select.h>
+#include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
 
 #include <algorithm>
 #include <array>
@@ -91,8 +91,8 @@ private:
   std::vector<Stencil> m_stencils;
   // If all sources are kept vertices: for each coarse vertex the fine ones that it is a source of.
   bool m_is_direct = false;
-  Blocked_execution::internal::Uninitialized_vector<std::uint32_t> m_begin;
-  Blocked_execution::internal::Uninitialized_vector<Term> m_terms;
+  Blocked_execution::Uninitialized_vector<std::uint32_t> m_begin;
+  Blocked_execution::Uninitialized_vector<Term> m_terms;
 };
 
 inline Prolongation::Prolongation(std::vector<Vertex_index> kept, std::vector<Stencil> stencils)
@@ -103,7 +103,7 @@ inline Prolongation::Prolongation(std::vector<Vertex_index> kept, std::vector<St
 
 inline void Prolongation::transpose()
 {
-  const std::vector<Vertex_index> rank = internal::ranks(m_kept, number_of_fine_vertices());
+  const std::vector<Vertex_index> rank = Indexed_mesh::ranks(m_kept, number_of_fine_vertices());
   std::atomic<bool> is_direct(true);
   Blocked_execution::blocked_for(m_stencils.size(), block_size,
                                  [&](std::size_t begin, std::size_t end) {
@@ -120,7 +120,7 @@ inline void Prolongation::transpose()
       for(int c = 0; c < 3; ++c)
         use(rank[s.source[c]], Term{s.vertex, s.weight[c]});
   };
-  m_begin = Blocked_execution::internal::sort_by_key(
+  m_begin = Blocked_execution::sort_by_key(
     m_kept.size(), for_each_term, [this](std::size_t count) { m_terms.resize(count); },
     [this](std::uint32_t i, const Term& term) { m_terms[i] = term; });
 }

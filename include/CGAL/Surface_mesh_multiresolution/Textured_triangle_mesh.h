@@ -4,8 +4,8 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_TEXTURED_TRIANGLE_MESH_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_TEXTURED_TRIANGLE_MESH_H
 
-#include <CGAL/Surface_mesh_multiresolution/Indexed_triangle_mesh.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/Triangles_at_vertices.h>
+#include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
+#include <CGAL/Indexed_mesh/Triangles_at_vertices.h>
 
 #include <algorithm>
 #include <cmath>

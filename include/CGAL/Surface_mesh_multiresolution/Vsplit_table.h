@@ -5,7 +5,7 @@
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_VSPLIT_TABLE_H
 
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/prefetch.h>
+#include <CGAL/Blocked_execution/memory.h>
 
 #include <CGAL/Iterator_range.h>
 
@@ -123,12 +123,12 @@ public:
     constexpr std::size_t distance = 16; // about the latency of the memory
     if(i + distance >= pm.collapses.size())
       return;
-    internal::prefetch(&m_first[pm.collapses[i + distance].removed]);
-    internal::prefetch(&m_last[pm.collapses[i + distance].kept]);
+    Blocked_execution::prefetch(&m_first[pm.collapses[i + distance].removed]);
+    Blocked_execution::prefetch(&m_last[pm.collapses[i + distance].kept]);
     const Corner corner = m_first[pm.collapses[i + distance / 2].removed];
     if(corner != none) {
-      internal::prefetch(&m_next[corner]);
-      internal::prefetch(&triangles[corner / 3]);
+      Blocked_execution::prefetch(&m_next[corner]);
+      Blocked_execution::prefetch(&triangles[corner / 3]);
     }
   }
 

@@ -5,8 +5,8 @@
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_BUILD_PROGRESSIVE_MESH_H
 
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/mesh_arrays.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/point_error.h>
+#include <CGAL/Indexed_mesh/mesh_arrays.h>
+#include <CGAL/Indexed_mesh/mesh_error.h>
 
 #include <CGAL/boost/graph/helpers.h>
 
@@ -47,20 +47,6 @@ struct Progressive_surface
 };
 
 namespace internal {
-
-// What keeps a mesh from being decimated; empty if nothing does. `source` has for each vertex of
-// the rings its number in the input.
-inline std::string ring_error(const Vertex_rings& rings, const std::vector<Vertex_index>& source)
-{
-  if(rings.defect() == Ring_defect::NONE)
-    return {};
-  const std::string vertex = "vertex " + std::to_string(source[rings.defective_vertex()]);
-  if(rings.defect() == Ring_defect::ISOLATED)
-    return vertex + " has no face; remove it first";
-  if(rings.defect() == Ring_defect::REPEATED_HALFEDGE)
-    return vertex + " has two edges to the same vertex; repair the mesh first";
-  return "the faces at " + vertex + " do not form one fan; split the vertex first";
-}
 
 // The arrays of a mesh without its collapses, or what is wrong with it.
 template <class TriangleMesh>

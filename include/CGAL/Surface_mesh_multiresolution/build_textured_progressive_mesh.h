@@ -8,8 +8,8 @@
 #include <CGAL/Surface_mesh_multiresolution/Textured_progressive_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/build_progressive_mesh.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/Texture_layer.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/replay_collapses.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/textured/Texture_layer.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/textured/replay_collapses.h>
 
 #include <algorithm>
 #include <cmath>
@@ -198,7 +198,7 @@ build_textured_progressive_mesh(const Progressive_mesh& pm,
   fine.progressive_mesh.triangles = pm.triangles;
   fine.vertex.resize(points.size());
   std::iota(fine.vertex.begin(), fine.vertex.end(), Vertex_index(0));
-  result.error = internal::point_error(points);
+  result.error = Indexed_mesh::point_error(points);
   for(std::size_t v = 0; v < uv.size() && result.error.empty(); ++v)
     if(!std::isfinite(uv[v].x()) || !std::isfinite(uv[v].y()))
       result.error = "vertex " + std::to_string(v)

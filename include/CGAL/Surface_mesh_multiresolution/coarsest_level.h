@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_COARSEST_LEVEL_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_COARSEST_LEVEL_H
 
-#include <CGAL/Surface_mesh_multiresolution/internal/triangle_numbers.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/levels/triangle_numbers.h>
 #include <CGAL/Surface_mesh_multiresolution/texture_deviation.h>
 
 #include <CGAL/assertions.h>

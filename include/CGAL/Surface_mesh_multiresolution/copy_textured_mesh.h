@@ -6,7 +6,7 @@
 
 #include <CGAL/Surface_mesh_multiresolution/Textured_progressive_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/mesh_arrays.h>
+#include <CGAL/Indexed_mesh/mesh_arrays.h>
 
 #include <CGAL/boost/graph/Euler_operations.h>
 
@@ -38,9 +38,9 @@ Textured_triangle_mesh textured_triangle_mesh(const TriangleMesh& mesh, const Co
 {
   Textured_triangle_mesh result;
   const auto position = get(dynamic_vertex_property_t<Vertex_index>(), mesh);
-  internal::number_vertices(mesh, position);
-  result.points = internal::copy_points(mesh);
-  result.triangles = internal::copy_triangles(mesh, position);
+  Indexed_mesh::number_vertices(mesh, position);
+  result.points = Indexed_mesh::copy_points(mesh);
+  result.triangles = Indexed_mesh::copy_triangles(mesh, position);
   for(const auto f : faces(mesh)) {
     auto h = halfedge(f, mesh);
     Triangle_indices wedges;

@@ -4,10 +4,9 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_TEXTURE_DEVIATION_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_TEXTURE_DEVIATION_H
 
-#include <CGAL/Surface_mesh_multiresolution/Wedge_mesh.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/Deviation_meter.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/Level_start.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/Nearest_start.h>
+#include <CGAL/Surface_mesh_multiresolution/Level_extractor.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/deviation/Deviation_meter.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/deviation/walk_starts.h>
 
 #include <CGAL/assertions.h>
 

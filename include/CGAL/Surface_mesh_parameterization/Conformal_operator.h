@@ -5,9 +5,9 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_CONFORMAL_OPERATOR_H
 
 #include <CGAL/Multigrid/Matrix_builder.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/Triangles_at_vertices.h>
-#include <CGAL/Surface_mesh_parameterization/internal/Half_cotangents.h>
-#include <CGAL/Surface_mesh_parameterization/internal/conformal_rows.h>
+#include <CGAL/Indexed_mesh/Triangles_at_vertices.h>
+#include <CGAL/Surface_mesh_parameterization/internal/solver/Half_cotangents.h>
+#include <CGAL/Surface_mesh_parameterization/internal/solver/conformal_rows.h>
 
 #include <algorithm>
 #include <complex>
@@ -62,8 +62,8 @@ namespace internal {
 template <class Real>
 Conformal_operator<Real>
 assemble_conformal_operator(
-  const std::vector<Surface_mesh_multiresolution::Triangle_indices>& triangles,
-  const Surface_mesh_multiresolution::internal::Triangles_at_vertices& at,
+  const std::vector<Indexed_mesh::Triangle_indices>& triangles,
+  const Indexed_mesh::Triangles_at_vertices& at,
   const Half_cotangents& cot, const std::vector<double>& triangle_weights)
 {
   Conformal_operator<Real> result;
@@ -101,11 +101,11 @@ Linear time; 36 bytes a triangle of temporary memory.
 */
 template <class Real>
 Conformal_operator<Real>
-conformal_operator(const Surface_mesh_multiresolution::Indexed_triangle_mesh& mesh,
+conformal_operator(const Indexed_mesh::Indexed_triangle_mesh& mesh,
                    const std::vector<bool>& is_pinned,
                    const std::vector<double>& triangle_weights = std::vector<double>())
 {
-  const Surface_mesh_multiresolution::internal::Triangles_at_vertices at(mesh.triangles,
+  const Indexed_mesh::Triangles_at_vertices at(mesh.triangles,
                                                                          mesh.points.size());
   auto result = internal::assemble_conformal_operator<Real>(
     mesh.triangles, at, internal::Half_cotangents(mesh), triangle_weights);

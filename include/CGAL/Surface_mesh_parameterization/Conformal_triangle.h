@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_CONFORMAL_TRIANGLE_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_CONFORMAL_TRIANGLE_H
 
-#include <CGAL/Surface_mesh_multiresolution/Indexed_triangle_mesh.h>
+#include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
 
 #include <algorithm>
 #include <array>
@@ -13,6 +13,14 @@
 
 namespace CGAL {
 namespace Surface_mesh_parameterization {
+
+/// \ingroup PkgHLSCMParameterizer
+/// Which energy is minimised.
+enum class Conformal_weights
+{
+  EXACT,    ///< the conformal energy, which does not depend on the resolution of the mesh
+  CGAL_LSCM ///< that of `LSCM_parameterizer_3`: each triangle times eight times its area
+};
 
 /*!
 \ingroup PkgHLSCMEnergy
@@ -39,7 +47,7 @@ class Conformal_triangle
 public:
   typedef std::complex<double> Complex; ///< a value, or a vector in the plane of the triangle
   /// The point type.
-  typedef Surface_mesh_multiresolution::Indexed_triangle_mesh::Point_3 Point_3;
+  typedef Indexed_mesh::Indexed_triangle_mesh::Point_3 Point_3;
 
   /// By how much the edges of a triangle without area are longer, in mean edges.
   static constexpr double mollification = 1e-6;

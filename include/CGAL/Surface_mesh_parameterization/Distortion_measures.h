@@ -5,8 +5,7 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_DISTORTION_MEASURES_H
 
 #include <CGAL/Surface_mesh_parameterization/Conformal_triangle.h>
-#include <CGAL/Surface_mesh_parameterization/internal/overlap.h>
-#include <CGAL/Surface_mesh_parameterization/internal/uv_triangles.h>
+#include <CGAL/Surface_mesh_parameterization/self_overlap.h>
 
 #include <CGAL/boost/graph/properties.h>
 
@@ -207,13 +206,13 @@ Linear time: two passes over the faces, and 8 bytes a face.
 template <class TriangleMesh, class VertexUVMap>
 Distortion_measures measure_distortion(const TriangleMesh& mesh, VertexUVMap uvmap)
 {
-  const internal::Uv_view<TriangleMesh, VertexUVMap> view(mesh, uvmap);
+  const Uv_view<TriangleMesh, VertexUVMap> view(mesh, uvmap);
   const double mean_edge = internal::mean_edge_length(mesh);
   internal::Distortion_summary summary;
   for(const auto f : faces(mesh)) {
-    const internal::Uv_triangle uv = view.triangle(f);
+    const Uv_triangle uv = view.triangle(f);
     summary.add(internal::conformal_triangle(mesh, f, mean_edge), uv,
-                internal::orientation_of(uv));
+                orientation_of(uv));
   }
   return summary.result();
 }
@@ -232,9 +231,9 @@ template <class TriangleMesh, class VertexUVMap, class FaceOutputIterator>
 FaceOutputIterator flipped_faces(const TriangleMesh& mesh, VertexUVMap uvmap,
                                  FaceOutputIterator out)
 {
-  const internal::Uv_view<TriangleMesh, VertexUVMap> view(mesh, uvmap);
+  const Uv_view<TriangleMesh, VertexUVMap> view(mesh, uvmap);
   for(const auto f : faces(mesh))
-    if(internal::orientation_of(view.triangle(f)) == RIGHT_TURN)
+    if(orientation_of(view.triangle(f)) == RIGHT_TURN)
       *out++ = f;
   return out;
 }
@@ -256,8 +255,8 @@ itself, several charts, degenerate faces) the images of all faces are compared, 
 template <class TriangleMesh, class VertexUVMap>
 bool has_global_overlap(const TriangleMesh& mesh, VertexUVMap uvmap)
 {
-  return internal::has_global_overlap(
-    internal::Uv_view<TriangleMesh, VertexUVMap>(mesh, uvmap));
+  return has_global_overlap(
+    Uv_view<TriangleMesh, VertexUVMap>(mesh, uvmap));
 }
 
 } // namespace Surface_mesh_parameterization

@@ -4,13 +4,40 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_FLIP_REPAIR_OPTIONS_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_FLIP_REPAIR_OPTIONS_H
 
-#include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
+#include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
+#include <CGAL/Surface_mesh_parameterization/Conformal_triangle.h>
 
+#include <complex>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <utility>
+#include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_parameterization {
+
+/// \ingroup PkgHLSCMMeasures
+/// What `repair_flipped_faces()` did. Flips are counted by an exact predicate.
+struct Flip_repair_report
+{
+  std::size_t flipped_before = 0;    ///< faces with negative area in the plane
+  std::size_t degenerate_before = 0; ///< faces without area in the plane
+  std::size_t flipped_after = 0;     ///< faces with negative area after the repair
+  std::size_t degenerate_after = 0;  ///< faces without area after the repair
+  std::size_t patches = 0;           ///< patches that were mended
+  std::size_t moved_vertices = 0;    ///< vertices that have another parameter than before
+  /// Vertices around which the faces wind more than once since then: where the map did so around a
+  /// patch already, nothing else can be had without flips.
+  std::size_t branch_vertices = 0;
+  double energy_before = 0.;         ///< conformal energy before, with the weights of the options
+  double energy_after = 0.;          ///< and after the repair
+  bool stopped_early = false;        ///< whether it was stopped before all patches were tried
+  double seconds = 0.;               ///< time of the repair
+  /// The faces that are still flipped or degenerate, by their positions in `faces(mesh)`,
+  /// ascending.
+  std::vector<std::size_t> unmended_faces;
+};
 
 /// \ingroup PkgHLSCMMeasures
 /// The options of `repair_flipped_faces()`.
@@ -32,6 +59,28 @@ struct Flip_repair_options
   /// patches; returning `false` stops: what is mended by then stays so.
   std::function<bool(double)> progress;
 };
+
+/// \ingroup PkgHLSCMMeasures
+/// A map of triangles as arrays, for a function that moves its vertices.
+struct Map_to_repair
+{
+  /// Returns the shape of a face on the surface, and the weight of its energy.
+  typedef std::function<std::pair<Conformal_triangle, double>(std::uint32_t)> Shape_of_face;
+
+  /// The faces, by indices of vertices.
+  const std::vector<Indexed_mesh::Triangle_indices>& faces;
+  const std::vector<bool>& is_fixed;    ///< the vertices that must not move
+  Shape_of_face shape_of_face;          ///< the surface
+  std::vector<std::complex<double>>& z; ///< the parameter \f$ u + iv \f$ of each vertex
+};
+
+/// \ingroup PkgHLSCMMeasures
+/// Moves vertices of a map so that fewer faces are flipped. `progress(part)` is told from time to
+/// time the part that is done, in [0, 1]; if it returns `false`, the map stays as it is then. Of the
+/// energies in the report only their difference counts.
+typedef std::function<Flip_repair_report(Map_to_repair& map,
+                                         const std::function<bool(double)>& progress)>
+  Flip_repair_function;
 
 } // namespace Surface_mesh_parameterization
 } // namespace CGAL

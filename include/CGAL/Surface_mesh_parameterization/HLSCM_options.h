@@ -6,7 +6,7 @@
 
 #include <CGAL/Multigrid/Schedule.h>
 #include <CGAL/Surface_mesh_multiresolution/Mesh_hierarchy.h>
-#include <CGAL/Surface_mesh_parameterization/Map_to_repair.h>
+#include <CGAL/Surface_mesh_parameterization/Flip_repair_options.h>
 
 #include <array>
 #include <complex>
@@ -27,14 +27,6 @@ enum class Conformal_method
   CASCADIC, ///< the cascade of Ray and Lévy 2003: a few steps on each level; no tolerance is met
   LSCM,     ///< conjugate gradients on the fine mesh alone (monogrid)
   DIRECT    ///< sparse Cholesky factorization of the whole system
-};
-
-/// \ingroup PkgHLSCMParameterizer
-/// Which energy is minimised.
-enum class Conformal_weights
-{
-  EXACT,    ///< the conformal energy, which does not depend on the resolution of the mesh
-  CGAL_LSCM ///< that of `LSCM_parameterizer_3`: each triangle times eight times its area
 };
 
 /// \ingroup PkgHLSCMParameterizer

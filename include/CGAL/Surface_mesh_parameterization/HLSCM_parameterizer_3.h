@@ -8,10 +8,10 @@
 #include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
 #include <CGAL/Surface_mesh_parameterization/Solver_traits_cholesky.h>
-#include <CGAL/Surface_mesh_parameterization/internal/Conformal_solver.h>
-#include <CGAL/Surface_mesh_parameterization/internal/Progress.h>
-#include <CGAL/Surface_mesh_parameterization/internal/check_options.h>
-#include <CGAL/Surface_mesh_parameterization/internal/mapped_faces.h>
+#include <CGAL/Surface_mesh_parameterization/internal/solver/Conformal_solver.h>
+#include <CGAL/Blocked_execution/Progress.h>
+#include <CGAL/Surface_mesh_parameterization/internal/solver/check_options.h>
+#include <CGAL/Surface_mesh_parameterization/internal/repair/mapped_faces.h>
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Default.h>
@@ -196,7 +196,7 @@ HLSCM_parameterizer_3<TM, BP, ST, CT>::user_pins(const TriangleMesh& mesh, inter
         found = position;
       ++position;
     }
-    if(found >= rank.size() || rank[found] == Surface_mesh_multiresolution::no_vertex) {
+    if(found >= rank.size() || rank[found] == Indexed_mesh::no_vertex) {
       chart.fail(ERROR_WRONG_PARAMETER, "the pinned vertex " + std::to_string(found)
                  + " does not belong to the chart; pin vertices of the chart");
       return pins;
@@ -236,7 +236,7 @@ choose_pins(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvmap
     std::size_t position = 0;
     for(const vertex_descriptor v : vertices(mesh)) {
       const auto r = rank[position++];
-      if(r == Surface_mesh_multiresolution::no_vertex || !get(vpmap, v))
+      if(r == Indexed_mesh::no_vertex || !get(vpmap, v))
         continue;
       const Point_2 uv = get(uvmap, v);
       pins.push_back({r, {to_double(uv.x()), to_double(uv.y())}});
@@ -265,7 +265,7 @@ parameterize(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvma
   *m_progressive_mesh = Chart_progressive_mesh();
   m_report->method = internal::name_of(m_options.method);
   const Blocked_execution::Thread_scope threads(is_parallel ? m_options.threads : 1);
-  internal::Stopwatch watch;
+  Blocked_execution::Stopwatch watch;
   internal::Chart chart;
   internal::check_options(m_options, chart);
   if(bhd == boost::graph_traits<TriangleMesh>::null_halfedge() || !is_border(bhd, mesh))
@@ -294,7 +294,7 @@ parameterize(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvma
     options.progress = [this](double part) {
       return m_options.progress((1. - internal::part_of_repair) * part);
     };
-  const internal::Stopwatch since_begin;
+  const Blocked_execution::Stopwatch since_begin;
   internal::Conformal_solver<Coarsest_solver> solver(chart, pins, options, *m_report);
   auto z = solver.run();
   if(chart.error != OK || m_report->cancelled)
@@ -313,7 +313,7 @@ parameterize(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvma
   std::size_t position = 0;
   for(vertex_descriptor v : vertices(mesh)) {
     const auto r = rank[position++];
-    if(r == Surface_mesh_multiresolution::no_vertex)
+    if(r == Indexed_mesh::no_vertex)
       continue;
     typedef typename Kernel::FT FT;
     put(uvmap, v, Point_2(FT(z[r].real()), FT(z[r].imag())));

@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_HLSCM_REPORT_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_HLSCM_REPORT_H
 
-#include <CGAL/Surface_mesh_parameterization/Flip_repair_report.h>
+#include <CGAL/Surface_mesh_parameterization/Flip_repair_options.h>
 
 #include <cstddef>
 #include <optional>

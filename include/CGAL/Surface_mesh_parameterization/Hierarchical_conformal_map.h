@@ -4,11 +4,11 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_HIERARCHICAL_CONFORMAL_MAP_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_HIERARCHICAL_CONFORMAL_MAP_H
 
-#include <CGAL/Surface_mesh_multiresolution/internal/Triangles_at_vertices.h>
+#include <CGAL/Indexed_mesh/Triangles_at_vertices.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
 #include <CGAL/Surface_mesh_parameterization/Solver_traits_cholesky.h>
-#include <CGAL/Surface_mesh_parameterization/internal/Live_map.h>
+#include <CGAL/Surface_mesh_parameterization/internal/live/Live_map.h>
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Default.h>
@@ -175,7 +175,7 @@ private:
 
   bool is_in_chart(vertex_descriptor v) const
   {
-    return get(m_index, v) != Surface_mesh_multiresolution::no_vertex;
+    return get(m_index, v) != Indexed_mesh::no_vertex;
   }
 
   const Triangle_mesh* m_mesh;
@@ -231,7 +231,7 @@ Error_code Hierarchical_conformal_map<TM, ST, CT>::set_face_weights(FaceWeightMa
   if(m_map->is_broken())
     return error();
   const auto& triangles = m_map->triangles();
-  const Surface_mesh_multiresolution::internal::Triangles_at_vertices at(
+  const Indexed_mesh::Triangles_at_vertices at(
     triangles, m_map->chart().source.size());
   std::vector<double> result(triangles.size(), 1.);
   std::size_t position = 0;

@@ -5,8 +5,7 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_MAP_CERTIFICATE_H
 
 #include <CGAL/Surface_mesh_parameterization/Distortion_measures.h>
-#include <CGAL/Surface_mesh_parameterization/internal/overlap.h>
-#include <CGAL/Surface_mesh_parameterization/internal/uv_triangles.h>
+#include <CGAL/Surface_mesh_parameterization/self_overlap.h>
 
 #include <CGAL/Box_intersection_d/Box_with_info_d.h>
 #include <CGAL/box_intersection_d.h>
@@ -51,9 +50,9 @@ template <class TriangleMesh, class VertexUVMap, class FaceOutputIterator>
 FaceOutputIterator degenerate_faces(const TriangleMesh& mesh, VertexUVMap uvmap,
                                     FaceOutputIterator out)
 {
-  const internal::Uv_view<TriangleMesh, VertexUVMap> view(mesh, uvmap);
+  const Uv_view<TriangleMesh, VertexUVMap> view(mesh, uvmap);
   for(const auto f : faces(mesh))
-    if(internal::orientation_of(view.triangle(f)) == COLLINEAR)
+    if(orientation_of(view.triangle(f)) == COLLINEAR)
       *out++ = f;
   return out;
 }
@@ -133,7 +132,7 @@ PairOutputIterator overlapping_faces(const TriangleMesh& mesh, VertexUVMap uvmap
 {
   typedef typename boost::graph_traits<TriangleMesh>::face_descriptor face_descriptor;
   const std::vector<face_descriptor> all(faces(mesh).begin(), faces(mesh).end());
-  const internal::Uv_view<TriangleMesh, VertexUVMap> view(mesh, uvmap);
+  const Uv_view<TriangleMesh, VertexUVMap> view(mesh, uvmap);
   for(const auto& [a, b] : internal::overlapping_pairs(view))
     *out++ = std::pair<face_descriptor, face_descriptor>(all[a], all[b]);
   return out;
@@ -158,14 +157,14 @@ of the borders meet.
 template <class TriangleMesh, class VertexUVMap>
 Map_certificate certify_map(const TriangleMesh& mesh, VertexUVMap uvmap)
 {
-  const internal::Uv_view<TriangleMesh, VertexUVMap> view(mesh, uvmap);
+  const Uv_view<TriangleMesh, VertexUVMap> view(mesh, uvmap);
   Map_certificate certificate;
   for(const auto f : faces(mesh)) {
-    const Orientation sign = internal::orientation_of(view.triangle(f));
+    const Orientation sign = orientation_of(view.triangle(f));
     certificate.flipped_faces += sign == RIGHT_TURN ? 1 : 0;
     certificate.degenerate_faces += sign == COLLINEAR ? 1 : 0;
   }
-  certificate.overlaps = internal::has_global_overlap(view);
+  certificate.overlaps = has_global_overlap(view);
   return certificate;
 }
 

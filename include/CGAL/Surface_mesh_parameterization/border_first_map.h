@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_BORDER_FIRST_MAP_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_BORDER_FIRST_MAP_H
 
-#include <CGAL/Surface_mesh_parameterization/internal/Border_first_flattening.h>
+#include <CGAL/Surface_mesh_parameterization/internal/border_first/Border_first_flattening.h>
 
 #include <string>
 #include <utility>
@@ -42,7 +42,7 @@ keeps its turning angles instead of its lengths (mixed conditions: section 4 of 
 The map may have flipped triangles, and its border may meet itself still. Bad data (coordinates that are
 not finite, no disk) give a result with `error` set.
 */
-inline Border_first_map border_first_map(Surface_mesh_multiresolution::Indexed_triangle_mesh mesh)
+inline Border_first_map border_first_map(Indexed_mesh::Indexed_triangle_mesh mesh)
 {
   Border_first_map result;
   const std::size_t n = mesh.points.size();

@@ -38,14 +38,14 @@ build_textured_progressive_mesh(
   = Surface_mesh_multiresolution::Textured_progressive_mesh_options())
 {
   namespace SMM = Surface_mesh_multiresolution;
-  const auto rank = SMM::internal::ranks(chart.vertices, num_vertices(mesh));
+  const auto rank = Indexed_mesh::ranks(chart.vertices, num_vertices(mesh));
   std::vector<SMM::Textured_triangle_mesh::Point_3> points(chart.vertices.size());
   std::vector<SMM::Textured_triangle_mesh::Point_2> uv(chart.vertices.size());
   const auto vpm = get(CGAL::vertex_point, mesh);
   std::size_t position = 0;
   for(const auto v : vertices(mesh)) {
-    const SMM::Vertex_index r = rank[position++];
-    if(r == SMM::no_vertex)
+    const CGAL::Indexed_mesh::Vertex_index r = rank[position++];
+    if(r == CGAL::Indexed_mesh::no_vertex)
       continue;
     const auto& p = get(vpm, v);
     const auto& q = get(uvmap, v);
@@ -56,7 +56,7 @@ build_textured_progressive_mesh(
   SMM::Textured_progressive_mesh_result result
     = SMM::build_textured_progressive_mesh(chart.progressive_mesh, std::move(points),
                                            std::move(uv), options);
-  for(SMM::Vertex_index& v : result.mesh.source_vertex)
+  for(CGAL::Indexed_mesh::Vertex_index& v : result.mesh.source_vertex)
     v = chart.vertices[v];
   return result;
 }

@@ -7,9 +7,9 @@
 #include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
 #include <CGAL/Surface_mesh_parameterization/Solver_traits_cholesky.h>
-#include <CGAL/Surface_mesh_parameterization/internal/Conformal_solver.h>
-#include <CGAL/Surface_mesh_parameterization/internal/check_options.h>
-#include <CGAL/Surface_mesh_parameterization/internal/pins.h>
+#include <CGAL/Surface_mesh_parameterization/internal/solver/Conformal_solver.h>
+#include <CGAL/Surface_mesh_parameterization/internal/solver/check_options.h>
+#include <CGAL/Surface_mesh_parameterization/internal/solver/pins.h>
 
 #include <CGAL/Default.h>
 
@@ -40,7 +40,7 @@ threads are those of the caller's `Blocked_execution::Thread_scope`.
 Time and memory as for `HLSCM_parameterizer_3`; meshes of less than about 10,000 triangles are best
 mapped with `Conformal_method::DIRECT`.
 */
-inline Conformal_map conformal_map(Surface_mesh_multiresolution::Indexed_triangle_mesh mesh,
+inline Conformal_map conformal_map(Indexed_mesh::Indexed_triangle_mesh mesh,
                                    const HLSCM_options& options = HLSCM_options())
 {
   Conformal_map result;

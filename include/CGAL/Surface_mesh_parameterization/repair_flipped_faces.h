@@ -5,10 +5,9 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_REPAIR_FLIPPED_FACES_H
 
 #include <CGAL/Surface_mesh_parameterization/Flip_repair_options.h>
-#include <CGAL/Surface_mesh_parameterization/Flip_repair_report.h>
-#include <CGAL/Surface_mesh_parameterization/internal/Flip_repair.h>
-#include <CGAL/Surface_mesh_parameterization/internal/Progress.h>
-#include <CGAL/Surface_mesh_parameterization/internal/mapped_faces.h>
+#include <CGAL/Surface_mesh_parameterization/internal/repair/Flip_repair.h>
+#include <CGAL/Blocked_execution/Progress.h>
+#include <CGAL/Surface_mesh_parameterization/internal/repair/mapped_faces.h>
 
 #include <CGAL/boost/graph/properties.h>
 
@@ -38,7 +37,7 @@ inline double energy_of_map(const Map_to_repair& map, const std::vector<std::com
 // Repairs the map and fills the report, with the energies before and after.
 inline Flip_repair_report repair_map(Map_to_repair& map, const Flip_repair_options& options)
 {
-  const Stopwatch watch;
+  const Blocked_execution::Stopwatch watch;
   const std::vector<std::complex<double>> before = map.z;
   Flip_repair_report report = Flip_repair(map).run(options);
   report.energy_before = energy_of_map(map, before);
@@ -158,7 +157,7 @@ Flip_repair_report repair_flipped_faces(const TriangleMesh& mesh, VertexUVMap uv
 The same for a mesh that is two arrays, with the parameter `uv[v]` of each vertex.
 */
 inline Flip_repair_report
-repair_flipped_faces(const Surface_mesh_multiresolution::Indexed_triangle_mesh& mesh,
+repair_flipped_faces(const Indexed_mesh::Indexed_triangle_mesh& mesh,
                      std::vector<Simple_cartesian<double>::Point_2>& uv,
                      const std::vector<bool>& is_pinned,
                      const Flip_repair_options& options = Flip_repair_options())
@@ -180,7 +179,7 @@ repair_flipped_faces(const Surface_mesh_multiresolution::Indexed_triangle_mesh& 
 /// \ingroup PkgHLSCMMeasures
 /// The same without pins.
 inline Flip_repair_report
-repair_flipped_faces(const Surface_mesh_multiresolution::Indexed_triangle_mesh& mesh,
+repair_flipped_faces(const Indexed_mesh::Indexed_triangle_mesh& mesh,
                      std::vector<Simple_cartesian<double>::Point_2>& uv,
                      const Flip_repair_options& options = Flip_repair_options())
 {

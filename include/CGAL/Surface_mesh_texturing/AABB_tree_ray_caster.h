@@ -4,9 +4,9 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_AABB_TREE_RAY_CASTER_H
 #define CGAL_SURFACE_MESH_TEXTURING_AABB_TREE_RAY_CASTER_H
 
-#include <CGAL/Surface_mesh_multiresolution/internal/aabb_tree.h>
+#include <CGAL/Indexed_mesh/aabb_tree.h>
 #include <CGAL/Surface_mesh_texturing/Along_rays.h>
-#include <CGAL/Surface_mesh_texturing/internal/ray_triangle.h>
+#include <CGAL/Surface_mesh_texturing/internal/baking/ray_triangle.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
@@ -84,7 +84,7 @@ private:
     Id m_id = 0;
   };
 
-  typedef Surface_mesh_multiresolution::internal::Aabb_tree<Kernel, Primitive> Tree;
+  typedef Indexed_mesh::Aabb_tree<Kernel, Primitive> Tree;
 
   const std::vector<Point_3>& m_points;
   const std::vector<Triangle_indices>& m_triangles;

@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_CHART_DISTORTION_H
 #define CGAL_SURFACE_MESH_TEXTURING_CHART_DISTORTION_H
 
-#include <CGAL/Surface_mesh_multiresolution/Indexed_triangle_mesh.h>
+#include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
 
 #include <CGAL/assertions.h>
 
@@ -77,7 +77,7 @@ Measures the map `uv` of the vertices of `mesh`. Triangles without area on the s
 Time \f$ O(n \log n) \f$.
 */
 inline Chart_distortion
-measure_chart_distortion(const Surface_mesh_multiresolution::Indexed_triangle_mesh& mesh,
+measure_chart_distortion(const Indexed_mesh::Indexed_triangle_mesh& mesh,
                          const std::vector<Simple_cartesian<double>::Point_2>& uv)
 {
   CGAL_precondition(uv.size() == mesh.points.size());

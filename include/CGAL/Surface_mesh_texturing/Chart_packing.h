@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_CHART_PACKING_H
 #define CGAL_SURFACE_MESH_TEXTURING_CHART_PACKING_H
 
-#include <CGAL/Surface_mesh_multiresolution/Indexed_triangle_mesh.h>
+#include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
 
 #include <cmath>
 #include <cstddef>
@@ -32,7 +32,7 @@ struct Chart_shape
   typedef Simple_cartesian<double>::Point_2 Point_2;
 
   std::vector<Point_2> uv;                                                ///< of each vertex
-  std::vector<Surface_mesh_multiresolution::Triangle_indices> triangles;  ///< of the chart
+  std::vector<Indexed_mesh::Triangle_indices> triangles;  ///< of the chart
 };
 
 /*!

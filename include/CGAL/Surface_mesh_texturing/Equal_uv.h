@@ -4,17 +4,125 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_EQUAL_UV_H
 #define CGAL_SURFACE_MESH_TEXTURING_EQUAL_UV_H
 
+#include <CGAL/Surface_mesh_texturing/Face_charts.h>
+#include <CGAL/Surface_mesh_texturing/Surface_point.h>
 #include <CGAL/Surface_mesh_texturing/bake.h>
-#include <CGAL/Surface_mesh_texturing/internal/Chart_partners.h>
-#include <CGAL/Surface_mesh_texturing/internal/Nearest_covered.h>
-#include <CGAL/Surface_mesh_texturing/internal/Uv_rasterizer.h>
+#include <CGAL/Surface_mesh_texturing/internal/baking/Nearest_covered.h>
+#include <CGAL/Surface_mesh_texturing/internal/baking/Uv_rasterizer.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_texturing {
+namespace internal {
+
+// The chart of each triangle of a textured mesh: triangles that share a vertex with the same
+// texture coordinate lie in the same one. That needs no adjacency, and joins charts that touch in a
+// point.
+class Uv_charts
+{
+public:
+  // Linear time for bounded degrees.
+  explicit Uv_charts(const Textured_triangle_mesh& mesh) : m_chart(mesh.triangles.size())
+  {
+    Disjoint_sets sets(mesh.uv.size());
+    std::vector<bool> is_listed(mesh.uv.size(), false);
+    // Lists of the wedges at each vertex
+    std::vector<Vertex_index> first(mesh.points.size(), no_vertex), next(mesh.uv.size());
+    for(std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      for(int c = 0; c < 3; ++c) {
+        const Vertex_index v = mesh.triangles[t][c], w = mesh.wedges[t][c];
+        sets.join(w, mesh.wedges[t][0]);
+        if(is_listed[w])
+          continue;
+        is_listed[w] = true;
+        for(Vertex_index other = first[v]; other != no_vertex; other = next[other])
+          if(mesh.uv[other] == mesh.uv[w])
+            sets.join(w, other);
+        next[w] = first[v];
+        first[v] = w;
+      }
+    std::vector<std::uint32_t> number(mesh.uv.size(), no_chart);
+    for(std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      std::uint32_t& chart = number[sets.find(mesh.wedges[t][0])];
+      if(chart == no_chart)
+        chart = m_size++;
+      m_chart[t] = chart;
+    }
+  }
+
+  static constexpr std::uint32_t no_chart = std::uint32_t(-1);
+
+  std::uint32_t size() const { return m_size; }
+  std::uint32_t operator[](std::uint32_t triangle) const { return m_chart[triangle]; }
+
+private:
+  std::vector<std::uint32_t> m_chart;
+  std::uint32_t m_size = 0;
+};
+
+// Which chart of a fine mesh is that of a light model's triangle, for two meshes in one atlas: most
+// of the chart of the light model, by the area of its triangles, has its triangles' centres there.
+class Chart_partners
+{
+public:
+  // triangle_at(u, v) is the fine mesh's triangle there, if any.
+  template <class TriangleAt>
+  Chart_partners(const Textured_triangle_mesh& fine, const Textured_triangle_mesh& light,
+                 const TriangleAt& triangle_at)
+    : m_fine(fine)
+  {
+    if(m_fine.size() <= 1) // whatever is found is right
+      return;
+    const Uv_charts charts(light);
+    typedef std::pair<std::uint32_t, std::uint32_t> Pair; // light, fine
+    std::vector<std::pair<Pair, double>> areas;
+    for(std::uint32_t t = 0; t < light.triangles.size(); ++t) {
+      const auto &p = light.uv[light.wedges[t][0]], &q = light.uv[light.wedges[t][1]],
+                 &r = light.uv[light.wedges[t][2]];
+      const std::uint32_t f
+        = triangle_at((p.x() + q.x() + r.x()) / 3., (p.y() + q.y() + r.y()) / 3.);
+      if(f != no_triangle)
+        areas.push_back({{charts[t], m_fine[f]},
+                         std::abs((q.x() - p.x()) * (r.y() - p.y())
+                                  - (q.y() - p.y()) * (r.x() - p.x()))});
+    }
+    std::sort(areas.begin(), areas.end());
+    std::vector<std::uint32_t> partner(charts.size(), Uv_charts::no_chart);
+    std::vector<double> largest(charts.size(), -1.);
+    for(auto a = areas.begin(); a != areas.end();) {
+      const Pair pair = a->first;
+      double sum = 0.;
+      for(; a != areas.end() && a->first == pair; ++a)
+        sum += a->second;
+      if(sum > largest[pair.first]) {
+        largest[pair.first] = sum;
+        partner[pair.first] = pair.second;
+      }
+    }
+    m_partner.resize(light.triangles.size());
+    for(std::uint32_t t = 0; t < m_partner.size(); ++t)
+      m_partner[t] = partner[charts[t]];
+  }
+
+  // Whether a fine triangle lies in the chart that belongs to that of a light one, or none does.
+  bool match(std::uint32_t fine_triangle, std::uint32_t light_triangle) const
+  {
+    return m_partner.empty() || m_partner[light_triangle] == Uv_charts::no_chart
+        || m_partner[light_triangle] == m_fine[fine_triangle];
+  }
+
+private:
+  Uv_charts m_fine;
+  std::vector<std::uint32_t> m_partner; // of each light triangle; empty if the fine mesh has one
+};
+
+} // namespace internal
 
 /*!
 \ingroup PkgHLSCMTexturing

@@ -4,8 +4,8 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_FACE_CHARTS_H
 #define CGAL_SURFACE_MESH_TEXTURING_FACE_CHARTS_H
 
-#include <CGAL/Surface_mesh_multiresolution/Indexed_triangle_mesh.h>
-#include <CGAL/Surface_mesh_texturing/internal/Triangle_adjacency.h>
+#include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
+#include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 
 #include <CGAL/assertions.h>
 
@@ -17,10 +17,6 @@
 namespace CGAL {
 namespace Surface_mesh_texturing {
 
-using Surface_mesh_multiresolution::Indexed_triangle_mesh;
-using Surface_mesh_multiresolution::Triangle_indices;
-using Surface_mesh_multiresolution::Vertex_index;
-using Surface_mesh_multiresolution::no_vertex;
 
 /*!
 \ingroup PkgHLSCMTexturing
@@ -119,7 +115,7 @@ inline Face_charts charts_between(const std::vector<Triangle_indices>& triangles
                                   std::vector<std::uint8_t> seams)
 {
   CGAL_precondition(seams.size() == triangles.size());
-  return internal::label_charts(internal::Triangle_adjacency(triangles), std::move(seams));
+  return internal::label_charts(Indexed_mesh::Triangle_adjacency(triangles), std::move(seams));
 }
 
 /// \ingroup PkgHLSCMTexturing
@@ -128,7 +124,7 @@ inline Face_charts charts_of_labels(const std::vector<Triangle_indices>& triangl
                                     const std::vector<std::uint32_t>& label)
 {
   CGAL_precondition(label.size() == triangles.size());
-  const internal::Triangle_adjacency adjacency(triangles);
+  const Indexed_mesh::Triangle_adjacency adjacency(triangles);
   std::vector<std::uint8_t> seams(triangles.size(), 0);
   for(std::uint32_t t = 0; t < triangles.size(); ++t)
     for(int c = 0; c < 3; ++c) {

@@ -4,14 +4,141 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_HORIZON_PACKER_H
 #define CGAL_SURFACE_MESH_TEXTURING_HORIZON_PACKER_H
 
-#include <CGAL/Surface_mesh_texturing/internal/Horizon_packing.h>
+#include <CGAL/Surface_mesh_texturing/internal/packing/Density_search.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_texturing {
+namespace internal {
+
+// A chart seen from below and from above.
+struct Chart_profile
+{
+  int height = 0;               // in cells; 0 if the chart is larger than a page
+  std::vector<int> lower;       // of each column, the first cell
+  std::vector<int> upper;       // of each column, one more than the last cell; 0 if there is none
+  Vector_2d centre = {};        // of the chart, from the lower left corner
+  double angle = 0.;
+};
+
+// The profile of a chart whose smallest rectangle stands upright.
+inline Chart_profile chart_profile(const Chart_outline& outline, double density,
+                                   const Packing_raster& raster)
+{
+  Chart_profile result;
+  result.angle = outline.angle + 0.5 * CGAL_PI;
+  const Rasterized_chart chart
+    = rasterize(outline, result.angle, density / raster.cell, raster.width, raster.height);
+  result.height = chart.mask.height();
+  result.centre = chart.centre;
+  result.lower.assign(chart.mask.width(), result.height);
+  result.upper.assign(chart.mask.width(), 0);
+  for(const Cell_run& run : chart.mask.runs())
+    for(int x = run.begin; x < run.end; ++x) {
+      result.lower[x] = (std::min)(result.lower[x], run.y);
+      result.upper[x] = run.y + 1;
+    }
+  return result;
+}
+
+// A page on which charts are laid from above: for each column the first cell above all of them and
+// the padding.
+class Horizon
+{
+public:
+  Horizon(int width, int height) : m_top(width, 0), m_height(height) {}
+
+  // Finds the place where the fewest cells between the horizon and the chart are lost, the leftmost
+  // one of several.
+  bool find(const Chart_profile& chart, int& best_x, int& best_y) const
+  {
+    const int w = int(chart.lower.size()), none = -1;
+    std::int64_t least = (std::numeric_limits<std::int64_t>::max)();
+    best_x = none;
+    for(int x = 0; x + w <= int(m_top.size()); ++x) {
+      int y = 0;
+      for(int i = 0; i < w; ++i)
+        y = (std::max)(y, m_top[x + i] - chart.lower[i]);
+      if(y + chart.height > m_height)
+        continue;
+      std::int64_t lost = 0;
+      for(int i = 0; i < w; ++i)
+        lost += y + chart.lower[i] - m_top[x + i];
+      if(lost < least) {
+        least = lost;
+        best_x = x;
+        best_y = y;
+      }
+    }
+    return best_x != none;
+  }
+
+  void lay(const Chart_profile& chart, int x, int y, int padding)
+  {
+    const int w = int(chart.upper.size());
+    for(int i = 0; i < w; ++i) {
+      const int begin = (std::max)(0, x + i - padding);
+      const int end = (std::min)(int(m_top.size()), x + i + padding + 1);
+      for(int j = begin; j < end && chart.upper[i] > 0; ++j)
+        m_top[j] = (std::max)(m_top[j], y + chart.upper[i] + padding);
+    }
+  }
+
+private:
+  std::vector<int> m_top;
+  int m_height;
+};
+
+// The packing of charts at one density, on as many pages as allowed. Returns no
+// placements but an error if a chart does not fit.
+inline Packing_result horizon_packing(const std::vector<Chart_outline>& outlines, double unit,
+                                      double density, const Packing_raster& raster,
+                                      const Packing_options& options)
+{
+  std::vector<Chart_profile> profiles;
+  for(const Chart_outline& outline : outlines)
+    profiles.push_back(chart_profile(outline, density, raster));
+  std::vector<std::uint32_t> order(outlines.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return profiles[a].height > profiles[b].height;
+  });
+  std::vector<Horizon> pages;
+  Packing_result result;
+  result.texels_per_unit = density / unit;
+  std::vector<Chart_placement> placements(outlines.size());
+  for(const std::uint32_t chart : order) {
+    const Chart_profile& profile = profiles[chart];
+    int x = 0, y = 0;
+    std::size_t page = 0;
+    for(;; ++page) {
+      if(profile.height == 0 || (options.max_pages != 0 && page == options.max_pages)) {
+        result.error = misfit_message(chart, profile.height == 0, options);
+        return result;
+      }
+      if(page == pages.size())
+        pages.emplace_back(raster.width, raster.height);
+      if(pages[page].find(profile, x, y))
+        break;
+    }
+    pages[page].lay(profile, x, y, raster.padding);
+    placements[chart]
+      = chart_placement(outlines[chart], raster, std::uint32_t(page), profile.angle,
+                        result.texels_per_unit, {x + profile.centre[0], y + profile.centre[1]});
+  }
+  result.pages = pages.size();
+  result.placements = std::move(placements);
+  return result;
+}
+
+} // namespace internal
 
 /*!
 \ingroup PkgHLSCMTexturing

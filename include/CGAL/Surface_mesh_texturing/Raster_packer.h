@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_RASTER_PACKER_H
 #define CGAL_SURFACE_MESH_TEXTURING_RASTER_PACKER_H
 
-#include <CGAL/Surface_mesh_texturing/internal/Raster_packing_search.h>
+#include <CGAL/Surface_mesh_texturing/internal/packing/Raster_packing_search.h>
 
 #include <string>
 #include <vector>

@@ -14,11 +14,7 @@
 namespace CGAL {
 namespace Surface_mesh_texturing {
 
-using Surface_mesh_multiresolution::Indexed_triangle_mesh;
 using Surface_mesh_multiresolution::Textured_triangle_mesh;
-using Surface_mesh_multiresolution::Triangle_indices;
-using Surface_mesh_multiresolution::Vertex_index;
-using Surface_mesh_multiresolution::no_vertex;
 
 /// \ingroup PkgHLSCMTexturing
 /// A vector in space.

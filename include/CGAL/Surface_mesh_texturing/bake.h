@@ -7,9 +7,9 @@
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_texturing/Baking_options.h>
 #include <CGAL/Surface_mesh_texturing/Surface_point.h>
-#include <CGAL/Surface_mesh_texturing/internal/Nearest_covered.h>
-#include <CGAL/Surface_mesh_texturing/internal/Uv_rasterizer.h>
-#include <CGAL/Surface_mesh_texturing/internal/baking_errors.h>
+#include <CGAL/Surface_mesh_texturing/internal/baking/Nearest_covered.h>
+#include <CGAL/Surface_mesh_texturing/internal/baking/Uv_rasterizer.h>
+#include <CGAL/Surface_mesh_texturing/internal/baking/baking_errors.h>
 
 #include <algorithm>
 #include <cstdint>

@@ -6,7 +6,7 @@
 
 #include <CGAL/Surface_mesh_texturing/Equal_uv.h>
 #include <CGAL/Surface_mesh_texturing/bake.h>
-#include <CGAL/Surface_mesh_texturing/sample_image.h>
+#include <CGAL/Surface_mesh_texturing/Texture_image.h>
 
 #include <CGAL/assertions.h>
 

@@ -5,12 +5,12 @@
 #define CGAL_SURFACE_MESH_TEXTURING_BUILD_TEXTURE_ATLAS_H
 
 #include <CGAL/Surface_mesh_multiresolution/build_progressive_mesh.h>
-#include <CGAL/Surface_mesh_parameterization/internal/Progress.h>
+#include <CGAL/Blocked_execution/Progress.h>
 #include <CGAL/Surface_mesh_texturing/Horizon_packer.h>
 #include <CGAL/Surface_mesh_texturing/Texture_atlas.h>
 #include <CGAL/Surface_mesh_texturing/Texture_atlas_options.h>
 #include <CGAL/Surface_mesh_texturing/Texture_atlas_report.h>
-#include <CGAL/Surface_mesh_texturing/internal/map_charts.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/map_charts.h>
 #include <CGAL/Surface_mesh_texturing/pack_charts.h>
 
 #include <CGAL/assertions.h>
@@ -45,7 +45,7 @@ inline std::string surface_error(const Indexed_triangle_mesh& mesh)
   std::vector<Vertex_index> source(mesh.points.size());
   for(Vertex_index v = 0; v < source.size(); ++v)
     source[v] = v;
-  return SMM::internal::ring_error(SMM::internal::Vertex_rings(mesh), source);
+  return Indexed_mesh::ring_error(Indexed_mesh::Vertex_rings(mesh), source);
 }
 
 // The length of the seams between triangles, each once.
@@ -107,17 +107,17 @@ inline void measure_atlas(const Texture_atlas& atlas, Texture_atlas_report& repo
   double area = 0.;
   for(std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     std::array<SMP::Conformal_triangle::Point_3, 3> corner;
-    SMP::internal::Uv_triangle uv;
+    SMP::Uv_triangle uv;
     for(int c = 0; c < 3; ++c) {
       const auto d = mesh.points[mesh.triangles[t][c]] - mesh.points[mesh.triangles[t][0]];
       corner[c] = CGAL::ORIGIN + report.texels_per_unit * d;
       const Point_2& p = mesh.uv[mesh.wedges[t][c]];
-      uv[c] = SMP::internal::Uv_point(p.x() * width, p.y() * height);
+      uv[c] = SMP::Uv_point(p.x() * width, p.y() * height);
     }
     area += 0.5 * CGAL::abs((uv[1].x() - uv[0].x()) * (uv[2].y() - uv[0].y())
                             - (uv[1].y() - uv[0].y()) * (uv[2].x() - uv[0].x()));
     summary.add(SMP::Conformal_triangle(corner[0], corner[1], corner[2]), uv,
-                SMP::internal::orientation_of(uv));
+                SMP::orientation_of(uv));
   }
   report.distortion = summary.result();
   report.utilisation = area / (width * height * double(atlas.number_of_pages));
@@ -197,12 +197,12 @@ private:
   std::vector<Mapped_chart> m_maps;
   Packing_result m_packing;
   Texture_atlas_result m_result;
-  Surface_mesh_parameterization::internal::Stopwatch m_watch;
+  Blocked_execution::Stopwatch m_watch;
 };
 
 inline bool Texture_atlas_builder::segment()
 {
-  const Surface_mesh_parameterization::internal::Stopwatch watch;
+  const Blocked_execution::Stopwatch watch;
   if(m_options.charts) {
     m_result.error = surface_error(m_mesh);
     if(m_result.error.empty())
@@ -255,7 +255,7 @@ inline Segmentation_result Texture_atlas_builder::try_charts(const Indexed_trian
 
 inline bool Texture_atlas_builder::map()
 {
-  const Surface_mesh_parameterization::internal::Stopwatch watch;
+  const Blocked_execution::Stopwatch watch;
   const std::size_t most = m_options.charts ? 0 : m_options.max_charts;
   const bool is_full = most > 0 && m_charts.number_of_charts >= most;
   if(!is_full)
@@ -282,7 +282,7 @@ inline void Texture_atlas_builder::map_charts_with(const Texture_atlas_options& 
 
 inline bool Texture_atlas_builder::pack()
 {
-  const Surface_mesh_parameterization::internal::Stopwatch watch;
+  const Blocked_execution::Stopwatch watch;
   std::vector<Chart_shape> shapes;
   for(const Mapped_chart& map : m_maps)
     shapes.push_back({map.uv, map.chart.mesh.triangles});

@@ -84,7 +84,7 @@ inline std::vector<Chart_topology> chart_topologies(const std::vector<Triangle_i
                                                     const Face_charts& charts)
 {
   CGAL_precondition(charts.seams.size() == triangles.size());
-  const internal::Triangle_adjacency adjacency(triangles);
+  const Indexed_mesh::Triangle_adjacency adjacency(triangles);
   const std::vector<std::uint8_t> seams
     = internal::without_lonely_seams(triangles, adjacency, charts.seams);
   const std::vector<std::uint32_t> first = internal::first_corners_of_wedges(triangles, seams);

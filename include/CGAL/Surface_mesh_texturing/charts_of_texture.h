@@ -24,7 +24,7 @@ Linear time.
 */
 inline Face_charts charts_of_texture(const Textured_triangle_mesh& mesh)
 {
-  const internal::Triangle_adjacency adjacency(mesh.triangles);
+  const Indexed_mesh::Triangle_adjacency adjacency(mesh.triangles);
   std::vector<std::uint8_t> seams(mesh.triangles.size(), 0);
   const auto uv = [&mesh](std::uint32_t h) { return mesh.uv[mesh.wedges[h / 3][h % 3]]; };
   const auto next = [](std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; };

@@ -6,7 +6,7 @@
 
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
 #include <CGAL/Surface_mesh_texturing/chart_topology.h>
-#include <CGAL/Surface_mesh_texturing/internal/Disk_cutter.h>
+#include <CGAL/Surface_mesh_texturing/internal/seams/Disk_cutter.h>
 
 #include <CGAL/assertions.h>
 
@@ -44,7 +44,7 @@ inline Face_charts cut_to_disks(const Indexed_triangle_mesh& mesh, Face_charts c
                                 const Disk_cut_options& options = Disk_cut_options())
 {
   CGAL_precondition(charts.seams.size() == mesh.triangles.size());
-  const internal::Triangle_adjacency adjacency(mesh.triangles);
+  const Indexed_mesh::Triangle_adjacency adjacency(mesh.triangles);
   charts.seams
     = internal::without_lonely_seams(mesh.triangles, adjacency, std::move(charts.seams));
   const std::vector<Chart_topology> topologies = chart_topologies(mesh.triangles, charts);

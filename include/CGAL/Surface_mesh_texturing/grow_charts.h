@@ -4,10 +4,10 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_GROW_CHARTS_H
 #define CGAL_SURFACE_MESH_TEXTURING_GROW_CHARTS_H
 
-#include <CGAL/Surface_mesh_multiresolution/internal/point_error.h>
+#include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Surface_mesh_texturing/Chart_distortion.h>
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
-#include <CGAL/Surface_mesh_texturing/internal/Chart_search.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/Chart_search.h>
 
 #include <algorithm>
 #include <cmath>
@@ -70,7 +70,7 @@ inline std::string growth_error(const Indexed_triangle_mesh& mesh,
 {
   if(mesh.triangles.empty())
     return "the mesh has no triangles";
-  const std::string error = Surface_mesh_multiresolution::internal::point_error(mesh.points);
+  const std::string error = Indexed_mesh::point_error(mesh.points);
   if(!error.empty())
     return error;
   if(!(options.bound.area_scale > 1.) || !(options.bound.quasi_conformal > 1.))

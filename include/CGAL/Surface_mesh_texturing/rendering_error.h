@@ -5,8 +5,8 @@
 #define CGAL_SURFACE_MESH_TEXTURING_RENDERING_ERROR_H
 
 #include <CGAL/Surface_mesh_texturing/bake_normal_map.h>
-#include <CGAL/Surface_mesh_texturing/internal/Orthographic_view.h>
-#include <CGAL/Surface_mesh_texturing/sample_image.h>
+#include <CGAL/Surface_mesh_texturing/internal/baking/Orthographic_view.h>
+#include <CGAL/Surface_mesh_texturing/Texture_image.h>
 
 #include <CGAL/assertions.h>
 

@@ -6,9 +6,9 @@
 
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
 #include <CGAL/Surface_mesh_multiresolution/build_progressive_mesh.h>
-#include <CGAL/Surface_mesh_parameterization/internal/Progress.h>
+#include <CGAL/Blocked_execution/Progress.h>
 #include <CGAL/Surface_mesh_texturing/cut_to_disks.h>
-#include <CGAL/Surface_mesh_texturing/internal/Sorted_mesh.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/Sorted_mesh.h>
 #include <CGAL/Surface_mesh_texturing/refine_charts.h>
 
 #include <functional>
@@ -65,7 +65,7 @@ inline std::string error_of_arrays(const Indexed_triangle_mesh& mesh)
     if(v[0] == v[1] || v[1] == v[2] || v[2] == v[0])
       return "triangle " + std::to_string(t) + " has a vertex twice";
   }
-  return Surface_mesh_multiresolution::internal::point_error(mesh.points);
+  return Indexed_mesh::point_error(mesh.points);
 }
 
 // The mesh after the collapses, with the vertices that are left.
@@ -135,8 +135,8 @@ private:
     using namespace Surface_mesh_multiresolution;
     const Indexed_triangle_mesh& mesh = sorted.mesh();
     Progressive_mesh pm = trivial_progressive_mesh(mesh.points.size());
-    Surface_mesh_multiresolution::internal::Vertex_rings rings(mesh);
-    m_result.error = Surface_mesh_multiresolution::internal::ring_error(rings, sorted.source());
+    Indexed_mesh::Vertex_rings rings(mesh);
+    m_result.error = Indexed_mesh::ring_error(rings, sorted.source());
     if(m_result.error.empty() && mesh.triangles.size() > m_options.coarse_faces) {
       Flat_collapse_options flat;
       // A closed mesh of genus 0; others stop at a few triangles more or less
@@ -166,7 +166,7 @@ private:
   const Segmentation_options& m_options;
   const SegmentCoarse& m_segment_coarse;
   Segmentation_result m_result;
-  Surface_mesh_parameterization::internal::Stopwatch m_watch;
+  Blocked_execution::Stopwatch m_watch;
 };
 
 } // namespace internal

@@ -5,7 +5,7 @@
 #define CGAL_SURFACE_MESH_TEXTURING_STRAIGHTEN_CHARTS_H
 
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
-#include <CGAL/Surface_mesh_texturing/internal/Seam_straightener.h>
+#include <CGAL/Surface_mesh_texturing/internal/seams/Seam_straightener.h>
 
 #include <CGAL/assertions.h>
 

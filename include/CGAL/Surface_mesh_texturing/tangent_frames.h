@@ -6,7 +6,7 @@
 
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
 #include <CGAL/Surface_mesh_texturing/Surface_point.h>
-#include <CGAL/Surface_mesh_texturing/internal/corner_tangents.h>
+#include <CGAL/Surface_mesh_texturing/internal/baking/corner_tangents.h>
 
 #include <CGAL/assertions.h>
 

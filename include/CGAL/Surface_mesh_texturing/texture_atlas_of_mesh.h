@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_TEXTURE_ATLAS_OF_MESH_H
 #define CGAL_SURFACE_MESH_TEXTURING_TEXTURE_ATLAS_OF_MESH_H
 
-#include <CGAL/Surface_mesh_multiresolution/internal/mesh_arrays.h>
+#include <CGAL/Indexed_mesh/mesh_arrays.h>
 #include <CGAL/Surface_mesh_texturing/build_texture_atlas.h>
 
 #include <CGAL/boost/graph/helpers.h>
@@ -45,9 +45,9 @@ Texture_atlas_result build_texture_atlas(const TriangleMesh& mesh, HalfedgeUVMap
     return result;
   }
   const auto position = get(dynamic_vertex_property_t<Vertex_index>(), mesh);
-  SMM::internal::number_vertices(mesh, position);
+  Indexed_mesh::number_vertices(mesh, position);
   result = build_texture_atlas(
-    {SMM::internal::copy_points(mesh), SMM::internal::copy_triangles(mesh, position)}, options);
+    {Indexed_mesh::copy_points(mesh), Indexed_mesh::copy_triangles(mesh, position)}, options);
   if(!result.error.empty())
     return result;
   std::size_t t = 0;

@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_ACCUMULATED_COST_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_ACCUMULATED_COST_H
 
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Halfedge_collapse.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Measured_collapse.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Volume_and_border_area_cost.h>
 
 #include <CGAL/Surface_mesh_simplification/Edge_collapse_visitor_base.h>
@@ -41,11 +41,11 @@ public:
 
   /// Returns the cost of the halfedge collapse, or nothing if it is none or not allowed.
   template <class Profile, class OptionalPoint>
-  internal::Optional<typename Profile::FT>
+  Optional_of_policies<typename Profile::FT>
   operator()(const Profile& profile, const OptionalPoint& placement) const
   {
     typedef typename Profile::FT FT;
-    const internal::Optional<FT> base = m_base_cost(profile, placement);
+    const Optional_of_policies<FT> base = m_base_cost(profile, placement);
     if(!base)
       return {};
     const auto removed = internal::removes_v0(profile, placement) ? profile.v0() : profile.v1();

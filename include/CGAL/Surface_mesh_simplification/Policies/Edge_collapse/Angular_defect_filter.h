@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_ANGULAR_DEFECT_FILTER_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_ANGULAR_DEFECT_FILTER_H
 
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Halfedge_collapse.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Measured_collapse.h>
 
 #include <CGAL/number_utils.h>
 
@@ -59,7 +59,7 @@ public:
     const auto& measured = internal::measured(profile, placement);
     if(!m_base_filter(measured, placement))
       return OptionalPoint();
-    const internal::Halfedge_collapse& collapse = measured.collapse();
+    const Measured_collapse& collapse = measured.collapse();
     if(!collapse.is_valid)
       return OptionalPoint();
     if(!collapse.is_border && !(std::abs(float(2. * CGAL_PI) - collapse.angle_sum) < m_bound))

@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_COLLAPSE_SHAPE_FILTER_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_COLLAPSE_SHAPE_FILTER_H
 
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Halfedge_collapse.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Measured_collapse.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Angular_defect_filter.h>
 
 namespace CGAL {
@@ -59,12 +59,12 @@ public:
     const auto& measured = internal::measured(profile, placement);
     if(!m_base_filter(measured, placement))
       return OptionalPoint();
-    const internal::Halfedge_collapse& collapse = measured.collapse();
+    const Measured_collapse& collapse = measured.collapse();
     return is_acceptable(collapse) ? placement : OptionalPoint();
   }
 
 private:
-  bool is_acceptable(const internal::Halfedge_collapse& collapse) const
+  bool is_acceptable(const Measured_collapse& collapse) const
   {
     if(!collapse.is_valid || collapse.measure.min_signed_squared_cosine < m_signed_squared_cosine)
       return false;

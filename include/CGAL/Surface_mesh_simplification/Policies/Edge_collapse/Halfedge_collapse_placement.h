@@ -53,10 +53,10 @@ public:
 
   /// Returns the endpoint to collapse to, or nothing if neither is allowed; `p1` on a tie.
   template <class Profile>
-  internal::Optional<typename Profile::Point> operator()(const Profile& profile) const
+  Optional_of_policies<typename Profile::Point> operator()(const Profile& profile) const
   {
-    typedef internal::Optional<typename Profile::Point> Optional_point;
-    typedef internal::Optional<typename Profile::FT> Optional_cost;
+    typedef Optional_of_policies<typename Profile::Point> Optional_point;
+    typedef Optional_of_policies<typename Profile::FT> Optional_cost;
     const auto cost_of = [&](const Optional_point& placement) {
       const auto& measured = internal::measured(profile, placement);
       return m_filter(measured, placement) ? m_cost(measured, placement) : Optional_cost();

@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_TRIANGLE_SHAPE_COST_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_TRIANGLE_SHAPE_COST_H
 
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Halfedge_collapse.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Measured_collapse.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Volume_and_border_area_cost.h>
 
 #include <CGAL/tags.h>
@@ -33,7 +33,7 @@ class Triangle_shape_cost
 {
 public:
   /// Whether the base cost keeps a state that collapses update.
-  typedef Boolean_tag<internal::Needs_update<BaseCost>::value> Update_tag;
+  typedef Boolean_tag<Needs_update<BaseCost>::value> Update_tag;
 
   /// Constructs the cost with the weight \f$ w \f$.
   explicit Triangle_shape_cost(double weight = 0.3, const BaseCost& base_cost = BaseCost())
@@ -42,15 +42,15 @@ public:
 
   /// Returns the cost of the halfedge collapse, or nothing if it is none or not allowed.
   template <class Profile, class OptionalPoint>
-  internal::Optional<typename Profile::FT>
+  Optional_of_policies<typename Profile::FT>
   operator()(const Profile& profile, const OptionalPoint& placement) const
   {
     typedef typename Profile::FT FT;
     const auto& measured = internal::measured(profile, placement);
-    const internal::Optional<FT> base = m_base_cost(measured, placement);
+    const Optional_of_policies<FT> base = m_base_cost(measured, placement);
     if(!base)
       return {};
-    const internal::Halfedge_collapse& collapse = measured.collapse();
+    const Measured_collapse& collapse = measured.collapse();
     if(!collapse.is_valid)
       return {};
     const float quality = std::sqrt(collapse.measure.min_squared_quality);

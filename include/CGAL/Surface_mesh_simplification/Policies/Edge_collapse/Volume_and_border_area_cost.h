@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_VOLUME_AND_BORDER_AREA_COST_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_VOLUME_AND_BORDER_AREA_COST_H
 
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Halfedge_collapse.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Measured_collapse.h>
 
 #include <cmath>
 
@@ -31,11 +31,11 @@ class Volume_and_border_area_cost
 public:
   /// Returns the cost of the halfedge collapse, or nothing if it is none or not allowed.
   template <class Profile, class OptionalPoint>
-  internal::Optional<typename Profile::FT>
+  Optional_of_policies<typename Profile::FT>
   operator()(const Profile& profile, const OptionalPoint& placement) const
   {
     const auto& measured = internal::measured(profile, placement);
-    const internal::Halfedge_collapse& collapse = measured.collapse();
+    const Measured_collapse& collapse = measured.collapse();
     if(!collapse.is_valid)
       return {};
     const float cost = internal::fast_cbrt(collapse.measure.volume)

@@ -1,8 +1,8 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_SMS_INTERNAL_VERTEX_STAR_H
-#define CGAL_SMS_INTERNAL_VERTEX_STAR_H
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_VERTEX_STAR_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_VERTEX_STAR_H
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Float_lanes.h>
 
@@ -233,4 +233,4 @@ inline void Vertex_star::measure_targets(int at)
 } // namespace Surface_mesh_simplification
 } // namespace CGAL
 
-#endif // CGAL_SMS_INTERNAL_VERTEX_STAR_H
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_VERTEX_STAR_H

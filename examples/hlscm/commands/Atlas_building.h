@@ -1,0 +1,28 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef HLSCM_PROGRAM_ATLAS_BUILDING_H
+#define HLSCM_PROGRAM_ATLAS_BUILDING_H
+
+#include "common/Polygon_soup.h"
+#include "common/Program_options.h"
+#include "common/Progress_bar.h"
+
+#include <CGAL/Surface_mesh_texturing/Texture_atlas.h>
+#include <CGAL/Surface_mesh_texturing/Texture_atlas_report.h>
+
+namespace hlscm {
+
+struct Built_atlas
+{
+  CGAL::Surface_mesh_texturing::Texture_atlas atlas;
+  CGAL::Surface_mesh_texturing::Texture_atlas_report report;
+};
+
+/// Builds the atlas of a surface as the options want it; throws `Program_error`.
+Built_atlas build_atlas(const Polygon_soup& surface, const Program_options& options,
+                        Progress_bar& progress);
+
+} // namespace hlscm
+
+#endif // HLSCM_PROGRAM_ATLAS_BUILDING_H

@@ -1,0 +1,130 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "commands/Option_parts.h"
+
+#include <optional>
+
+namespace hlscm {
+
+namespace SMP = CGAL::Surface_mesh_parameterization;
+namespace SMT = CGAL::Surface_mesh_texturing;
+
+namespace {
+
+constexpr std::size_t largest_texture = 32768, many = 1000000000;
+
+void add_atlas_options(CLI::App& app, Program_options& o)
+{
+  Atlas_settings& atlas = o.atlas;
+  app.add_option("-o,--output", o.output, "a folder for the files")->required()->type_name("DIR");
+  add_count(app, "--texture", std::size_t(16), largest_texture, atlas.texture,
+            "texels of a side of the texture (default 1024)");
+  add_count(app, "--padding", std::size_t(0), std::size_t(1024), atlas.padding,
+            "texels around each chart that belong to no other one (default 2)");
+  add_count(app, "--mip-levels", 0u, 14u, atlas.mip_levels,
+            "smaller copies of the texture in which charts are still apart (default 0)");
+  add_number(app, "--max-area-scale", 1, 1e9, atlas.bound.area_scale,
+             "the most that areas in a chart may be scaled to others, on 98 % of it (default 4)");
+  add_number(app, "--max-quasi-conformal", 1, 1e9, atlas.bound.quasi_conformal,
+             "the most that lengths at a point may be scaled to others there, on 99 % of a chart "
+             "(default 2)");
+  add_count(app, "--max-charts", std::size_t(1), many, atlas.max_charts,
+            "as many charts at most, even if they are distorted more");
+  app.add_option("--charts", atlas.charts,
+                 "the charts: a file with a whole number a line for each face, or uv for those of "
+                 "the texture coordinates of IN")
+      ->type_name("FILE|uv");
+  app.add_flag("--one-disk", atlas.is_one_disk,
+               "one chart for each part of the surface, cut to a disk where it is none");
+  add_count(app, "--pages", std::size_t(1), std::size_t(1000), atlas.pages,
+            "textures at most (default 1)");
+  add_choice<SMT::Atlas_packer>(
+      app, "--packer",
+      {{"raster", SMT::Atlas_packer::RASTER}, {"horizon", SMT::Atlas_packer::HORIZON}}, atlas.packer,
+      "raster: charts in any gap where they fit; horizon: from below, as in 2002 (default raster)");
+  add_number(app, "--packing-time", 0, 1e6, atlas.packing_time,
+             "seconds to look for a better packing, on a usual machine (default none)");
+  add_choice<std::optional<SMP::Conformal_method>>(
+      app, "--method",
+      {{"border-first", std::nullopt},
+       {"spectral", SMP::Conformal_method::SPECTRAL},
+       {"hlscm", SMP::Conformal_method::HLSCM},
+       {"cascadic", SMP::Conformal_method::CASCADIC}},
+      atlas.method,
+      "how charts are mapped; border-first: with the least change of areas; the others are those of "
+      "parameterize (default border-first)");
+  add_threads(app, o.library.threads);
+  app.add_flag("--ply", atlas.writes_ply, "write binary PLY, too");
+}
+
+void add_atlas(CLI::App& app, Program_options& o)
+{
+  CLI::App* run = app.add_subcommand(
+      "atlas", "Give a surface of any shape texture coordinates: cut it into charts, map each one "
+               "to the plane conformally, and pack them into a texture");
+  run->add_option("IN", o.input, "a triangle mesh: .off, .obj, .ply or .stl")->required();
+  add_atlas_options(*run, o);
+  run->add_option("--pictures", o.pictures, "a folder for charts.png and checkerboard.png")
+      ->type_name("DIR");
+  add_report_and_quiet(*run, o);
+  run->callback([&o] { o.command = Command::ATLAS; });
+}
+
+void add_bake(CLI::App& app, Program_options& o)
+{
+  CLI::App* run = app.add_subcommand(
+      "bake", "Make a light model with a normal map in which the detail of IN is seen");
+  run->add_option("IN", o.input, "a triangle mesh: .off, .obj, .ply or .stl")->required();
+  const auto set_faces = [&o](const std::size_t& faces) { o.faces = {faces}; };
+  run->add_option_function<std::size_t>("--faces", set_faces, "faces of the light model")
+      ->check(CLI::Range(std::size_t(1), many, "N"));
+  run->add_option_function<std::string>(
+         "--error", [&o](const std::string& text) { o.error = to_length(text); },
+         "or: the lightest from which no vertex of IN is farther, as a length or in % of the "
+         "diagonal of the bounding box")
+      ->type_name("E|E%");
+  run->add_option("--target", o.bake.target,
+                  "or: this mesh, with its own texture coordinates, is the light model; what rays "
+                  "along its normals hit of IN is baked")
+      ->type_name("LOWPOLY");
+  add_count(*run, "--samples", std::size_t(1), std::size_t(16), o.bake.samples,
+            "samples of a texel each way (default 2)");
+  add_choice<bool>(*run, "--space", {{"tangent", false}, {"object", true}},
+                   o.bake.is_object_space,
+                   "the space of the normals in normal.png (default tangent)");
+  run->add_option("--bits", o.bake.bits, "of a channel of normal.png: 8 or 16 (default 8)")
+      ->check(CLI::IsMember({8, 16}))
+      ->type_name("8|16");
+  run->add_flag("--displacement", o.bake.has_displacement,
+                "also displacement.png, the height of IN above the light model, 16 bits");
+  run->add_option("--colors", o.bake.colours,
+                  "the texture of IN, for its own texture coordinates; color.png is the same for "
+                  "the light model")
+      ->type_name("IMAGE");
+  add_atlas_options(*run, o);
+  run->add_option("--pictures", o.pictures,
+                  "a folder for charts.png, checkerboard.png, bake.png and closeup.png")
+      ->type_name("DIR");
+  add_report_and_quiet(*run, o);
+  run->callback([&o] { o.command = Command::BAKE; });
+}
+
+} // namespace
+
+void add_atlas_commands(CLI::App& app, Program_options& options)
+{
+  add_atlas(app, options);
+  add_bake(app, options);
+}
+
+void check_bake(const Program_options& options)
+{
+  const int models = int(!options.faces.empty()) + int(options.error.has_value())
+                     + int(!options.bake.target.empty());
+  if(models != 1) {
+    throw CLI::ValidationError("bake", "give one of --faces, --error and --target");
+  }
+}
+
+} // namespace hlscm

@@ -1,0 +1,100 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "commands/Bake_outputs.h"
+
+#include "writing/Png_file.h"
+#include "writing/Texture_sheet.h"
+
+#include <CGAL/Surface_mesh_texturing/encode_image.h>
+
+#include <utility>
+
+namespace hlscm {
+
+namespace SMT = CGAL::Surface_mesh_texturing;
+
+namespace {
+
+// NAME.png, NAME_2.png ...
+std::string page_name(const std::string& name, std::size_t page)
+{
+  return name + (page == 0 ? "" : "_" + std::to_string(page + 1)) + ".png";
+}
+
+template <typename Integer>
+std::string png_of(const SMT::Texture_image& image, double lowest, double highest)
+{
+  return encode_png(SMT::encode_values<Integer>(image, lowest, highest), image.width,
+                    image.channels);
+}
+
+} // namespace
+
+Bake_outputs::Bake_outputs(Folder_outputs& folder, const Program_options& options)
+  : m_folder(folder), m_options(options), m_model(folder, "light", options.atlas.writes_ply)
+{}
+
+SMT::Texture_image Bake_outputs::write(const Baking_input& input, const Baked_images& images,
+                                       Progress_bar& progress)
+{
+  progress.start_stage("writing");
+  Textured_model model = light_model(input, images);
+  std::vector<Texture_file> normals, colours;
+  put_normal_maps(images.normals, input.pages, normals);
+  put_displacement(images, input.pages);
+  for(std::size_t page = 0; images.colours && page < input.pages; ++page) {
+    const Image image = page_of_sheet(*images.colours, page, input.pages);
+    colours.push_back(put(page_name("color", page), png_of<std::uint8_t>(image, 0, 1)));
+  }
+  for(std::size_t page = 0; page < input.pages; ++page) {
+    model.textures.push_back({colours.empty() ? nullptr : &colours[page],
+                              m_options.bake.is_object_space ? nullptr : &normals[page]});
+  }
+  m_model.write(model);
+  return m_options.bake.bits == 16
+             ? SMT::decode_values(SMT::encode_unit_vectors<std::uint16_t>(images.normals),
+                                  images.normals, -1, 1)
+             : SMT::decode_values(SMT::encode_unit_vectors<std::uint8_t>(images.normals),
+                                  images.normals, -1, 1);
+}
+
+Texture_file Bake_outputs::put(const std::string& name, std::string png)
+{
+  m_folder.create(name).put(png);
+  return {name, std::move(png)};
+}
+
+Textured_model Bake_outputs::light_model(const Baking_input& input,
+                                         const Baked_images& images) const
+{
+  Textured_model model;
+  model.page = pages_on_sheet(input.light, input.pages);
+  model.mesh = from_sheet(input.light, model.page, input.pages);
+  model.frames = images.frames;
+  return model;
+}
+
+// GLB files get 8 bits, which is all that their viewers keep.
+void Bake_outputs::put_normal_maps(const Image& normals, std::size_t pages,
+                                   std::vector<Texture_file>& in_glb)
+{
+  for(std::size_t page = 0; page < pages; ++page) {
+    const Image image = page_of_sheet(normals, page, pages);
+    const std::string name = page_name("normal", page);
+    const std::string png = png_of<std::uint8_t>(image, -1, 1);
+    put(name, m_options.bake.bits == 16 ? png_of<std::uint16_t>(image, -1, 1) : png);
+    in_glb.push_back({name, png});
+  }
+}
+
+void Bake_outputs::put_displacement(const Baked_images& images, std::size_t pages)
+{
+  for(std::size_t page = 0; images.displacement && page < pages; ++page) {
+    const Image image = page_of_sheet(*images.displacement, page, pages);
+    put(page_name("displacement", page),
+        png_of<std::uint16_t>(image, images.lowest, images.highest));
+  }
+}
+
+} // namespace hlscm

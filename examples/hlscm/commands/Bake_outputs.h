@@ -1,0 +1,41 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef HLSCM_PROGRAM_BAKE_OUTPUTS_H
+#define HLSCM_PROGRAM_BAKE_OUTPUTS_H
+
+#include "commands/Atlas_outputs.h"
+#include "commands/Baking.h"
+
+#include <string>
+#include <vector>
+
+namespace hlscm {
+
+/// The light model and its textures: light.obj, light.mtl, light.glb, normal.png and what else the
+/// options ask for. Pages beyond the first are numbered: normal.png, normal_2.png ...
+class Bake_outputs
+{
+public:
+  Bake_outputs(Folder_outputs& folder, const Program_options& options);
+
+  /// Writes all, and returns the normal map as the file has it.
+  CGAL::Surface_mesh_texturing::Texture_image
+  write(const Baking_input& input, const Baked_images& images, Progress_bar& progress);
+
+private:
+  using Image = CGAL::Surface_mesh_texturing::Texture_image;
+
+  Texture_file put(const std::string& name, std::string png);
+  Textured_model light_model(const Baking_input& input, const Baked_images& images) const;
+  void put_normal_maps(const Image& normals, std::size_t pages, std::vector<Texture_file>& in_glb);
+  void put_displacement(const Baked_images& images, std::size_t pages);
+
+  Folder_outputs& m_folder;
+  const Program_options& m_options;
+  Model_outputs m_model;
+};
+
+} // namespace hlscm
+
+#endif // HLSCM_PROGRAM_BAKE_OUTPUTS_H

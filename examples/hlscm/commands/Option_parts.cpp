@@ -1,0 +1,85 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "commands/Option_parts.h"
+
+#include <charconv>
+#include <cmath>
+
+namespace hlscm {
+
+namespace SMP = CGAL::Surface_mesh_parameterization;
+
+std::vector<double> numbers(const std::string& text)
+{
+  std::vector<double> values;
+  const char* end = text.data() + text.size();
+  for(const char* p = text.data(); p <= end; ++p) {
+    double value = 0;
+    const std::from_chars_result result = std::from_chars(p, end, value);
+    if(result.ec != std::errc() || !std::isfinite(value)
+       || (result.ptr != end && *result.ptr != ',')) {
+      return {};
+    }
+    values.push_back(value);
+    p = result.ptr;
+  }
+  return values;
+}
+
+bool is_count(double value) { return value >= 0 && value <= 1e9 && value == std::floor(value); }
+
+Length to_length(const std::string& text)
+{
+  const bool is_relative = !text.empty() && text.back() == '%';
+  const auto number = numbers(text.substr(0, text.size() - (is_relative ? 1 : 0)));
+  if(number.size() != 1 || !(number[0] >= 0)) {
+    throw CLI::ValidationError("\"" + text + "\" is neither a length nor a number of %");
+  }
+  return {is_relative ? number[0] / 100 : number[0], is_relative};
+}
+
+CLI::Option* add_number(CLI::App& app, const std::string& name, double low, double high,
+                        double& value, const std::string& help)
+{
+  const auto check = [low, high](const std::string& text) -> std::string {
+    const auto number = numbers(text);
+    return number.size() == 1 && number[0] > low && number[0] <= high
+               ? ""
+               : "\"" + text + "\" is not a number above " + CLI::detail::to_string(low)
+                     + " and at most " + CLI::detail::to_string(high);
+  };
+  return app.add_option(name, value, help)->check(CLI::Validator(check, ""))->type_name("NUMBER");
+}
+
+void add_method(CLI::App& app, SMP::Conformal_method& method)
+{
+  add_choice<SMP::Conformal_method>(
+      app, "--method",
+      {{"hlscm", SMP::Conformal_method::HLSCM},
+       {"spectral", SMP::Conformal_method::SPECTRAL},
+       {"cascadic", SMP::Conformal_method::CASCADIC},
+       {"lscm", SMP::Conformal_method::LSCM},
+       {"direct", SMP::Conformal_method::DIRECT}},
+      method,
+      "hlscm: multigrid; spectral: the same without pins, by the eigenvalue problem of "
+      "Mullen et al.; cascadic: coarse to fine once, as in the paper of "
+      "Ray and Levy; lscm: conjugate gradient on the finest level alone; direct: sparse "
+      "Cholesky of the whole (default hlscm)");
+}
+
+void add_threads(CLI::App& app, unsigned int& threads)
+{
+  add_count(app, "--threads", 0u, 1024u, threads,
+            "threads of the hierarchical methods; 0, the default, for all processors. The "
+            "result does not depend on it");
+}
+
+void add_report_and_quiet(CLI::App& app, Program_options& options)
+{
+  app.add_option("--report", options.report, "what was done and measured, as JSON")
+      ->type_name("FILE.json");
+  app.add_flag("--quiet", options.is_quiet, "print errors only");
+}
+
+} // namespace hlscm

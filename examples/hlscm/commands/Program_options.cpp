@@ -1,0 +1,264 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "common/Program_options.h"
+
+#include "commands/Option_parts.h"
+
+#include <CGAL/Surface_mesh_parameterization/repair_flipped_faces.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+namespace hlscm {
+
+namespace SMP = CGAL::Surface_mesh_parameterization;
+
+namespace {
+
+constexpr int usage_error = 2;
+
+Pin to_pin(const std::string& text)
+{
+  const std::size_t equals = text.find('=');
+  const auto index = numbers(text.substr(0, equals));
+  const auto uv =
+      equals == std::string::npos ? std::vector<double>() : numbers(text.substr(equals + 1));
+  if(index.size() != 1 || index[0] < 0 || index[0] > 1e15 || index[0] != std::floor(index[0])
+     || uv.size() != 2)
+  {
+    throw CLI::ValidationError("--pin", "\"" + text + "\" is not INDEX=U,V");
+  }
+  return {std::size_t(index[0]), uv[0], uv[1]};
+}
+
+void set_schedule(const std::string& text, SMP::HLSCM_options& options)
+{
+  const auto m = numbers(text);
+  if(m.size() != 3 || !is_count(m[0]) || !is_count(m[1]) || !is_count(m[2]) || m[0] + m[1] < 1
+     || m[2] < 1)
+  {
+    throw CLI::ValidationError("--schedule", "\"" + text
+                                                 + "\" is not M1,M2,MC with M1 + M2 >= 1 "
+                                                   "and MC >= 1");
+  }
+  CGAL::Multigrid::Schedule schedule;
+  schedule.pre_smoothing = static_cast<unsigned int>(m[0]);
+  schedule.post_smoothing = static_cast<unsigned int>(m[1]);
+  schedule.coarse_visits = static_cast<unsigned int>(m[2]);
+  options.schedule = schedule;
+}
+
+void add_solver_options(CLI::App& app, SMP::HLSCM_options& o)
+{
+  add_method(app, o.method);
+  add_choice<SMP::Conformal_weights>(
+      app, "--weights",
+      {{"exact", SMP::Conformal_weights::EXACT}, {"cgal", SMP::Conformal_weights::CGAL_LSCM}},
+      o.weights, "the conformal energy (default), or the energy of CGAL's LSCM_parameterizer_3");
+  add_number(app, "--tolerance", 0, 1, o.tolerance,
+             "stop when (E - Emin) / E is below it (default 0.01)");
+  add_number(app, "--uv-tolerance", 0, 1, o.uv_tolerance,
+             "also stop when no uv will move by more than this part of the map's longer side, such "
+             "as 1/4096 for a texel");
+  add_number(app, "--time-limit", 0, 1e9, o.time_limit,
+             "after that many seconds take the map as it is, once there is one");
+  app.add_flag_callback(
+      "--repair-flips", [&o] { o.repair_flips = SMP::Flip_repairer(); },
+      "move vertices around flipped triangles of the map until none is left, if possible");
+  app.add_option_function<std::string>(
+         "--schedule", [&o](const std::string& text) { set_schedule(text, o); },
+         "sweeps before, sweeps after, and visits of each coarser level")
+      ->type_name("M1,M2,MC");
+  add_number(app, "--ratio", 1, 1000, o.level_ratio,
+             "vertices of a level over those of the next coarser one (default 4, cascadic 10)");
+  app.add_option("--coarsest", o.coarsest_size, "vertices of the coarsest level (default 2000)")
+      ->check(CLI::Range(std::size_t(3), std::size_t(1000000000), "N"));
+  app.add_option("--iterations", o.maximal_iterations,
+                 "give up after that many on the finest level (default 500, lscm 100000)")
+      ->check(CLI::Range(std::size_t(1), std::size_t(1000000000), "N"));
+  add_number(app, "--angular-defect", 0, 360, o.angular_defect_bound,
+             "keep vertices that are more pointed than that many degrees (default 70)");
+  add_choice<SMP::Decimation_engine>(
+      app, "--engine",
+      {{"flat", SMP::Decimation_engine::FLAT},
+       {"flat-strict", SMP::Decimation_engine::FLAT_STRICT},
+       {"cgal", SMP::Decimation_engine::CGAL}},
+      o.engine,
+      "what builds the hierarchy: our engine in batches (default), our engine with a "
+      "priority queue, or CGAL's edge_collapse");
+  add_choice<SMP::Prolongation_rule>(
+      app, "--prolongation",
+      {{"walk", SMP::Prolongation_rule::WALK}, {"vsplit", SMP::Prolongation_rule::VSPLIT}},
+      o.prolongation,
+      "from level to level: a walk to the nearest triangle (default), or one "
+      "vertex split at a time as in the paper");
+  add_threads(app, o.threads);
+}
+
+void add_info(CLI::App& app, Program_options& o)
+{
+  CLI::App* info = app.add_subcommand("info", "Say what a mesh is and what can be done with it");
+  info->add_option("IN", o.input, "a mesh: .off, .obj, .ply or .stl")->required();
+  info->add_flag("--json", o.prints_json, "print JSON instead of text");
+  info->callback([&o] { o.command = Command::INFO; });
+}
+
+void add_parameterize(CLI::App& app, Program_options& o)
+{
+  CLI::App* run =
+      app.add_subcommand("parameterize", "Map a disk-like surface to the plane, conformally");
+  run->add_option("IN", o.input, "a triangle mesh with a border: .off, .obj, .ply or .stl")
+      ->required();
+  run->add_option("-o,--output", o.output,
+                  "the mesh with texture coordinates: .obj, or .ply (binary)")
+      ->required()
+      ->type_name("OUT");
+  const auto add_pin = [&o](const std::vector<std::string>& texts) {
+    for(const std::string& text : texts) {
+      o.pins.push_back(to_pin(text));
+    }
+  };
+  run->add_option_function<std::vector<std::string>>(
+         "--pin", add_pin,
+         "fix a vertex (its place in IN, from 0) at a point; none, or at least two. Without pins "
+         "two far border vertices are taken and the map is scaled and moved into the unit square")
+      ->type_name("INDEX=U,V")
+      ->allow_extra_args(false);
+  add_solver_options(*run, o.library);
+  run->add_option("--pictures", o.pictures,
+                  "a folder for domain.png, isolines.png, checker.png and levels.png")
+      ->type_name("DIR");
+  add_report_and_quiet(*run, o);
+  run->callback([&o] { o.command = Command::PARAMETERIZE; });
+}
+
+std::vector<std::size_t> to_faces(const std::string& text)
+{
+  std::vector<std::size_t> faces;
+  for(const double number : numbers(text)) {
+    if(!is_count(number) || number < 1) {
+      faces.clear();
+      break;
+    }
+    faces.push_back(std::size_t(number));
+  }
+  if(faces.empty()) {
+    throw CLI::ValidationError("--faces", "\"" + text + "\" is not N,N,...");
+  }
+  return faces;
+}
+
+std::vector<Level_format> to_formats(const std::string& text)
+{
+  static const Names<Level_format> names = {{"obj", Level_format::OBJ},
+                                            {"ply", Level_format::PLY},
+                                            {"glb", Level_format::GLB},
+                                            {"pm", Level_format::PM}};
+  std::vector<Level_format> formats;
+  for(const std::string& word : CLI::detail::split(text, ',')) {
+    const auto found = std::find_if(names.begin(), names.end(),
+                                    [&](const auto& name) { return name.first == word; });
+    if(found == names.end()) {
+      throw CLI::ValidationError("--format", "\"" + word + "\" is none of obj, ply, glb, pm");
+    }
+    if(std::find(formats.begin(), formats.end(), found->second) == formats.end()) {
+      formats.push_back(found->second);
+    }
+  }
+  return formats;
+}
+
+void add_levels(CLI::App& app, Program_options& o)
+{
+  CLI::App* run = app.add_subcommand(
+      "levels", "Make lighter models that share one texture: levels of detail of a textured mesh, "
+                "or of a chart, which is parameterized first");
+  run->add_option("IN", o.input,
+                  "a triangle mesh: .off, .obj, .ply or .stl; or a progressive mesh: .pm")
+      ->required();
+  run->add_option("-o,--output", o.output, "a folder for the files")->required()->type_name("DIR");
+  run->add_option_function<std::string>(
+         "--faces", [&o](const std::string& text) { o.faces = to_faces(text); },
+         "faces of the levels (default 50, 25, 10, 4 and 1 % of all)")
+      ->type_name("N,N,...");
+  run->add_option_function<std::string>(
+         "--error", [&o](const std::string& text) { o.error = to_length(text); },
+         "one level more: the lightest from which no vertex of IN is farther, as a length or in % of "
+         "the diagonal of the bounding box")
+      ->type_name("E|E%");
+  run->add_option_function<std::string>(
+         "--texture-error", [&o](const std::string& text) { o.texture_error = to_length(text); },
+         "the same for the distance in space of points of equal texture coordinates")
+      ->type_name("E|E%");
+  run->add_option_function<std::string>(
+         "--format", [&o](const std::string& text) { o.formats = to_formats(text); },
+         "what to write, with commas between (default obj,glb,pm): obj, ply: a file for each level; "
+         "glb: levels.glb with all levels; pm: mesh.pm, the progressive mesh")
+      ->type_name("obj|ply|glb|pm");
+  run->add_flag("--lossless", o.is_lossless,
+                "write mesh.pm with all bits instead of 16 for each coordinate");
+  add_solver_options(*run, o.library);
+  run->add_option("--pictures", o.pictures, "a folder for levels.png and swimming.png")
+      ->type_name("DIR");
+  add_report_and_quiet(*run, o);
+  run->callback([&o] { o.command = Command::LEVELS; });
+}
+
+std::string extension_of(const std::string& file)
+{
+  return CLI::detail::to_lower(std::filesystem::path(file).extension().string());
+}
+
+void check(const Program_options& o)
+{
+  if(o.command == Command::BAKE) {
+    check_bake(o);
+  }
+  if((o.command == Command::ATLAS || o.command == Command::BAKE) && o.atlas.is_one_disk
+     && !o.atlas.charts.empty()) {
+    throw CLI::ValidationError("--one-disk", "it makes charts of its own, leave --charts out");
+  }
+  if(o.command != Command::PARAMETERIZE) {
+    return;
+  }
+  if(extension_of(o.output) != ".obj" && extension_of(o.output) != ".ply") {
+    throw CLI::ValidationError("--output", "\"" + o.output + "\" ends neither in .obj nor in .ply");
+  }
+  if(o.pins.size() == 1) {
+    throw CLI::ValidationError("--pin", "one pin does not fix a map, give at least two or none");
+  }
+  if(!o.pins.empty() && o.library.method == SMP::Conformal_method::SPECTRAL) {
+    throw CLI::ValidationError("--pin", "the method spectral has no pins");
+  }
+}
+
+} // namespace
+
+Parsed_command_line parse_command_line(int argc, char** argv)
+{
+  Program_options options;
+  CLI::App app("Hierarchical least squares conformal maps of triangle meshes.\n"
+               "Exit codes: 0 done, 1 bad input or no convergence, 2 wrong usage.",
+               "hlscm");
+  app.set_version_flag("--version", "hlscm " HLSCM_VERSION);
+  app.require_subcommand(1);
+  add_info(app, options);
+  add_parameterize(app, options);
+  add_levels(app, options);
+  add_atlas_commands(app, options);
+  try {
+    app.parse(argc, argv);
+    check(options);
+  } catch(const CLI::Success& e) { // help or version
+    return {std::nullopt, app.exit(e)};
+  } catch(const CLI::Error& e) {
+    std::fprintf(stderr, "hlscm: usage: %s; see hlscm --help\n", e.what());
+    return {std::nullopt, usage_error};
+  }
+  return {options, 0};
+}
+
+} // namespace hlscm

@@ -1,0 +1,195 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "commands/Run_report.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+#include <sys/resource.h>
+
+namespace hlscm {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// JSON has no infinity.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+/// "label      text" lines with aligned texts.
+class Table
+{
+public:
+  template <typename... Parts>
+  void add(const char* label, const Parts&... parts)
+  {
+    m_text << std::left << std::setw(12) << label << std::setprecision(4);
+    (m_text << ... << parts) << "\n";
+  }
+  std::string str() const { return m_text.str(); }
+
+private:
+  std::ostringstream m_text;
+};
+
+std::string seconds(double value)
+{
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(value < 0.1 ? 3 : 2) << value;
+  return text.str();
+}
+
+std::string pins_text(const Run_report& report)
+{
+  constexpr std::size_t shown = 4;
+  std::ostringstream text;
+  const auto& pins = report.solver.pins;
+  if(pins.empty()) {
+    return "none";
+  }
+  for(std::size_t i = 0; i < std::min(pins.size(), shown); ++i) {
+    text << (i > 0 ? ", " : "") << "vertex " << pins[i].vertex << " at (" << std::setprecision(4)
+         << pins[i].u << ", " << pins[i].v << ")";
+  }
+  if(pins.size() > shown) {
+    text << " and " << pins.size() - shown << " more";
+  }
+  return text.str();
+}
+
+std::string levels_text(const Run_report& report)
+{
+  std::ostringstream text;
+  for(const auto& level : report.solver.levels) {
+    text << (text.tellp() > 0 ? ", " : "") << level.vertices;
+  }
+  return std::to_string(report.solver.levels.size()) + " (vertices: " + text.str() + ")";
+}
+
+Json to_json(const CGAL::Surface_mesh_parameterization::Flip_repair_report& repair)
+{
+  return {{"flipped_before", repair.flipped_before},
+          {"degenerate_before", repair.degenerate_before},
+          {"flipped_after", repair.flipped_after},
+          {"degenerate_after", repair.degenerate_after},
+          {"patches", repair.patches},
+          {"moved_vertices", repair.moved_vertices},
+          {"branch_vertices", repair.branch_vertices},
+          {"energy_before", number(repair.energy_before)},
+          {"energy_after", number(repair.energy_after)},
+          {"seconds", repair.seconds},
+          {"unmended_faces", repair.unmended_faces}};
+}
+
+} // namespace
+
+double peak_memory_mb()
+{
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  return double(usage.ru_maxrss) / 1024;
+}
+
+std::string to_json(const Run_report& report, const Program_options& options)
+{
+  const auto& s = report.solver;
+  const auto& d = report.distortion;
+  Json pins = Json::array(), levels = Json::array();
+  for(const auto& pin : s.pins) {
+    pins.push_back({{"index", pin.vertex}, {"uv", {pin.u, pin.v}}});
+  }
+  for(const auto& level : s.levels) {
+    levels.push_back({{"vertices", level.vertices},
+                      {"faces", level.faces},
+                      {"iterations", level.iterations},
+                      {"seconds", level.seconds}});
+  }
+  Json json = {{"input", options.input},
+               {"output", options.output},
+               {"method", s.method},
+               {"tolerance", options.library.tolerance},
+               {"vertices", s.vertices},
+               {"faces", s.faces},
+               {"borders", s.borders},
+               {"pins", pins},
+               {"levels", s.levels.size()},
+               {"level_table", levels},
+               {"iterations", s.iterations},
+               {"converged", s.converged},
+               {"energy", number(s.energy)},
+               {"energy_gap_estimate", number(s.energy_gap_estimate)},
+               {"flips", d.flipped_faces},
+               {"degenerate_faces", d.degenerate_faces},
+               {"mollified_faces", s.mollified_faces},
+               {"distortion",
+                {{"conformal_energy", number(d.conformal_energy)},
+                 {"quasi_conformal_mean", number(d.quasi_conformal_mean)},
+                 {"quasi_conformal_99", number(d.quasi_conformal_99)},
+                 {"quasi_conformal_max", number(d.quasi_conformal_max)},
+                 {"area_scale_range", number(d.area_scale_range)},
+                 {"stretch_L2", number(d.stretch_L2)},
+                 {"stretch_Linf", number(d.stretch_Linf)}}},
+               {"seconds",
+                {{"read", report.seconds_read},
+                 {"hierarchy", s.seconds_hierarchy},
+                 {"operators", s.seconds_operators},
+                 {"solve", s.seconds_solve},
+                 {"measure", report.seconds_measure},
+                 {"total", report.seconds_total},
+                 {"write", report.seconds_write}}},
+               {"peak_memory_mb", report.peak_memory_mb},
+               {"warnings", report.warnings}};
+  if(s.flip_repair) {
+    json["flip_repair"] = to_json(*s.flip_repair);
+  }
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string to_table(const Run_report& report, const Program_options& options)
+{
+  const auto& s = report.solver;
+  const auto& d = report.distortion;
+  Table table;
+  table.add("input", options.input, ": ", s.vertices, " vertices, ", s.faces, " faces, ", s.borders,
+            s.borders == 1 ? " border" : " borders");
+  if(s.method == "direct") {
+    table.add("method", s.method);
+  } else {
+    table.add("method", s.method, ", ", s.iterations,
+              s.iterations == 1 ? " iteration" : " iterations", " on the finest level, ",
+              s.converged       ? "converged"
+              : s.stopped_early ? "stopped early"
+                                : "tolerance not reached");
+  }
+  table.add("levels", levels_text(report));
+  table.add("pins", pins_text(report));
+  table.add("energy", s.energy, ", about ", s.energy_gap_estimate, " above the minimum");
+  table.add("angles", "quasi-conformal ratio mean ", d.quasi_conformal_mean, ", 99 % below ",
+            d.quasi_conformal_99, ", max ", d.quasi_conformal_max);
+  table.add("areas", "scale range ", d.area_scale_range, ", stretch L2 ", d.stretch_L2);
+  table.add("flips", d.flipped_faces, " of ", s.faces, " faces");
+  if(s.flip_repair) {
+    const auto& repair = *s.flip_repair;
+    table.add("repair", repair.flipped_before + repair.degenerate_before,
+              " flipped or degenerate faces before, ", repair.unmended_faces.size(), " after; ",
+              repair.moved_vertices, " vertices moved, energy ", repair.energy_before, " before, ",
+              seconds(repair.seconds), " s");
+  }
+  table.add("seconds", seconds(report.seconds_total), " = hierarchy ", seconds(s.seconds_hierarchy),
+            " + operators ", seconds(s.seconds_operators), " + solve ", seconds(s.seconds_solve),
+            " + other ",
+            seconds(std::max(0., report.seconds_total - s.seconds_hierarchy - s.seconds_operators
+                                     - s.seconds_solve)),
+            "; read ", seconds(report.seconds_read), ", write ", seconds(report.seconds_write));
+  table.add("memory", std::lround(report.peak_memory_mb), " MB at most");
+  table.add("written", options.output, options.report.empty() ? "" : ", " + options.report,
+            options.pictures.empty() ? "" : ", " + options.pictures + "/*.png");
+  return table.str();
+}
+
+} // namespace hlscm

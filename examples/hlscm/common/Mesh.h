@@ -1,0 +1,45 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef HLSCM_PROGRAM_MESH_H
+#define HLSCM_PROGRAM_MESH_H
+
+#include "common/Polygon_soup.h"
+
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+
+namespace hlscm {
+
+using Kernel = CGAL::Simple_cartesian<double>;
+using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+using Uv_map = Mesh::Property_map<Mesh::Vertex_index, Kernel::Point_2>;
+
+/// Builds a mesh from a soup without obstacles; vertices, faces and corners keep their order.
+inline Mesh build_mesh(const Polygon_soup& soup)
+{
+  Mesh mesh;
+  const std::size_t vertices = soup.number_of_vertices(), faces = soup.number_of_faces();
+  mesh.reserve(Mesh::size_type(vertices), Mesh::size_type(vertices + faces),
+               Mesh::size_type(faces));
+  for(const std::array<double, 3>& p : soup.points) {
+    mesh.add_vertex(Kernel::Point_3(p[0], p[1], p[2]));
+  }
+  for(std::size_t f = 0; f < faces; ++f) {
+    const Polygon_soup::Face face = soup.face(f);
+    mesh.add_face(Mesh::Vertex_index(face[0]), Mesh::Vertex_index(face[1]),
+                  Mesh::Vertex_index(face[2]));
+  }
+  return mesh;
+}
+
+/// The corners of a face in the order of the file.
+inline std::array<std::uint32_t, 3> corners(const Mesh& mesh, Mesh::Face_index f)
+{
+  const auto h = mesh.halfedge(f);
+  return {mesh.target(h), mesh.target(mesh.next(h)), mesh.source(h)};
+}
+
+} // namespace hlscm
+
+#endif // HLSCM_PROGRAM_MESH_H

@@ -1,0 +1,290 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_INDEXED_MESH_INDEXED_TRIANGLE_MESH_H
+#define CGAL_INDEXED_MESH_INDEXED_TRIANGLE_MESH_H
+
+#include <CGAL/Blocked_execution/sort_and_select.h>
+
+#include <CGAL/Simple_cartesian.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Indexed_mesh {
+
+// What can be wrong with the connectivity at a vertex.
+enum class Ring_defect : std::uint8_t { NONE, ISOLATED, REPEATED_HALFEDGE, SEVERAL_FANS };
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// The index of a vertex, 32 bits.
+typedef std::uint32_t Vertex_index;
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// The vertices of a triangle, counterclockwise.
+typedef std::array<Vertex_index, 3> Triangle_indices;
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// "No vertex".
+constexpr Vertex_index no_vertex = Vertex_index(-1);
+
+/*!
+\ingroup PkgHLSCMIndexedMesh
+
+The struct `Indexed_triangle_mesh` is a triangle mesh as two arrays.
+
+Invariant: the entries of `triangles` are smaller than `points.size()`.
+*/
+struct Indexed_triangle_mesh
+{
+  /// The point type.
+  typedef Simple_cartesian<double>::Point_3 Point_3;
+
+  std::vector<Point_3> points;             ///< The position of each vertex.
+  std::vector<Triangle_indices> triangles; ///< The vertices of each triangle.
+};
+
+// For each of `n` things its position among the members, or `no_vertex`.
+inline std::vector<Vertex_index> ranks(const std::vector<Vertex_index>& members, std::size_t n)
+{
+  constexpr std::size_t block = 32768;
+  std::vector<Vertex_index> result;
+  Blocked_execution::resize_blocked(result, n);
+  Blocked_execution::blocked_for(n, block, [&result](std::size_t begin, std::size_t end) {
+    std::fill(result.begin() + begin, result.begin() + end, no_vertex);
+  });
+  Blocked_execution::blocked_for(members.size(), block, [&](std::size_t begin, std::size_t end) {
+    for(std::size_t i = begin; i < end; ++i)
+      result[members[i]] = Vertex_index(i);
+  });
+  return result;
+}
+
+// Spreads the low ten bits of x to every third bit.
+inline std::uint32_t spread_bits(std::uint32_t x)
+{
+  x = (x | (x << 16)) & 0x030000FF;
+  x = (x | (x << 8)) & 0x0300F00F;
+  x = (x | (x << 4)) & 0x030C30C3;
+  return (x | (x << 2)) & 0x09249249;
+}
+
+// The order of the keys, stable: three passes of a radix sort by eleven bits. Each block of the old
+// order has its own places in the new one for each digit.
+inline std::vector<std::uint32_t> sorted_order(const std::vector<std::uint32_t>& keys)
+{
+  constexpr std::size_t block = 65536, digits = 2048;
+  std::vector<std::uint32_t> order(keys.size()), next(keys.size());
+  std::vector<std::array<std::uint32_t, digits>> at(
+    Blocked_execution::number_of_blocks(keys.size(), block));
+  for(int shift = 0; shift < 32; shift += 11) {
+    const auto source = [&](std::size_t i) { return shift == 0 ? std::uint32_t(i) : order[i]; };
+    const auto digit = [&](std::uint32_t i) { return (keys[i] >> shift) & (digits - 1); };
+    Blocked_execution::blocked_for(keys.size(), block, [&](std::size_t begin, std::size_t end) {
+      at[begin / block].fill(0);
+      for(std::size_t i = begin; i < end; ++i)
+        ++at[begin / block][digit(source(i))];
+    });
+    std::uint32_t before = 0;
+    for(std::size_t d = 0; d < digits; ++d)
+      for(auto& of_block : at)
+        before += std::exchange(of_block[d], before);
+    Blocked_execution::blocked_for(keys.size(), block, [&](std::size_t begin, std::size_t end) {
+      for(std::size_t i = begin; i < end; ++i) {
+        const std::uint32_t s = source(i);
+        next[at[begin / block][digit(s)]++] = s;
+      }
+    });
+    order.swap(next);
+  }
+  return order;
+}
+
+// The box of points.
+struct Extremes
+{
+  static constexpr double infinity = (std::numeric_limits<double>::infinity)();
+
+  std::array<double, 3> lo = {infinity, infinity, infinity};
+  std::array<double, 3> hi = {-infinity, -infinity, -infinity};
+
+  template <class Point>
+  void add(const Point& low, const Point& high)
+  {
+    for(int c = 0; c < 3; ++c) {
+      lo[c] = (std::min)(lo[c], low[c]);
+      hi[c] = (std::max)(hi[c], high[c]);
+    }
+  }
+
+  Extremes& operator+=(const Extremes& other)
+  {
+    add(other.lo, other.hi);
+    return *this;
+  }
+
+  friend Extremes operator+(Extremes a, const Extremes& b) { return a += b; }
+
+  double longest_side() const { return (std::max)({hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]}); }
+};
+
+constexpr std::size_t block_of_points = 16384;
+
+// Precondition: there is a point.
+inline Extremes extremes(const std::vector<Indexed_triangle_mesh::Point_3>& points)
+{
+  return Blocked_execution::blocked_sum<Extremes>(
+    points.size(), block_of_points, [&points](std::size_t begin, std::size_t end) {
+      Extremes box;
+      for(std::size_t i = begin; i < end; ++i)
+        box.add(points[i], points[i]);
+      return box;
+    });
+}
+
+// The Morton code of each point: ten bits an axis in the bounding cube.
+inline std::vector<std::uint32_t>
+morton_codes(const std::vector<Indexed_triangle_mesh::Point_3>& points)
+{
+  std::vector<std::uint32_t> codes(points.size());
+  if(points.empty())
+    return codes;
+  const Extremes box = extremes(points);
+  const double extent = box.longest_side();
+  const double scale = extent > 0. ? 1023.999 / extent : 0.;
+  Blocked_execution::blocked_for(points.size(), block_of_points,
+                                 [&](std::size_t begin, std::size_t end) {
+    for(std::size_t i = begin; i < end; ++i)
+      for(int c = 0; c < 3; ++c)
+        codes[i] |= spread_bits(std::uint32_t((points[i][c] - box.lo[c]) * scale)) << c;
+  });
+  return codes;
+}
+
+// Sorts triangles by their smallest vertex, which becomes the first.
+inline void sort_by_smallest_vertex(std::size_t number_of_vertices,
+                                    std::vector<Triangle_indices>& triangles)
+{
+  Blocked_execution::blocked_for(triangles.size(), block_of_points,
+                                 [&](std::size_t begin, std::size_t end) {
+    for(std::size_t i = begin; i < end; ++i) {
+      const Triangle_indices t = triangles[i];
+      const bool is_1 = t[1] < t[0] && t[1] <= t[2], is_2 = t[2] < t[0] && t[2] < t[1];
+      const unsigned int first = is_1 ? 1 : (is_2 ? 2 : 0);
+      triangles[i] = {t[first], t[(9u >> 2 * first) & 3u], t[(18u >> 2 * first) & 3u]};
+    }
+  });
+  std::vector<Triangle_indices> sorted;
+  const auto for_each_triangle = [&triangles](const auto& use) {
+    for(const Triangle_indices& t : triangles)
+      use(t[0], t);
+  };
+  Blocked_execution::sort_by_key(
+    number_of_vertices, for_each_triangle,
+    [&sorted](std::size_t n) { Blocked_execution::resize_blocked(sorted, n); },
+    [&sorted](std::uint32_t i, const Triangle_indices& t) { sorted[i] = t; });
+  triangles.swap(sorted);
+}
+
+/*!
+\ingroup PkgHLSCMIndexedMesh
+
+Renumbers the vertices of `mesh` along a Morton curve and its triangles by their smallest vertex, so
+that what is near on the surface is near in memory, which makes all later passes over the mesh
+faster.
+
+\return for each new vertex index the old one.
+
+Linear time; 12 bytes a vertex and 12 a triangle of temporary memory.
+*/
+inline std::vector<Vertex_index> sort_spatially(Indexed_triangle_mesh& mesh)
+{
+  std::vector<Vertex_index> source = sorted_order(morton_codes(mesh.points));
+  std::vector<Vertex_index> rank(source.size());
+  std::vector<Indexed_triangle_mesh::Point_3> points(source.size());
+  Blocked_execution::blocked_for(source.size(), block_of_points,
+                                 [&](std::size_t begin, std::size_t end) {
+    for(std::size_t i = begin; i < end; ++i) {
+      rank[source[i]] = Vertex_index(i);
+      points[i] = mesh.points[source[i]];
+    }
+  });
+  mesh.points.swap(points);
+  Blocked_execution::blocked_for(mesh.triangles.size(), block_of_points,
+                                 [&](std::size_t begin, std::size_t end) {
+    for(std::size_t i = begin; i < end; ++i)
+      for(Vertex_index& v : mesh.triangles[i])
+        v = rank[v];
+  });
+  sort_by_smallest_vertex(source.size(), mesh.triangles);
+  return source;
+}
+
+/*!
+\ingroup PkgHLSCMIndexedMesh
+
+Moves the centre of the bounding box of `mesh` to the origin and scales the mean edge length to 1,
+so that sizes of the order of 1e-30 or 1e30, or a position far from the origin, do no harm.
+
+\return the factor by which lengths were multiplied, or 0 if the mesh has no extent (it is then left
+unscaled).
+*/
+inline double normalize(Indexed_triangle_mesh& mesh)
+{
+  if(mesh.points.empty())
+    return 0.;
+  const Extremes box = extremes(mesh.points);
+  const double extent = box.longest_side();
+  if(!(extent > 0.))
+    return 0.;
+  const auto move = [&mesh](const std::array<double, 3>& origin, double unit) {
+    Blocked_execution::blocked_for(mesh.points.size(), block_of_points,
+                                   [&](std::size_t begin, std::size_t end) {
+      for(std::size_t i = begin; i < end; ++i) {
+        auto& p = mesh.points[i];
+        p = Indexed_triangle_mesh::Point_3((p.x() - origin[0]) / unit, (p.y() - origin[1]) / unit,
+                                           (p.z() - origin[2]) / unit);
+      }
+    });
+  };
+  // In two steps: squares of lengths may not exist before the first.
+  const auto& [lo, hi] = box;
+  move({0.5 * (lo[0] + hi[0]), 0.5 * (lo[1] + hi[1]), 0.5 * (lo[2] + hi[2])}, extent);
+  const double sum = Blocked_execution::blocked_sum<double>(
+    mesh.triangles.size(), block_of_points, [&mesh](std::size_t begin, std::size_t end) {
+      double lengths = 0.;
+      for(std::size_t i = begin; i < end; ++i) {
+        const Triangle_indices& t = mesh.triangles[i];
+        for(int c = 0; c < 3; ++c)
+          lengths += std::sqrt(squared_distance(mesh.points[t[c]], mesh.points[t[(c + 1) % 3]]));
+      }
+      return lengths;
+    });
+  if(!(sum > 0.))
+    return 0.;
+  const double mean = sum / (3. * double(mesh.triangles.size()));
+  move({0., 0., 0.}, mean);
+  return 1. / (extent * mean);
+}
+
+} // namespace Indexed_mesh
+
+// The packages on this kernel call its types by their short names.
+namespace Surface_mesh_multiresolution {
+using namespace Indexed_mesh;
+} // namespace Surface_mesh_multiresolution
+namespace Surface_mesh_parameterization {
+using namespace Indexed_mesh;
+} // namespace Surface_mesh_parameterization
+namespace Surface_mesh_texturing {
+using namespace Indexed_mesh;
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_INDEXED_MESH_INDEXED_TRIANGLE_MESH_H

@@ -1,0 +1,198 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_DEVIATION_UV_WALK_H
+#define CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_DEVIATION_UV_WALK_H
+
+#include <CGAL/Surface_mesh_multiresolution/internal/deviation/nearest_on_surface.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_multiresolution {
+namespace internal {
+
+// The way of a segment through the triangles of a chart.
+enum class Way
+{
+  ARRIVED, // at its end
+  LEFT,    // the chart, over its border
+  LOST     // where triangles are folded, or have no area
+};
+
+// Walks from triangle to triangle in the texture. Triangles may lie over each other: what is found
+// is what a walk finds that starts on the right sheet. Where it starts is up to the caller.
+class Uv_walk
+{
+public:
+  explicit Uv_walk(const Textured_view& surface) : m_surface(surface) {}
+
+  // The point of the chart that has the texture coordinate p, or, if a search around the end of the
+  // walk finds none, the nearest one.
+  Surface_point locate(const Real_vector<2>& p, Triangle_number start) const;
+
+  // Calls cross(t, w, s) where the segment (a, b) leaves a triangle t: there its point a + s (b -
+  // a) has the weights w. Starts at `start`, which has a, or in its star if a is a corner of it,
+  // and stops in `end`, or in another triangle that has b; `end` is no triangle if none has b. A
+  // way that leaves the chart although `end` is one may come back, which is not followed.
+  template <class Cross>
+  Way follow(const Real_vector<2>& a, const Real_vector<2>& b, Triangle_number start,
+             Triangle_number end, const Cross& cross) const;
+
+  // The barycentric coordinates of p; not finite for a triangle without area.
+  Weights weights(Triangle_number t, const Real_vector<2>& p) const
+  {
+    const Triangle_indices& abc = m_surface.triangles()[t];
+    const Real_vector<2> a = minus(m_surface.uv(abc[0]), p), b = minus(m_surface.uv(abc[1]), p),
+                         c = minus(m_surface.uv(abc[2]), p);
+    const double wa = b[0] * c[1] - b[1] * c[0], wb = c[0] * a[1] - c[1] * a[0],
+                 wc = a[0] * b[1] - a[1] * b[0], inverse = 1. / (wa + wb + wc);
+    return {wa * inverse, wb * inverse, wc * inverse};
+  }
+
+private:
+  // Barycentric coordinates differ by about this much from rounding, in triangles 1e5 times as long
+  // as high at 1e-3 of the size of the map.
+  static constexpr double rounding = 1e-8;
+
+  Surface_point search(const Real_vector<2>& p, Triangle_number start) const;
+
+  Triangle_number towards(const Real_vector<2>& a, const Real_vector<2>& b,
+                          Triangle_number start) const;
+
+  const Textured_view& m_surface;
+};
+
+inline Surface_point Uv_walk::locate(const Real_vector<2>& p, Triangle_number start) const
+{
+  constexpr int longest_walk = 200;
+  Triangle_number t = start, from = no_triangle;
+  for(int step = 0; step < longest_walk; ++step) {
+    const Weights w = weights(t, p);
+    if(!std::isfinite(w[0] + w[1] + w[2]))
+      break;
+    if(w[0] >= 0. && w[1] >= 0. && w[2] >= 0.)
+      return {t, w, 0.};
+    std::array<int, 3> order = {0, 1, 2};
+    std::sort(order.begin(), order.end(), [&w](int i, int j) { return w[i] < w[j]; });
+    Triangle_number next = no_triangle;
+    for(const int c : order)
+      if(w[c] < 0. && next == no_triangle) {
+        next = m_surface.neighbor(t, c);
+        next = next == from ? no_triangle : next;
+      }
+    if(next == no_triangle)
+      break;
+    from = t;
+    t = next;
+  }
+  return search(p, t);
+}
+
+// Visits the triangles around `start`, those nearest to p first, as long as they come nearer.
+inline Surface_point Uv_walk::search(const Real_vector<2>& p, Triangle_number start) const
+{
+  constexpr int patience = 32; // visits without success
+  const auto farther = [](const Surface_point& a, const Surface_point& b) {
+    return a.squared_distance > b.squared_distance
+           || (a.squared_distance == b.squared_distance && a.triangle > b.triangle);
+  };
+  std::vector<Triangle_number> seen(1, start);
+  std::vector<Surface_point> front(1, nearest_in(m_surface, start, p)); // a heap
+  Surface_point best;
+  for(int failures = 0; !front.empty() && failures < patience && best.squared_distance > 0.;) {
+    std::pop_heap(front.begin(), front.end(), farther);
+    const Surface_point here = front.back();
+    front.pop_back();
+    failures = here.squared_distance < best.squared_distance ? 0 : failures + 1;
+    if(failures == 0)
+      best = here;
+    for(int c = 0; c < 3; ++c) {
+      const Triangle_number next = m_surface.neighbor(here.triangle, c);
+      if(next == no_triangle || std::find(seen.begin(), seen.end(), next) != seen.end())
+        continue;
+      seen.push_back(next);
+      front.push_back(nearest_in(m_surface, next, p));
+      std::push_heap(front.begin(), front.end(), farther);
+    }
+  }
+  return best;
+}
+
+// The triangle where the segment (a, b) starts: `start`, or, if a is a corner of it, that triangle
+// of its star between whose sides at the corner b is seen.
+inline Triangle_number Uv_walk::towards(const Real_vector<2>& a, const Real_vector<2>& b,
+                                        Triangle_number start) const
+{
+  const Weights w = weights(start, a);
+  const auto heaviest = std::max_element(w.begin(), w.end());
+  if(!(*heaviest > 1. - rounding))
+    return start;
+  const Vertex_index v = m_surface.triangles()[start][std::size_t(heaviest - w.begin())];
+  Triangle_number best = start;
+  double most = -(std::numeric_limits<double>::infinity)();
+  for(const std::uint32_t* at = m_surface.at().begin(v); at != m_surface.at().end(v); ++at) {
+    const int corner = int(*at % 3);
+    const Weights seen = weights(*at / 3, b);
+    const double l = seen[std::size_t((corner + 1) % 3)], r = seen[std::size_t((corner + 2) % 3)];
+    const double least = (std::min)(l, r) / (std::abs(l) + std::abs(r));
+    if(least > most) {
+      most = least;
+      best = *at / 3;
+    }
+  }
+  return best;
+}
+
+template <class Cross>
+Way Uv_walk::follow(const Real_vector<2>& a, const Real_vector<2>& b, Triangle_number start,
+                    Triangle_number end, const Cross& cross) const
+{
+  constexpr int longest_way = 100000; // triangles; only rounding could send a way around in circles
+  Triangle_number t = towards(a, b, start), from = no_triangle;
+  double s = 0.;
+  for(int step = 0; step < longest_way; ++step) {
+    const Weights wa = weights(t, a), wb = weights(t, b);
+    if(!std::isfinite(wa[0] + wa[1] + wa[2]))
+      return Way::LOST;
+    if(t == end || (wb[0] >= -rounding && wb[1] >= -rounding && wb[2] >= -rounding))
+      return Way::ARRIVED;
+    // The first of the sides that the segment crosses outwards
+    const auto parameter = [&](int c) { return wa[c] / (wa[c] - wb[c]); };
+    int side = -1;
+    Triangle_number beyond = no_triangle;
+    for(int c = 0; c < 3; ++c) {
+      if(!(wb[c] < 0. && wb[c] < wa[c]) || (side >= 0 && parameter(c) >= parameter(side)))
+        continue;
+      const Triangle_number next = m_surface.neighbor(t, c);
+      const bool grazes = next == no_triangle && end != no_triangle && wb[c] >= -rounding;
+      if(grazes || (next != no_triangle && next == from))
+        continue;
+      side = c;
+      beyond = next;
+    }
+    if(side < 0)
+      return Way::LOST;
+    s = (std::max)(s, parameter(side));
+    const Weights w = between<3>(wa, wb, s);
+    // Outside of the triangle that it crosses: the next one lies over this one.
+    if(!(s <= 1.) || *std::min_element(w.begin(), w.end()) < -100. * rounding)
+      return Way::LOST;
+    cross(t, w, s);
+    if(beyond == no_triangle)
+      return Way::LEFT;
+    from = t;
+    t = beyond;
+  }
+  return Way::LOST;
+}
+
+} // namespace internal
+} // namespace Surface_mesh_multiresolution
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_DEVIATION_UV_WALK_H

@@ -1,0 +1,138 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_REPAIR_MAPPED_FACES_H
+#define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_REPAIR_MAPPED_FACES_H
+
+#include <CGAL/Surface_mesh_parameterization/Distortion_measures.h>
+#include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
+#include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
+#include <CGAL/Blocked_execution/Progress.h>
+
+#include <cmath>
+#include <complex>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_parameterization {
+namespace internal {
+
+// The part of the whole that the repair of flipped faces is taken for.
+constexpr double part_of_repair = 0.1;
+
+// The faces of a mesh whose vertices all have a place in a map, as arrays.
+template <class TriangleMesh>
+struct Mapped_faces
+{
+  typedef typename boost::graph_traits<TriangleMesh>::face_descriptor face_descriptor;
+
+  std::vector<Indexed_mesh::Triangle_indices> triangles; // by those places
+  std::vector<face_descriptor> descriptors;
+  std::vector<std::size_t> positions; // in faces(mesh)
+
+  // `place`: of each vertex its place, or `no_vertex`
+  template <class VertexPlaceMap>
+  Mapped_faces(const TriangleMesh& mesh, VertexPlaceMap place)
+  {
+    std::size_t position = 0;
+    for(const face_descriptor f : faces(mesh)) {
+      const auto h = halfedge(f, mesh), h1 = next(h, mesh);
+      const std::uint32_t a = get(place, target(h, mesh)), b = get(place, target(h1, mesh)),
+                          c = get(place, target(next(h1, mesh), mesh));
+      if(a != Indexed_mesh::no_vertex) { // all of a component, or none
+        triangles.push_back({a, b, c});
+        descriptors.push_back(f);
+        positions.push_back(position);
+      }
+      ++position;
+    }
+  }
+};
+
+// The weight of the energy of a face of this shape, which is in units of `unit`.
+inline double energy_weight(const Conformal_triangle& shape, Conformal_weights weights, double unit)
+{
+  return weights == Conformal_weights::EXACT ? 1. : 8. * shape.area() * unit * unit;
+}
+
+// The shape of each of these faces, in units of the mean edge, and the weight of its energy.
+template <class TriangleMesh>
+Map_to_repair::Shape_of_face shapes_of_faces(const TriangleMesh& mesh,
+                                           const Mapped_faces<TriangleMesh>& mapped,
+                                           Conformal_weights weights)
+{
+  const double unit = mean_edge_length(mesh);
+  return [&mesh, &mapped, weights, unit](std::uint32_t t) {
+    const Conformal_triangle shape = conformal_triangle(mesh, mapped.descriptors[t], unit);
+    return std::make_pair(shape, energy_weight(shape, weights, unit));
+  };
+}
+
+// The same for a mesh that is two arrays.
+inline Map_to_repair::Shape_of_face
+shapes_of_triangles(const Indexed_mesh::Indexed_triangle_mesh& mesh,
+                    Conformal_weights weights)
+{
+  double sum = 0.;
+  for(const auto& t : mesh.triangles)
+    for(int c = 0; c < 3; ++c)
+      sum += std::sqrt(squared_distance(mesh.points[t[c]], mesh.points[t[(c + 1) % 3]]));
+  const double unit = sum > 0. ? sum / (3. * double(mesh.triangles.size())) : 1.;
+  return [&mesh, weights, unit](std::uint32_t t) {
+    const auto corner = [&](int c) {
+      const auto d = mesh.points[mesh.triangles[t][c]] - mesh.points[mesh.triangles[t][0]];
+      return Conformal_triangle::Point_3(d.x() / unit, d.y() / unit, d.z() / unit);
+    };
+    const Conformal_triangle shape(corner(0), corner(1), corner(2));
+    return std::make_pair(shape, energy_weight(shape, weights, unit));
+  };
+}
+
+// Repairs the map of a chart of `mesh`, given by the place of each vertex of the mesh in it or
+// `no_vertex`, by the function of the options, and takes what changes over into the report.
+// `since_begin` is asked for the time limit.
+template <class TriangleMesh>
+void repair_chart(const TriangleMesh& mesh, const std::vector<std::uint32_t>& places,
+                  const std::vector<bool>& is_pinned, const HLSCM_options& options,
+                  const Blocked_execution::Stopwatch& since_begin, std::vector<std::complex<double>>& z,
+                  HLSCM_report& report)
+{
+  const auto place = get(CGAL::dynamic_vertex_property_t<std::uint32_t>(), mesh);
+  std::size_t position = 0;
+  for(const auto v : vertices(mesh))
+    put(place, v, places[position++]);
+  const Mapped_faces<TriangleMesh> mapped(mesh, place);
+  Map_to_repair map
+    = {mapped.triangles, is_pinned, shapes_of_faces(mesh, mapped, options.weights), z};
+  Blocked_execution::Progress progress(options.progress);
+  const auto goes_on = [&](double part) {
+    if(options.time_limit > 0. && since_begin.seconds() > options.time_limit)
+      report.stopped_early = true;
+    return progress(1. - part_of_repair, 1., part) && !report.stopped_early;
+  };
+  const Blocked_execution::Stopwatch watch;
+  Flip_repair_report repair = options.repair_flips(map, goes_on);
+  for(std::size_t& face : repair.unmended_faces)
+    face = mapped.positions[face];
+  repair.seconds = watch.seconds();
+  const double rise = repair.energy_after - repair.energy_before;
+  repair.energy_before = report.energy;
+  report.energy += rise;
+  report.energy_gap_estimate += rise;
+  repair.energy_after = report.energy;
+  if(!repair.unmended_faces.empty())
+    report.warnings.push_back(std::to_string(repair.unmended_faces.size())
+                              + (repair.stopped_early ? " flipped faces are left: there was no time"
+                                                      : " flipped faces could not be repaired"));
+  report.cancelled = progress.is_cancelled() || !progress(1., 1., 1.);
+  report.flip_repair = std::move(repair);
+}
+
+} // namespace internal
+} // namespace Surface_mesh_parameterization
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_REPAIR_MAPPED_FACES_H

@@ -1,0 +1,295 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_SOLVER_CHART_H
+#define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_SOLVER_CHART_H
+
+#include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Blocked_execution/memory.h>
+#include <CGAL/Indexed_mesh/Vertex_rings.h>
+#include <CGAL/Indexed_mesh/border_loops.h>
+
+#include <CGAL/Surface_mesh_parameterization/Error_code.h>
+
+#include <CGAL/boost/graph/helpers.h>
+#include <CGAL/boost/graph/properties.h>
+#include <CGAL/number_utils.h>
+
+#include <atomic>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_parameterization {
+namespace internal {
+
+// A chart of a mesh as arrays, or what is wrong with it.
+struct Chart
+{
+  typedef Indexed_mesh::Indexed_triangle_mesh Mesh;
+  typedef Indexed_mesh::Vertex_index Vertex_index;
+
+  Mesh mesh;                              // normalized, in spatial order
+  std::vector<std::uint32_t> source;      // for each vertex its position in vertices(mesh)
+  Indexed_mesh::Vertex_rings rings;
+  std::vector<std::vector<Vertex_index>> borders;
+  double scale = 1.;                      // lengths of `mesh` to those of the input
+  Error_code error = OK;
+  std::string message;                    // why, if error is not OK
+
+  void fail(Error_code code, const std::string& text)
+  {
+    if(error == OK) {
+      error = code;
+      message = text;
+    }
+  }
+
+  // The position of each vertex of the input in the chart, or `no_vertex`.
+  std::vector<Vertex_index> rank(std::size_t number_of_input_vertices) const
+  {
+    return Indexed_mesh::ranks(source, number_of_input_vertices);
+  }
+};
+
+inline void check_point(const Chart::Mesh::Point_3& p, std::size_t vertex, Chart& chart)
+{
+  if(!std::isfinite(p.x()) || !std::isfinite(p.y()) || !std::isfinite(p.z()))
+    chart.fail(ERROR_WRONG_PARAMETER, "vertex " + std::to_string(vertex)
+               + " has a coordinate that is not a finite number; correct or remove it");
+}
+
+// Says which point, the first of several, is none.
+inline void check_points(Chart& chart)
+{
+  for(std::size_t v = 0; v < chart.mesh.points.size(); ++v)
+    check_point(chart.mesh.points[v], v, chart);
+}
+
+// Calls `body(i)` for i in [0, n). Numbers that are objects may not be read by several threads.
+template <class Number, class Body>
+void for_each_of_mesh(std::size_t n, const Body& body)
+{
+  const std::size_t block = std::is_arithmetic<Number>::value ? 16384 : (std::max)(n, std::size_t(1));
+  Blocked_execution::blocked_for(n, block, [&body](std::size_t begin, std::size_t end) {
+    for(std::size_t i = begin; i < end; ++i)
+      body(i);
+  });
+}
+
+// Copies the positions of the vertices of `mesh`, which are numbered as in vertices(mesh).
+template <class TriangleMesh, class VertexPositionMap>
+void copy_points(const TriangleMesh& mesh, VertexPositionMap position, Chart& chart)
+{
+  typedef typename boost::graph_traits<TriangleMesh>::vertex_descriptor vertex_descriptor;
+  const auto vpm = get(CGAL::vertex_point, mesh);
+  typedef std::decay_t<decltype(get(vpm, std::declval<vertex_descriptor>())[0])> Number;
+  std::vector<vertex_descriptor> all;
+  all.reserve(num_vertices(mesh));
+  for(const vertex_descriptor v : vertices(mesh)) {
+    put(position, v, std::uint32_t(all.size()));
+    all.push_back(v);
+  }
+  chart.mesh.points.resize(all.size());
+  std::atomic<bool> is_finite(true);
+  for_each_of_mesh<Number>(all.size(), [&](std::size_t i) {
+    const auto& p = get(vpm, all[i]);
+    const Chart::Mesh::Point_3 q(to_double(p[0]), to_double(p[1]), to_double(p[2]));
+    chart.mesh.points[i] = q;
+    if(!std::isfinite(q.x()) || !std::isfinite(q.y()) || !std::isfinite(q.z()))
+      is_finite = false;
+  });
+  if(!is_finite)
+    check_points(chart);
+}
+
+// Copies the faces and positions of `mesh`; vertices are numbered as in vertices(mesh).
+template <class TriangleMesh>
+void copy_faces(const TriangleMesh& mesh, Chart& chart)
+{
+  typedef typename boost::graph_traits<TriangleMesh>::face_descriptor face_descriptor;
+  const auto position = get(CGAL::dynamic_vertex_property_t<std::uint32_t>(), mesh);
+  copy_points(mesh, position, chart);
+  std::vector<face_descriptor> all;
+  all.reserve(num_faces(mesh));
+  for(const face_descriptor f : faces(mesh))
+    all.push_back(f);
+  Blocked_execution::resize_blocked(chart.mesh.triangles, all.size());
+  std::atomic<std::size_t> first_polygon(all.size());
+  for_each_of_mesh<int>(all.size(), [&](std::size_t i) {
+    const auto h = halfedge(all[i], mesh), h1 = next(h, mesh), h2 = next(h1, mesh);
+    chart.mesh.triangles[i] = {get(position, target(h, mesh)), get(position, target(h1, mesh)),
+                               get(position, target(h2, mesh))};
+    if(next(h2, mesh) != h)
+      for(std::size_t known = first_polygon; i < known;)
+        if(first_polygon.compare_exchange_weak(known, i))
+          break;
+  });
+  if(first_polygon < all.size())
+    chart.fail(ERROR_NON_TRIANGULAR_MESH, "face " + std::to_string(first_polygon)
+               + " is not a triangle; triangulate the mesh first");
+}
+
+// Keeps the vertices for which `is_kept` and the triangles that have them.
+inline void keep_vertices(Chart& chart, const std::vector<bool>& is_kept)
+{
+  std::vector<std::uint32_t> rank(is_kept.size());
+  std::size_t kept = 0;
+  for(std::size_t v = 0; v < is_kept.size(); ++v) {
+    rank[v] = std::uint32_t(kept);
+    if(!is_kept[v])
+      continue;
+    chart.mesh.points[kept] = chart.mesh.points[v];
+    chart.source[kept] = chart.source[v];
+    ++kept;
+  }
+  chart.mesh.points.erase(chart.mesh.points.begin() + kept, chart.mesh.points.end());
+  chart.source.resize(kept);
+  std::size_t triangles = 0;
+  for(const auto& t : chart.mesh.triangles)
+    if(is_kept[t[0]] && is_kept[t[1]] && is_kept[t[2]])
+      chart.mesh.triangles[triangles++] = {rank[t[0]], rank[t[1]], rank[t[2]]};
+  chart.mesh.triangles.resize(triangles);
+}
+
+inline void remove_unused_vertices(Chart& chart)
+{
+  const auto& triangles = chart.mesh.triangles;
+  std::vector<std::atomic<bool>> is_used(chart.mesh.points.size());
+  Blocked_execution::blocked_for(triangles.size(), 16384, [&](std::size_t begin, std::size_t end) {
+    for(std::size_t t = begin; t < end; ++t)
+      for(const std::uint32_t v : triangles[t])
+        is_used[v].store(true, std::memory_order_relaxed);
+  });
+  const std::vector<bool> is_kept(is_used.begin(), is_used.end());
+  if(std::find(is_kept.begin(), is_kept.end(), false) != is_kept.end())
+    keep_vertices(chart, is_kept);
+}
+
+// Builds the rings; says which vertex has none.
+inline void connect(Chart& chart)
+{
+  typedef Indexed_mesh::Ring_defect Ring_defect;
+  chart.rings = Indexed_mesh::Vertex_rings(chart.mesh);
+  if(chart.rings.defect() == Ring_defect::NONE)
+    return;
+  const std::string vertex
+    = "vertex " + std::to_string(chart.source[chart.rings.defective_vertex()]);
+  if(chart.rings.defect() == Ring_defect::REPEATED_HALFEDGE)
+    chart.fail(ERROR_NO_TOPOLOGICAL_DISC, vertex + " has an edge with more than two faces, or with "
+               "two faces of different orientation; repair the mesh first");
+  else
+    chart.fail(ERROR_NO_TOPOLOGICAL_DISC, "the faces at " + vertex
+               + " do not form one fan; split the vertex first");
+}
+
+// Euler: V - E + F = 2 - 2 genus - borders.
+inline void check_topology(Chart& chart)
+{
+  const long long v = (long long)(chart.mesh.points.size());
+  const long long f = (long long)(chart.mesh.triangles.size());
+  long long border_edges = 0;
+  for(const auto& loop : chart.borders)
+    border_edges += (long long)(loop.size());
+  const long long e = (3 * f + border_edges) / 2;
+  const long long twice_genus = 2 - (long long)(chart.borders.size()) - (v - e + f);
+  if(chart.borders.empty())
+    chart.fail(ERROR_NO_TOPOLOGICAL_DISC, "the surface is closed; cut it open first");
+  else if(twice_genus != 0)
+    chart.fail(ERROR_NO_TOPOLOGICAL_DISC, "the surface has genus "
+               + std::to_string(twice_genus / 2) + "; cut its handles first");
+}
+
+// Takes the arrays of `chart.mesh` with `chart.source` set, and of it the component of the vertex at
+// position `seed`; without a seed all must be one component.
+inline void prepare_chart(Chart& chart, std::uint32_t seed)
+{
+  namespace SMM = Surface_mesh_multiresolution;
+  if(chart.error != OK)
+    return;
+  if(chart.mesh.triangles.empty())
+    return chart.fail(ERROR_EMPTY_MESH, "the mesh has no faces");
+  remove_unused_vertices(chart);
+  chart.scale = CGAL::Indexed_mesh::normalize(chart.mesh);
+  if(!(chart.scale > 0.))
+    return chart.fail(ERROR_WRONG_PARAMETER, "all vertices lie in one point");
+  const auto sort = [&chart] {
+    const std::vector<CGAL::Indexed_mesh::Vertex_index> order = CGAL::Indexed_mesh::sort_spatially(chart.mesh);
+    std::vector<std::uint32_t> source(order.size());
+    for(std::size_t v = 0; v < order.size(); ++v)
+      source[v] = chart.source[order[v]];
+    chart.source.swap(source);
+  };
+  sort();
+  connect(chart);
+  if(chart.error != OK)
+    return;
+  CGAL::Indexed_mesh::Vertex_index first = 0;
+  for(CGAL::Indexed_mesh::Vertex_index v = 0; v < chart.source.size(); ++v)
+    if(chart.source[v] == seed)
+      first = v;
+  const std::vector<bool> is_reached = CGAL::Indexed_mesh::component_of(chart.rings, first);
+  if(std::find(is_reached.begin(), is_reached.end(), false) != is_reached.end()) {
+    if(seed == CGAL::Indexed_mesh::no_vertex)
+      return chart.fail(ERROR_NO_TOPOLOGICAL_DISC,
+                        "the surface has several components; map them one by one");
+    keep_vertices(chart, is_reached);
+    connect(chart);
+  }
+  chart.borders = Indexed_mesh::border_loops(chart.rings);
+  check_topology(chart);
+}
+
+// A connected mesh that is two arrays.
+inline Chart chart_of_arrays(Chart::Mesh mesh)
+{
+  Chart chart;
+  chart.mesh = std::move(mesh);
+  chart.source.resize(chart.mesh.points.size());
+  for(std::uint32_t v = 0; v < chart.source.size(); ++v)
+    chart.source[v] = v;
+  check_points(chart);
+  prepare_chart(chart, Indexed_mesh::no_vertex);
+  return chart;
+}
+
+// The parameters of the `n` vertices of the input; (0, 0) of those that are not in the chart.
+inline std::vector<Simple_cartesian<double>::Point_2>
+points_of_values(const Chart& chart, const std::vector<std::complex<double>>& z, std::size_t n)
+{
+  std::vector<Simple_cartesian<double>::Point_2> uv(n, Simple_cartesian<double>::Point_2(0., 0.));
+  for(std::size_t v = 0; v < z.size(); ++v)
+    uv[chart.source[v]] = Simple_cartesian<double>::Point_2(z[v].real(), z[v].imag());
+  return uv;
+}
+
+// The connected component of `mesh` that has the halfedge `bhd`.
+template <class TriangleMesh>
+Chart extract_chart(const TriangleMesh& mesh,
+                    typename boost::graph_traits<TriangleMesh>::halfedge_descriptor bhd)
+{
+  Chart chart;
+  copy_faces(mesh, chart);
+  chart.source.resize(chart.mesh.points.size());
+  for(std::uint32_t v = 0; v < chart.source.size(); ++v)
+    chart.source[v] = v;
+  std::uint32_t seed = 0;
+  for(const auto v : vertices(mesh)) {
+    if(v == target(bhd, mesh))
+      break;
+    ++seed;
+  }
+  prepare_chart(chart, seed);
+  return chart;
+}
+
+} // namespace internal
+} // namespace Surface_mesh_parameterization
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_SOLVER_CHART_H

@@ -1,0 +1,361 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_SOLVER_CONFORMAL_HIERARCHY_H
+#define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_SOLVER_CONFORMAL_HIERARCHY_H
+
+#include <CGAL/Multigrid/Conjugate_gradient.h>
+#include <CGAL/Multigrid/Multigrid_levels.h>
+#include <CGAL/Multigrid/Rayleigh_quotient.h>
+#include <CGAL/Surface_mesh_multiresolution/Mesh_hierarchy.h>
+#include <CGAL/Surface_mesh_parameterization/Conformal_operator.h>
+#include <CGAL/Surface_mesh_parameterization/internal/solver/coarse_cotangents.h>
+#include <CGAL/Surface_mesh_parameterization/internal/solver/pins.h>
+
+#include <cmath>
+#include <complex>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_parameterization {
+namespace internal {
+
+// Half the length of the two border edges of each border vertex of a level: the integral over the
+// border of the squared map, its mass lumped to the vertices (Mullen et al. 2008, section 4, count
+// vertices, which depends on how finely the border is divided). The loops are those of the finest
+// level; coarser ones have some of their vertices, in the same order.
+inline Multigrid::Diagonal_mass
+border_mass(const Surface_mesh_multiresolution::Mesh_level& level,
+            const std::vector<std::vector<Indexed_mesh::Vertex_index>>& loops)
+{
+  std::vector<Multigrid::Diagonal_mass::Entry> entries;
+  for(const auto& loop : loops) {
+    const std::size_t first = entries.size();
+    for(const auto v : loop) {
+      const std::size_t position = level.position(v);
+      if(position < level.vertices.size() && level.vertices[position] == v)
+        entries.push_back({std::uint32_t(position), 0.});
+    }
+    for(std::size_t i = first; i < entries.size(); ++i) {
+      auto& a = entries[i];
+      auto& b = entries[i + 1 < entries.size() ? i + 1 : first];
+      const auto& points = level.mesh.points;
+      const double half = 0.5 * std::sqrt(squared_distance(points[a.row], points[b.row]));
+      a.value += half;
+      b.value += half;
+    }
+  }
+  return Multigrid::Diagonal_mass(std::move(entries));
+}
+
+// The weights of the triangles of each level, from those of the finest; none if those are empty.
+// Coarse triangles get the mean weight of the fine ones that they stand for, so that the energy of
+// a level resembles that of the finest.
+inline std::vector<std::vector<double>>
+level_weights(const std::vector<Surface_mesh_multiresolution::Mesh_level>& levels,
+              std::vector<double> finest)
+{
+  std::vector<std::vector<double>> weights(levels.size());
+  if(finest.empty())
+    return weights;
+  weights.back() = std::move(finest);
+  const auto& triangles = levels.back().mesh.triangles;
+  // Weight and number of the triangles at each vertex
+  Multigrid::Complex_vector<double> density(levels.back().vertices.size(), 0.), coarse;
+  for(std::size_t t = 0; t < triangles.size(); ++t)
+    for(const auto v : triangles[t])
+      density[v] += std::complex<double>(weights.back()[t], 1.);
+  for(std::size_t l = levels.size() - 1; l-- > 0;) {
+    levels[l + 1].from_coarser.restrict_in_place(density, coarse);
+    density.swap(coarse);
+    for(const auto& t : levels[l].mesh.triangles) {
+      const std::complex<double> sum = density[t[0]] + density[t[1]] + density[t[2]];
+      weights[l].push_back(sum.real() / sum.imag());
+    }
+  }
+  return weights;
+}
+
+// The levels of a chart, the conformal operator of each, under pins, and the cycle over them. Level
+// 0 is the coarsest.
+//
+// A pin is a vertex of the finest level. On a level that does not have it, the vertex from which it
+// would get most of its value stands for it.
+template <class CoarsestSolver>
+class Conformal_hierarchy
+{
+public:
+  typedef std::complex<double> Complex;
+  typedef Multigrid::Complex_vector<double> Vector;
+  typedef Surface_mesh_multiresolution::Mesh_level Level;
+  typedef Indexed_mesh::Vertex_index Vertex_index;
+
+  Conformal_hierarchy() {}
+  Conformal_hierarchy(const Conformal_hierarchy&) = delete; // the cycle refers to the operators
+  Conformal_hierarchy& operator=(const Conformal_hierarchy&) = delete;
+
+  void set_levels(std::vector<Level> levels) { m_levels = std::move(levels); }
+  std::vector<Level>& levels() { return m_levels; }
+  const std::vector<Level>& levels() const { return m_levels; }
+  std::size_t number_of_levels() const { return m_levels.size(); }
+
+  // Builds the operators from the meshes of the levels, without pins. `triangle_weights` are those
+  // of the finest level, empty for 1. After each level, the finest first, `after_level(l)` says
+  // whether to go on.
+  template <class After_level>
+  void build_operators(std::vector<double> triangle_weights, const After_level& after_level);
+
+  // Makes the cycle ready; before the first pin.
+  void build_cycle();
+
+  void pin(Vertex_index v);
+  void release(Vertex_index v);
+
+  const Conformal_operator<double>& finest() const { return m_finest; }
+  const Conformal_operator<double>& coarsest() const
+  {
+    return m_levels.size() == 1 ? m_finest : m_coarsest;
+  }
+  CoarsestSolver& coarsest_solver() { return m_cycle->coarsest_solver(); }
+  bool factorize_coarsest() { return coarsest_solver().factorize(coarsest().matrix); }
+
+  // Gives the pins of level l their values.
+  void set_pins(std::size_t l, const std::vector<Pin>& pins, Vector& z) const
+  {
+    for(const Pin& pin : pins)
+      z[m_pins.at(pin.vertex)[l]] = pin.value;
+  }
+
+  // The vector of the coarsest level that is 0 but at the pins.
+  Vector at_pins(const std::vector<Pin>& pins) const
+  {
+    Vector z(m_levels[0].vertices.size(), 0.);
+    set_pins(0, pins, z);
+    return z;
+  }
+
+  // Takes a vector of level l - 1 to level l.
+  Vector prolonged(std::size_t l, const Vector& z) const
+  {
+    Vector fine;
+    m_levels[l].from_coarser.prolongate(z, fine);
+    return fine;
+  }
+
+  // Calls `minimize(op, z)` with the operator of level l > 0 and z in the precision of the level.
+  template <class Minimize>
+  Multigrid::Iteration_report on_level(std::size_t l, Vector& z, const Minimize& minimize) const;
+
+  // Lowers the energy of z on level l under the pins, whose values stay.
+  template <class Observe>
+  Multigrid::Iteration_report minimize(std::size_t l, const Multigrid::Schedule& schedule,
+                                       const Multigrid::Energy_stop& stop, const Observe& observe,
+                                       Vector& z);
+
+  // Lowers the energy of z on level l for the mass of its border. The rows of the pins, for which
+  // the preconditioner has no correction, are moved by the combination with the map itself.
+  template <class Observe>
+  Multigrid::Iteration_report
+  minimize_without_pins(std::size_t l, const Multigrid::Diagonal_mass& mass,
+                        const Multigrid::Schedule& schedule, const Multigrid::Energy_stop& stop,
+                        const Observe& observe, Vector& z);
+
+private:
+  typedef Multigrid::Multigrid_levels<Surface_mesh_multiresolution::Prolongation, CoarsestSolver>
+    Cycle;
+
+  template <class Use>
+  void for_each_operator(std::size_t l, const Use& use);
+  template <class Real>
+  void precondition(std::size_t l, const Multigrid::Schedule& schedule,
+                    const Multigrid::Complex_vector<Real>& r, Multigrid::Complex_vector<Real>& x);
+
+  std::vector<Level> m_levels;
+  std::vector<Conformal_operator<float>> m_single;     // of the levels between; of all for a cycle
+  Conformal_operator<double> m_coarsest, m_finest;     // those at the ends
+  std::unique_ptr<Cycle> m_cycle;
+  std::map<Vertex_index, std::vector<Vertex_index>> m_pins; // what stands for each, by level
+  std::vector<std::map<Vertex_index, int>> m_number_of_pins; // that a vertex of a level stands for
+};
+
+template <class CoarsestSolver>
+template <class After_level>
+void Conformal_hierarchy<CoarsestSolver>::build_operators(std::vector<double> triangle_weights,
+                                                          const After_level& after_level)
+{
+  typedef Indexed_mesh::Triangles_at_vertices Triangles_at_vertices;
+  const std::size_t count = m_levels.size();
+  const auto weights = level_weights(m_levels, std::move(triangle_weights));
+  m_pins.clear();
+  m_number_of_pins.assign(count, {});
+  m_single.clear();
+  m_single.resize(count);
+  m_cycle = std::make_unique<Cycle>();
+  const auto corners = [this](std::size_t l) {
+    return Triangles_at_vertices(m_levels[l].mesh.triangles, m_levels[l].vertices.size());
+  };
+  Triangles_at_vertices at = corners(count - 1);
+  Half_cotangents cot(m_levels.back().mesh);
+  for(std::size_t l = count; l-- > 0;) {
+    Level& level = m_levels[l];
+    const auto assemble = [&](auto& op) {
+      typedef std::decay_t<decltype(op.matrix.diagonal()[0])> Real;
+      op = assemble_conformal_operator<Real>(level.mesh.triangles, at, cot, weights[l]);
+    };
+    if(l + 1 == count)
+      assemble(m_finest);
+    else if(l == 0)
+      assemble(m_coarsest);
+    else
+      assemble(m_single[l]);
+    if(l > 0) {
+      Triangles_at_vertices coarse_at = corners(l - 1);
+      cot = coarse_cotangents({{level.mesh, at}, cot}, {m_levels[l - 1].mesh, coarse_at},
+                              level.from_coarser, level.coarser_triangles);
+      level.coarser_triangles = std::vector<std::uint32_t>(); // they would stay in the memory
+      at = std::move(coarse_at);
+    }
+    if(!after_level(l))
+      return;
+  }
+}
+
+template <class CoarsestSolver>
+void Conformal_hierarchy<CoarsestSolver>::build_cycle()
+{
+  const std::size_t count = m_levels.size();
+  if(count == 1)
+    return;
+  m_single.front().matrix.assign(m_coarsest.matrix);
+  m_single.back().matrix.assign(m_finest.matrix);
+  for(std::size_t l = 0; l < count; ++l)
+    m_cycle->add_level(m_single[l].matrix, l == 0 ? nullptr : &m_levels[l].from_coarser);
+}
+
+// Calls `use` for the operators of level l that there are.
+template <class CoarsestSolver>
+template <class Use>
+void Conformal_hierarchy<CoarsestSolver>::for_each_operator(std::size_t l, const Use& use)
+{
+  if(l + 1 == m_levels.size())
+    use(m_finest);
+  else if(l == 0)
+    use(m_coarsest);
+  if(m_single[l].matrix.size() > 0)
+    use(m_single[l]);
+}
+
+template <class CoarsestSolver>
+void Conformal_hierarchy<CoarsestSolver>::pin(Vertex_index v)
+{
+  const std::size_t count = m_levels.size();
+  std::vector<Vertex_index>& stands_for = m_pins[v];
+  stands_for.assign(count, v);
+  for(std::size_t l = count - 1; l > 0; --l)
+    stands_for[l - 1] = m_levels[l].from_coarser.heaviest_source(stands_for[l]);
+  for(std::size_t l = 0; l < count; ++l)
+    if(++m_number_of_pins[l][stands_for[l]] == 1) {
+      for_each_operator(l, [&](auto& op) { op.pin(stands_for[l]); });
+      if(l < m_cycle->number_of_levels())
+        m_cycle->update_row(l, stands_for[l]);
+    }
+}
+
+template <class CoarsestSolver>
+void Conformal_hierarchy<CoarsestSolver>::release(Vertex_index v)
+{
+  const auto pin = m_pins.find(v);
+  for(std::size_t l = 0; l < m_levels.size(); ++l) {
+    const Vertex_index w = pin->second[l];
+    if(--m_number_of_pins[l][w] > 0)
+      continue;
+    m_number_of_pins[l].erase(w);
+    for_each_operator(l, [w](auto& op) { op.release(w); });
+    if(l < m_cycle->number_of_levels())
+      m_cycle->update_row(l, w);
+  }
+  m_pins.erase(pin);
+}
+
+template <class CoarsestSolver>
+template <class Minimize>
+Multigrid::Iteration_report
+Conformal_hierarchy<CoarsestSolver>::on_level(std::size_t l, Vector& z,
+                                              const Minimize& minimize) const
+{
+  if(l + 1 == m_levels.size())
+    return minimize(m_finest, z);
+  Multigrid::Complex_vector<float> rounded(z.begin(), z.end());
+  const auto result = minimize(m_single[l], rounded);
+  z.assign(rounded.begin(), rounded.end());
+  return result;
+}
+
+template <class CoarsestSolver>
+template <class Real>
+void Conformal_hierarchy<CoarsestSolver>::precondition(std::size_t l,
+                                                       const Multigrid::Schedule& schedule,
+                                                       const Multigrid::Complex_vector<Real>& r,
+                                                       Multigrid::Complex_vector<Real>& x)
+{
+  if(l == 0)
+    coarsest_solver().solve(r, x);
+  else
+    m_cycle->precondition(schedule, l, r, x);
+}
+
+template <class CoarsestSolver>
+template <class Observe>
+Multigrid::Iteration_report
+Conformal_hierarchy<CoarsestSolver>::minimize(std::size_t l, const Multigrid::Schedule& schedule,
+                                              const Multigrid::Energy_stop& stop,
+                                              const Observe& observe, Vector& z)
+{
+  const auto precondition_on_level = [&](const auto& r, auto& x) {
+    precondition(l, schedule, r, x);
+  };
+  Vector pinned(m_number_of_pins[l].size()); // their full precision
+  const auto for_each_pin = [&](const auto& use) {
+    std::size_t i = 0;
+    for(const auto& entry : m_number_of_pins[l])
+      use(z[entry.first], pinned[i++]);
+  };
+  for_each_pin([](Complex& value, Complex& kept) { kept = value; });
+  const auto result = on_level(l, z, [&](const auto& op, auto& x) {
+    return Multigrid::minimize_energy(op.matrix, x, op.energy(x), precondition_on_level, stop,
+                                      observe);
+  });
+  for_each_pin([](Complex& value, Complex& kept) { value = kept; });
+  return result;
+}
+
+template <class CoarsestSolver>
+template <class Observe>
+Multigrid::Iteration_report
+Conformal_hierarchy<CoarsestSolver>::minimize_without_pins(std::size_t l,
+                                                           const Multigrid::Diagonal_mass& mass,
+                                                           const Multigrid::Schedule& schedule,
+                                                           const Multigrid::Energy_stop& stop,
+                                                           const Observe& observe, Vector& z)
+{
+  const auto minimize = [&](const auto& op, auto& x) {
+    typedef std::decay_t<decltype(x)> Level_vector;
+    const auto apply = [&op](const Level_vector& y, Level_vector& hy) { op.multiply(y, hy); };
+    const auto precondition_free = [&](Level_vector& r, Level_vector& y) {
+      for(const auto& pin : op.pinned)
+        r[pin.vertex] = 0;
+      precondition(l, schedule, r, y);
+    };
+    return Multigrid::minimize_rayleigh_quotient(apply, mass, x, precondition_free, stop, observe);
+  };
+  return l == 0 ? minimize(coarsest(), z) : on_level(l, z, minimize);
+}
+
+} // namespace internal
+} // namespace Surface_mesh_parameterization
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_SOLVER_CONFORMAL_HIERARCHY_H

@@ -1,0 +1,312 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_CHART_MERGER_H
+#define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_CHART_MERGER_H
+
+#include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/Chart_state.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/Chart_unions.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/Cut_mesh.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <map>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+namespace internal {
+
+// What counts when charts are merged; all terms are free of units.
+struct Merge_weights
+{
+  double distortion = 1.; // of the union, 1 at the bound
+  double seam = 1.;       // times the seam removed, to the shorter one of the two perimeters
+  double crease = 0.3;    // times the part of the seam removed that lies on features
+  double size = 0.05;     // times the logarithm of the union's share of the area
+  double fill = 0.5;      // times the part of its convex hull that the union leaves empty
+};
+
+// Charts that are merged two by two. A chart is a set of triangles that form a disk when cut along
+// the seams; a merge removes one arc of the seams between two charts, so that the union is one too.
+class Chart_merger
+{
+  static constexpr double least_neck = 0.12; // between two charts, to the smaller perimeter
+
+public:
+  typedef Chart_state::Indices Indices;
+
+  // Merges keep within `bound`, and leave `least` charts in each component.
+  Chart_merger(const Growth_surface& surface, const std::vector<std::uint8_t>& is_feature,
+               const Distortion_bound& bound, double least_fill, std::size_t least)
+    : m_surface(surface), m_bound(bound), m_least_fill(least_fill)
+    , m_least(least), m_finder(surface, is_feature), m_cutter(surface.mesh)
+  {
+    for(const double a : surface.area)
+      m_area += a;
+  }
+
+  // The charts with the given seams and labels of triangles, which are less than `number`; not all
+  // of these need have triangles.
+  Chart_state start(const Seam_graph& graph, const Indices& label, std::size_t number);
+
+  // Merges while a union of two charts, one of which `is_active`, is within the bound.
+  void merge(Chart_state& state, const std::vector<bool>& is_active, const Merge_weights& weights);
+
+  // Merges the union of least distortion, whatever it is, until no more than `number` are left or
+  // nothing can be merged.
+  void merge_down_to(Chart_state& state, std::size_t number);
+
+  bool is_good(const Trial_map& trial) const
+  {
+    return trial.is_disk && trial.is_one_to_one && trial.distortion.is_within(m_bound)
+        && trial.fill >= m_least_fill;
+  }
+
+  std::size_t work() const { return m_work; } // triangles mapped so far
+  void set_progress(std::function<bool()> goes_on) { m_goes_on = std::move(goes_on); }
+
+private:
+  typedef Chart_state::Pair Pair;
+  typedef std::map<Pair, Chart_union> Candidates;
+
+  void add_candidates(Chart_state& state, std::uint32_t c, Candidates& candidates) const;
+  void try_all(const Chart_state& state, Candidates& candidates);
+  void try_arcs(const Chart_state& state, Candidates& candidates,
+                std::vector<Chart_union*>& fresh);
+  double cost(const Chart_state& state, const Pair& pair, const Chart_union& candidate,
+              const Merge_weights& weights) const;
+  bool may_merge(const Chart_state& state, const Pair& pair) const
+  {
+    const Chart_piece& piece = state.pieces[pair.first];
+    return state.charts_of_component[m_surface.component[piece.triangles[0]]] > m_least;
+  }
+  bool has_thin_neck(const Chart_state& state, const Pair& pair, const Chart_union& candidate) const
+  {
+    return candidate.removed < least_neck * (std::min)(state.pieces[pair.first].perimeter,
+                                                       state.pieces[pair.second].perimeter);
+  }
+  bool is_far_beyond_bound(const Trial_map& trial) const
+  {
+    constexpr double much = 1.3; // the power of the bound
+    return trial.is_disk
+        && (trial.distortion.area_scale > std::pow(m_bound.area_scale, much)
+            || trial.distortion.quasi_conformal > std::pow(m_bound.quasi_conformal, much));
+  }
+  void merge_pair(Chart_state& state, const Pair& pair, Candidates& candidates) const;
+  void apply(Chart_state& state, const Pair& pair, const Chart_union& candidate) const;
+
+  const Growth_surface& m_surface;
+  Distortion_bound m_bound;
+  double m_least_fill;
+  std::size_t m_least;
+  Union_finder m_finder;
+  Mesh_cutter m_cutter;
+  double m_area = 0.;
+  std::size_t m_work = 0;
+  std::unordered_map<std::uint64_t, Trial_map> m_known; // by a hash of triangles and seams
+  std::function<bool()> m_goes_on;
+};
+
+inline Chart_state Chart_merger::start(const Seam_graph& graph, const Indices& label,
+                                       std::size_t number)
+{
+  Chart_state state = {graph, label, std::vector<Chart_piece>(number), 0,
+                       std::vector<std::size_t>(m_surface.number_of_components, 0)};
+  for(std::uint32_t t = 0; t < label.size(); ++t)
+    state.pieces[label[t]].triangles.push_back(t);
+  Candidates candidates;
+  for(std::uint32_t c = 0; c < number; ++c) {
+    Chart_piece& piece = state.pieces[c];
+    if(piece.triangles.empty())
+      continue;
+    state.measure(m_surface, piece);
+    ++state.number_of_charts;
+    ++state.charts_of_component[m_surface.component[piece.triangles[0]]];
+    candidates[Pair(c, c)];
+  }
+  try_all(state, candidates);
+  for(const auto& [pair, candidate] : candidates)
+    state.pieces[pair.first].trial = candidate.trial;
+  return state;
+}
+
+inline void Chart_merger::add_candidates(Chart_state& state, std::uint32_t c,
+                                         Candidates& candidates) const
+{
+  for(const std::uint32_t d : state.neighbors(c)) {
+    const Pair pair(std::minmax(c, d));
+    if(candidates.count(pair) == 0)
+      candidates.emplace(pair, m_finder.find(state, pair));
+  }
+}
+
+// Maps the unions that have not been mapped yet, with a cut to a tip if they are too much distorted
+// without; (a, a) stands for chart a alone.
+inline void Chart_merger::try_all(const Chart_state& state, Candidates& candidates)
+{
+  std::vector<Chart_union*> fresh;
+  try_arcs(state, candidates, fresh);
+  bool has_darts = false;
+  for(Chart_union* c : fresh)
+    if(c->trial.is_disk && !c->trial.distortion.is_within(m_bound)
+       && m_finder.make_dart(state, *c)) {
+      c->is_known = false;
+      has_darts = true;
+    }
+  if(has_darts)
+    try_arcs(state, candidates, fresh);
+  for(auto& [pair, candidate] : candidates)
+    candidate.is_hopeless = candidate.is_hopeless || is_far_beyond_bound(candidate.trial);
+}
+
+// The same without cuts; appends those that were not known to `fresh`.
+inline void Chart_merger::try_arcs(const Chart_state& state, Candidates& candidates,
+                                   std::vector<Chart_union*>& fresh)
+{
+  struct Item
+  {
+    Chart_union* candidate;
+    Cut_mesh chart;
+  };
+  std::vector<Item> items;
+  for(auto& [pair, candidate] : candidates) {
+    if(candidate.is_known || candidate.is_hopeless)
+      continue;
+    candidate.is_known = true;
+    fresh.push_back(&candidate);
+    Cut_mesh chart = m_cutter(state.graph, state.union_of(pair), candidate.opened);
+    const auto known = m_known.find(chart.key);
+    if(known != m_known.end())
+      candidate.trial = known->second;
+    else
+      items.push_back({&candidate, std::move(chart)});
+  }
+  Blocked_execution::blocked_for(items.size(), 1, [&](std::size_t i, std::size_t) {
+    items[i].candidate->trial = try_map(items[i].chart.mesh, items[i].chart.border);
+  });
+  for(const Item& item : items) {
+    m_known.emplace(item.chart.key, item.candidate->trial);
+    m_work += item.chart.mesh.triangles.size();
+  }
+}
+
+inline double Chart_merger::cost(const Chart_state& state, const Pair& pair,
+                                 const Chart_union& candidate,
+                                 const Merge_weights& weights) const
+{
+  const Chart_piece &a = state.pieces[pair.first], &b = state.pieces[pair.second];
+  const double distortion
+    = (std::max)(std::log(candidate.trial.distortion.area_scale) / std::log(m_bound.area_scale),
+                 std::log(candidate.trial.distortion.quasi_conformal)
+                   / std::log(m_bound.quasi_conformal));
+  return weights.distortion * distortion
+       - weights.seam * candidate.removed / (std::min)(a.perimeter, b.perimeter)
+       + weights.crease * candidate.crease / candidate.removed
+       + weights.size * std::log((a.area + b.area) / m_area)
+       + weights.fill * (1. - candidate.trial.fill);
+}
+
+inline void Chart_merger::apply(Chart_state& state, const Pair& pair,
+                                const Chart_union& candidate) const
+{
+  Chart_piece& a = state.pieces[pair.first];
+  Indices all = state.union_of(pair);
+  for(const std::uint32_t t : state.pieces[pair.second].triangles)
+    state.label[t] = pair.first;
+  state.pieces[pair.second] = Chart_piece();
+  a.triangles.swap(all);
+  a.trial = candidate.trial;
+  for(const std::uint32_t h : candidate.opened)
+    state.graph.open(h);
+  state.measure(m_surface, a);
+  --state.number_of_charts;
+  --state.charts_of_component[m_surface.component[a.triangles[0]]];
+}
+
+// Merges the pair and renews the candidates: what was hopeless with a part is so with the union.
+inline void Chart_merger::merge_pair(Chart_state& state, const Pair& pair,
+                                     Candidates& candidates) const
+{
+  apply(state, pair, candidates[pair]);
+  Indices foes;
+  for(auto it = candidates.begin(); it != candidates.end(); ) {
+    const auto [a, b] = it->first;
+    const bool has_a = a == pair.first || a == pair.second;
+    const bool has_b = b == pair.first || b == pair.second;
+    if(has_a != has_b && it->second.is_hopeless)
+      foes.push_back(has_a ? b : a);
+    it = has_a || has_b ? candidates.erase(it) : std::next(it);
+  }
+  add_candidates(state, pair.first, candidates);
+  for(const std::uint32_t c : foes)
+    candidates[Pair(std::minmax(pair.first, c))].is_hopeless = true;
+}
+
+inline void Chart_merger::merge(Chart_state& state, const std::vector<bool>& is_active,
+                                const Merge_weights& weights)
+{
+  Candidates candidates;
+  for(std::uint32_t c = 0; c < state.pieces.size(); ++c)
+    if(is_active[c])
+      add_candidates(state, c, candidates);
+  while(!m_goes_on || m_goes_on()) {
+    try_all(state, candidates);
+    const Pair* best = nullptr;
+    double least = (std::numeric_limits<double>::max)();
+    for(const auto& [pair, candidate] : candidates) {
+      if(!is_good(candidate.trial) || !may_merge(state, pair)
+         || has_thin_neck(state, pair, candidate))
+        continue;
+      const double c = cost(state, pair, candidate, weights);
+      if(c < least) {
+        least = c;
+        best = &pair;
+      }
+    }
+    if(best == nullptr)
+      return;
+    merge_pair(state, Pair(*best), candidates);
+  }
+}
+
+inline void Chart_merger::merge_down_to(Chart_state& state, std::size_t number)
+{
+  Candidates candidates;
+  for(std::uint32_t c = 0; c < state.pieces.size(); ++c)
+    add_candidates(state, c, candidates);
+  while(state.number_of_charts > number && (!m_goes_on || m_goes_on())) {
+    for(auto& [pair, candidate] : candidates)
+      candidate.is_hopeless = false;
+    try_all(state, candidates);
+    const Pair* best = nullptr;
+    std::pair<int, double> least;
+    for(const auto& [pair, candidate] : candidates) {
+      const Trial_map& trial = candidate.trial;
+      if(!may_merge(state, pair) || candidate.opened.empty())
+        continue;
+      const int defect = !trial.is_disk ? 2 : trial.is_one_to_one ? 0 : 1;
+      const std::pair<int, double> c(
+        defect, trial.distortion.area_scale * trial.distortion.quasi_conformal);
+      if(best == nullptr || c < least) {
+        least = c;
+        best = &pair;
+      }
+    }
+    if(best == nullptr)
+      return;
+    merge_pair(state, Pair(*best), candidates);
+  }
+}
+
+} // namespace internal
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_CHART_MERGER_H

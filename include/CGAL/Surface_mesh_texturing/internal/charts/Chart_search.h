@@ -1,0 +1,217 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_CHART_SEARCH_H
+#define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_CHART_SEARCH_H
+
+#include <CGAL/Surface_mesh_texturing/internal/charts/Chart_merger.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/feature_curves.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/grow_patches.h>
+#include <CGAL/Surface_mesh_texturing/internal/seams/straighten_seams.h>
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+namespace internal {
+
+// See Chart_growth_options.
+struct Search_options
+{
+  Distortion_bound bound;
+  std::size_t least_charts = 1;
+  std::size_t max_charts = 0;
+  double feature_angle = 0.5; // radians
+  double least_fill = 0.65;
+  std::size_t patch_size = 25;
+  double effort = 150.;
+  std::function<bool(double)> progress;
+};
+
+// Looks for few charts: merges patches, then takes charts and their neighbours apart and merges
+// them again in another order, and keeps what is better.
+class Chart_search
+{
+  typedef Chart_state State;
+  static constexpr std::size_t most_neighbors = 4; // one more than are taken apart with a chart
+  static constexpr std::size_t small_size = 500;   // triangles; smaller meshes get more effort
+  static constexpr std::size_t most_failures = 8;  // rounds without success in succession
+
+public:
+  Chart_search(const Growth_surface& surface, const Search_options& options)
+    : m_surface(surface), m_options(options)
+    , m_is_feature(feature_edges(surface, options.feature_angle))
+    , m_merger(surface, m_is_feature, options.bound, options.least_fill, options.least_charts)
+    , m_most_work(options.effort * double(surface.size() + small_size))
+  {
+    m_merger.set_progress([this] { return tell_progress(); });
+  }
+
+  // Returns false if it was cancelled.
+  bool run();
+
+  const State& best() const { return *m_best; }
+
+private:
+  State start();
+  void improve();
+  bool improve_around(std::uint32_t c, std::size_t round);
+  void straighten();
+  State straightened(const std::vector<bool>& is_fixed);
+  std::vector<std::uint32_t> charts_by_area() const;
+  bool tell_progress();
+  bool is_better(const State& a, const State& b) const
+  {
+    return a.number_of_charts != b.number_of_charts
+             ? a.number_of_charts < b.number_of_charts
+             : a.seam_length() < (1. - 1e-9) * b.seam_length();
+  }
+  bool is_worn() const { return double(m_merger.work()) >= m_most_work; }
+
+  const Growth_surface& m_surface;
+  const Search_options& m_options;
+  const std::vector<std::uint8_t> m_is_feature;
+  Chart_merger m_merger;
+  double m_most_work;
+  bool m_is_cancelled = false;
+  std::optional<State> m_atoms, m_best;
+};
+
+inline bool Chart_search::tell_progress()
+{
+  if(!m_is_cancelled && m_options.progress)
+    m_is_cancelled = !m_options.progress((std::min)(1., double(m_merger.work()) / m_most_work));
+  return !m_is_cancelled;
+}
+
+// The patches, finer where they are not within the bound.
+inline Chart_search::State Chart_search::start()
+{
+  Patch_growth growth(m_surface, m_is_feature);
+  const std::size_t number = m_surface.size() / m_options.patch_size;
+  constexpr std::size_t least_patches = 6; // of a component
+  growth.grow(number, (std::max)(least_patches, 2 * m_options.least_charts));
+  const Seam_straightening straightening(m_surface, m_is_feature);
+  for(;;) {
+    Seam_graph graph = growth.seams();
+    std::vector<std::uint32_t> patch = growth.patch(), bad;
+    straightening.run(graph, patch, [](std::uint32_t) { return true; });
+    State state = m_merger.start(graph, patch, growth.number_of_patches());
+    for(std::uint32_t p = 0; p < state.pieces.size(); ++p)
+      if(!m_merger.is_good(state.pieces[p].trial))
+        bad.push_back(p);
+    if(!growth.refine(bad))
+      return state;
+  }
+}
+
+inline bool Chart_search::run()
+{
+  if(!tell_progress())
+    return false;
+  m_atoms = start();
+  m_best = m_atoms;
+  m_merger.merge(*m_best, std::vector<bool>(m_best->pieces.size(), true), Merge_weights());
+  improve();
+  if(m_options.max_charts > 0)
+    m_merger.merge_down_to(*m_best, m_options.max_charts);
+  straighten();
+  return tell_progress();
+}
+
+inline std::vector<std::uint32_t> Chart_search::charts_by_area() const
+{
+  std::vector<std::uint32_t> result;
+  for(std::uint32_t c = 0; c < m_best->pieces.size(); ++c)
+    if(!m_best->pieces[c].triangles.empty())
+      result.push_back(c);
+  std::stable_sort(result.begin(), result.end(), [this](std::uint32_t c, std::uint32_t d) {
+    return m_best->pieces[c].area < m_best->pieces[d].area;
+  });
+  return result;
+}
+
+// Merges chart c and its smallest neighbours anew, or the patches of c alone; returns whether that
+// was better. The weights change from round to round.
+inline bool Chart_search::improve_around(std::uint32_t c, std::size_t round)
+{
+  static constexpr std::array<Merge_weights, 4> weights = {{
+    Merge_weights(), {1., 0.2, 0.2, 0.3, 0.5}, {0.5, 1., 0.3, 0.05, 1.},
+    {0.3, 0.3, 0.2, 0.6, 0.3}}};
+  State state = *m_best;
+  std::vector<std::uint32_t> charts = state.neighbors(c);
+  std::stable_sort(charts.begin(), charts.end(), [&state](std::uint32_t a, std::uint32_t b) {
+    return state.pieces[a].area < state.pieces[b].area;
+  });
+  charts.resize((std::min)(charts.size(), round % most_neighbors));
+  charts.push_back(c);
+  const std::vector<bool> is_active = state.take_apart(m_surface, *m_atoms, charts);
+  m_merger.merge(state, is_active, weights[round % weights.size()]);
+  if(m_is_cancelled || !is_better(state, *m_best))
+    return false;
+  m_best = std::move(state);
+  return true;
+}
+
+inline void Chart_search::improve()
+{
+  std::size_t failures = 0;
+  for(std::size_t round = 0; failures < most_failures && !is_worn() && !m_is_cancelled; ++round) {
+    bool is_improved = false;
+    for(const std::uint32_t c : charts_by_area()) {
+      if(is_worn() || m_is_cancelled)
+        break;
+      if(!m_best->pieces[c].triangles.empty())
+        is_improved = improve_around(c, round) || is_improved;
+    }
+    failures = is_improved ? 0 : failures + 1;
+  }
+}
+
+// The best charts with straight seams, but for those around the charts that are fixed.
+inline Chart_search::State Chart_search::straightened(const std::vector<bool>& is_fixed)
+{
+  Seam_graph graph = m_best->graph;
+  std::vector<std::uint32_t> label = m_best->label;
+  Seam_straightening(m_surface, m_is_feature).run(graph, label, [&](std::uint32_t t) {
+    bool may_change = !is_fixed[label[t]];
+    for(int c = 0; c < 3; ++c) {
+      const std::uint32_t h = m_surface.adjacency.opposite(t, c);
+      may_change = may_change && (h == Indexed_mesh::no_vertex
+                                  || !is_fixed[label[h / 3]]);
+    }
+    return may_change;
+  });
+  return m_merger.start(graph, label, m_best->pieces.size());
+}
+
+// Straightens the seams of the best charts where their maps stay good.
+inline void Chart_search::straighten()
+{
+  std::vector<bool> is_fixed(m_best->pieces.size(), false);
+  const auto is_good = [this](const State& state, std::size_t c) {
+    return state.pieces[c].triangles.empty() || m_merger.is_good(state.pieces[c].trial);
+  };
+  for(std::size_t c = 0; c < is_fixed.size(); ++c)
+    is_fixed[c] = !is_good(*m_best, c);
+  for(bool is_changed = true; is_changed && !m_is_cancelled; ) {
+    State state = straightened(is_fixed);
+    is_changed = false;
+    for(std::size_t c = 0; c < is_fixed.size(); ++c)
+      if(!is_fixed[c] && !is_good(state, c))
+        is_fixed[c] = is_changed = true;
+    if(!is_changed)
+      m_best = std::move(state);
+  }
+}
+
+} // namespace internal
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_CHART_SEARCH_H

@@ -1,0 +1,225 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_GROW_PATCHES_H
+#define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_GROW_PATCHES_H
+
+#include <CGAL/Surface_mesh_texturing/internal/charts/Growth_surface.h>
+#include <CGAL/Surface_mesh_texturing/internal/seams/Seam_graph.h>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+namespace internal {
+
+// Cuts a surface into small patches between its features. A patch grows triangle by triangle, each
+// across one edge; edges with the same patch on both sides are opened only where this closes a
+// vertex (`Seam_graph::zip()`), so that a patch is a disk at any time.
+class Patch_growth
+{
+  static constexpr std::uint32_t none = Indexed_mesh::no_vertex;
+  static constexpr double least_step = 1e-6; // the mean length of an edge is 1
+  typedef std::vector<std::uint32_t> Seeds;
+
+public:
+  Patch_growth(const Growth_surface& surface, const std::vector<std::uint8_t>& is_feature)
+    : m_surface(surface), m_step(3 * surface.size(), 0.)
+  {
+    double all = 0.;
+    for(const double x : surface.length)
+      all += x;
+    for(std::uint32_t h = 0; h < m_step.size(); ++h) {
+      const std::uint32_t g = surface.adjacency.opposite(h);
+      if(g == none)
+        continue;
+      const double length
+        = std::sqrt(squared_distance(surface.centre[h / 3], surface.centre[g / 3]));
+      m_step[h] = length * (1. + surface.angle[h]) + (is_feature[h] ? all : 0.) + least_step;
+    }
+  }
+
+  // About `number` patches, at least `least` in each component that has enough triangles.
+  void grow(std::size_t number, std::size_t least);
+
+  // Cuts each of the given patches, if it has at least two triangles, by a seed in its part that is
+  // farthest from its own; returns whether there was one.
+  bool refine(const std::vector<std::uint32_t>& patches);
+
+  const std::vector<std::uint32_t>& patch() const { return m_patch; } // of each triangle
+  std::size_t number_of_patches() const { return m_seeds.size(); }
+
+  // The seams that keep the patches apart, and make disks of them.
+  Seam_graph seams() const;
+
+private:
+  // A triangle that waits for its patch: its distance, and the halfedge that leads into it.
+  typedef std::tuple<double, std::uint32_t, std::uint32_t> Waiting;
+  typedef std::priority_queue<Waiting, std::vector<Waiting>, std::greater<Waiting>> Queue;
+
+  void spread(Queue& queue);
+  void add_seed(std::uint32_t t);
+  void add_far_seeds(std::size_t number, std::size_t least);
+  bool move_seeds_inward();
+
+  const Growth_surface& m_surface;
+  std::vector<double> m_step; // between the centres of the triangles of each halfedge
+  Seeds m_seeds;
+  std::vector<std::uint32_t> m_patch, m_entry; // m_entry: the halfedge that led to each triangle
+  std::vector<double> m_distance;
+};
+
+// Takes what waits to its patch and goes on from there.
+inline void Patch_growth::spread(Queue& queue)
+{
+  while(!queue.empty()) {
+    const auto [distance, h, patch] = queue.top();
+    queue.pop();
+    const std::uint32_t t = h / 3;
+    if(m_patch[t] != patch || m_distance[t] != distance || m_entry[t] != h)
+      continue;
+    for(std::uint32_t g = 3 * t; g < 3 * t + 3; ++g) {
+      const std::uint32_t across = m_surface.adjacency.opposite(g);
+      if(across == none || !(distance + m_step[g] < m_distance[across / 3]))
+        continue;
+      m_distance[across / 3] = distance + m_step[g];
+      m_patch[across / 3] = patch;
+      m_entry[across / 3] = across;
+      queue.push({m_distance[across / 3], across, patch});
+    }
+  }
+}
+
+inline void Patch_growth::add_seed(std::uint32_t t)
+{
+  Queue queue;
+  m_distance[t] = 0.;
+  m_patch[t] = std::uint32_t(m_seeds.size());
+  m_entry[t] = 3 * t;
+  m_seeds.push_back(t);
+  queue.push({0., 3 * t, m_patch[t]});
+  spread(queue);
+}
+
+// The next seed is the triangle that is farthest from all seeds: one between any features first,
+// because their edges count as very long.
+inline void Patch_growth::add_far_seeds(std::size_t number, std::size_t least)
+{
+  std::vector<std::size_t> missing(m_surface.number_of_components, least);
+  for(const std::uint32_t t : m_seeds)
+    missing[m_surface.component[t]] -= missing[m_surface.component[t]] > 0 ? 1 : 0;
+  std::vector<double> farthest(m_surface.number_of_components);
+  std::vector<std::uint32_t> where(m_surface.number_of_components);
+  for(;;) {
+    std::fill(farthest.begin(), farthest.end(), 0.);
+    for(std::uint32_t t = 0; t < m_surface.size(); ++t)
+      if(m_distance[t] > farthest[m_surface.component[t]]) {
+        farthest[m_surface.component[t]] = m_distance[t];
+        where[m_surface.component[t]] = t;
+      }
+    std::size_t best = m_surface.number_of_components;
+    for(std::size_t c = 0; c < farthest.size(); ++c)
+      if(farthest[c] > 0. && (missing[c] > 0 || m_seeds.size() < number)
+         && (best == farthest.size()
+             || std::make_pair(missing[c] > 0, farthest[c])
+                  > std::make_pair(missing[best] > 0, farthest[best])))
+        best = c;
+    if(best == farthest.size())
+      return;
+    missing[best] -= missing[best] > 0 ? 1 : 0;
+    add_seed(where[best]);
+  }
+}
+
+// Moves each seed to the triangle of its patch that is farthest from the patch's border; returns
+// whether any moved.
+inline bool Patch_growth::move_seeds_inward()
+{
+  std::vector<double> depth(m_surface.size(), (std::numeric_limits<double>::max)());
+  typedef std::pair<double, std::uint32_t> Item;
+  std::priority_queue<Item, std::vector<Item>, std::greater<Item>> queue;
+  for(std::uint32_t h = 0; h < m_step.size(); ++h) {
+    const std::uint32_t g = m_surface.adjacency.opposite(h), t = h / 3;
+    if((g == none || m_patch[g / 3] != m_patch[t]) && depth[t] > 0.)
+      queue.push({depth[t] = 0., t});
+  }
+  while(!queue.empty()) {
+    const auto [d, t] = queue.top();
+    queue.pop();
+    if(d != depth[t])
+      continue;
+    for(std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+      const std::uint32_t g = m_surface.adjacency.opposite(h);
+      if(g != none && d + m_step[h] < depth[g / 3])
+        queue.push({depth[g / 3] = d + m_step[h], g / 3});
+    }
+  }
+  const Seeds old = m_seeds;
+  for(std::uint32_t t = 0; t < m_surface.size(); ++t)
+    if(depth[t] > depth[m_seeds[m_patch[t]]]
+       && depth[t] < (std::numeric_limits<double>::max)())
+      m_seeds[m_patch[t]] = t;
+  return m_seeds != old;
+}
+
+inline void Patch_growth::grow(std::size_t number, std::size_t least)
+{
+  constexpr int rounds = 3; // of the seeds' move to the middle, in the manner of Lloyd
+  const auto reset = [this] {
+    m_distance.assign(m_surface.size(), (std::numeric_limits<double>::max)());
+    m_patch.assign(m_surface.size(), none);
+    m_entry.assign(m_surface.size(), none);
+  };
+  reset();
+  m_seeds.clear();
+  add_far_seeds(number, (std::max)(least, std::size_t(1)));
+  for(int round = 0; round < rounds && move_seeds_inward(); ++round) {
+    reset();
+    Seeds seeds;
+    seeds.swap(m_seeds);
+    for(const std::uint32_t t : seeds)
+      add_seed(t);
+  }
+}
+
+inline bool Patch_growth::refine(const std::vector<std::uint32_t>& patches)
+{
+  std::vector<std::uint32_t> farthest = m_seeds;
+  for(std::uint32_t t = 0; t < m_surface.size(); ++t)
+    if(m_distance[t] > m_distance[farthest[m_patch[t]]])
+      farthest[m_patch[t]] = t;
+  const std::size_t before = m_seeds.size();
+  for(const std::uint32_t p : patches)
+    if(m_distance[farthest[p]] > 0.) // not a seed, which it may have become
+      add_seed(farthest[p]);
+  return m_seeds.size() > before;
+}
+
+inline Seam_graph Patch_growth::seams() const
+{
+  Seam_graph graph(m_surface.mesh.triangles, m_surface.adjacency, m_surface.mesh.points.size());
+  std::vector<std::uint32_t> order(m_surface.size()), zipped;
+  for(std::uint32_t t = 0; t < order.size(); ++t)
+    order[t] = t;
+  std::stable_sort(order.begin(), order.end(), [this](std::uint32_t s, std::uint32_t t) {
+    return m_distance[s] < m_distance[t];
+  });
+  for(const std::uint32_t t : order)
+    if(m_distance[t] > 0.)
+      graph.open(m_entry[t]);
+  for(std::uint32_t v = 0; v < m_surface.mesh.points.size(); ++v)
+    graph.zip(v, zipped);
+  return graph;
+}
+
+} // namespace internal
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_GROW_PATCHES_H

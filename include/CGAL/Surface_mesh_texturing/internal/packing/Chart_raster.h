@@ -1,0 +1,220 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_PACKING_CHART_RASTER_H
+#define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_PACKING_CHART_RASTER_H
+
+#include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Surface_mesh_texturing/internal/packing/Page_raster.h>
+#include <CGAL/Surface_mesh_texturing/internal/packing/rasterize_outline.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+namespace internal {
+
+// The raster on which charts are packed: the part of a page that they may touch, in cells.
+struct Packing_raster
+{
+  int width = 0, height = 0;
+  double cell = 1.;         // the side of a cell, in texels
+  int padding = 0;          // cells between charts
+  Vector_2d origin = {};    // the lower left corner, in texels of the page
+};
+
+// The raster on which a packing is exact: its cells are the texels of the coarsest mip level.
+// Without any cell if the page is too small.
+inline Packing_raster exact_raster(const Packing_options& options)
+{
+  const std::size_t cell = std::size_t(1) << options.mip_levels;
+  const std::size_t border = (options.padding + 1) / 2;
+  const std::size_t columns = options.width / cell, rows = options.height / cell;
+  Packing_raster result;
+  if(columns <= 2 * border || rows <= 2 * border)
+    return result;
+  result.width = int(columns - 2 * border);
+  result.height = int(rows - 2 * border);
+  result.cell = double(cell);
+  result.padding = int(options.padding);
+  result.origin = {double(border * cell), double(options.height - rows * cell + border * cell)};
+  return result;
+}
+
+// A raster of about `cells` cells, or the same if it has not more. Charts that touch a cell in part
+// grow by half a cell on each side on average, and by half the padding; the padding is chosen such
+// that both together are what they are on the exact raster, if possible.
+inline Packing_raster coarser_raster(const Packing_raster& exact, double cells)
+{
+  const double ratio = std::sqrt(double(exact.width) * exact.height / cells);
+  if(!(ratio > 1.))
+    return exact;
+  Packing_raster result = exact;
+  result.cell = exact.cell * ratio;
+  result.width = (std::max)(1, int(exact.width / ratio + 1e-6));
+  result.height = (std::max)(1, int(exact.height / ratio + 1e-6));
+  result.padding = (std::max)(0, int(std::lround((exact.padding + 1) / ratio)) - 1);
+  return result;
+}
+
+// A chart in one direction on a raster.
+struct Chart_raster
+{
+  int width = 0, height = 0;           // 0 if it is larger than the page
+  Vector_2d centre = {};               // of the chart, from the lower left corner
+  std::vector<Probe> probes;           // of the cells it touches
+  std::vector<Cell_run> padded;        // these and the padding around, from the same corner
+  std::vector<int> rim;                // some cells around it, see `rim_of()`
+};
+
+// Cells just outside of the mask, and those two cells further, evenly chosen, as offsets in the
+// rows of a `Page_raster` from the mask's lower left corner.
+inline std::vector<int> rim_of(const Texel_mask& mask, int stride)
+{
+  constexpr std::size_t samples = 64; // of each rim
+  std::vector<int> result, rim;
+  for(const int r : {1, 3}) {
+    const Texel_mask inner = dilated(mask, r - 1), outer = dilated(mask, r);
+    rim.clear();
+    for(int y = 0; y < outer.height(); ++y)
+      for(int i = 0; i < outer.words(); ++i) {
+        const bool has_row = y > 0 && y <= inner.height();
+        const Word low = has_row && i < inner.words() ? inner.row(y - 1)[i] : 0;
+        const Word before = has_row && i > 0 ? inner.row(y - 1)[i - 1] : 0;
+        Word ring = outer.row(y)[i] & ~(low << 1 | before >> 63);
+        for(; ring != 0; ring &= ring - 1)
+          rim.push_back((y - r) * stride + 64 * i + lowest_bit(ring) - r);
+      }
+    const std::size_t n = (std::min)(rim.size(), samples);
+    for(std::size_t i = 0; i < n; ++i)
+      result.push_back(rim[i * rim.size() / n]);
+  }
+  return result;
+}
+
+inline Chart_raster chart_raster(const Chart_outline& outline, double angle, double density,
+                                 const Packing_raster& raster)
+{
+  Chart_raster result;
+  const Rasterized_chart chart
+    = rasterize(outline, angle, density / raster.cell, raster.width, raster.height);
+  if(chart.mask.width() == 0)
+    return result;
+  result.width = chart.mask.width();
+  result.height = chart.mask.height();
+  result.centre = chart.centre;
+  result.probes = probes_of(chart.mask);
+  result.padded = dilated(chart.mask, raster.padding).runs();
+  for(Cell_run& run : result.padded)
+    run = {run.y - raster.padding, run.begin - raster.padding, run.end - raster.padding};
+  result.rim = rim_of(chart.mask, Page_raster::stride(raster.width));
+  return result;
+}
+
+// The placement of a chart whose centre lies at `centre`, in cells.
+inline Chart_placement chart_placement(const Chart_outline& outline, const Packing_raster& raster,
+                                       std::uint32_t page, double angle, double scale,
+                                       const Vector_2d& centre)
+{
+  Chart_placement result;
+  result.page = page;
+  result.angle = angle;
+  result.scale = scale;
+  const auto q = result(Chart_shape::Point_2(outline.centre[0], outline.centre[1]));
+  result.offset = Chart_shape::Point_2(raster.origin[0] + centre[0] * raster.cell - q.x(),
+                                       raster.origin[1] + centre[1] * raster.cell - q.y());
+  return result;
+}
+
+// Why there is no packing: the chart for which no place was found, and whether it found none on an
+// empty page.
+inline std::string misfit_message(std::size_t chart, bool is_larger_than_page,
+                                  const Packing_options& options)
+{
+  if(is_larger_than_page && options.texels_per_unit > 0.)
+    return "chart " + std::to_string(chart) + " is larger than a page";
+  return "the charts do not fit on " + std::to_string(options.max_pages) + " page"
+         + (options.max_pages == 1 ? "" : "s")
+         + (options.texels_per_unit > 0. ? " with this density" : ", however small they are");
+}
+
+// Charts at one density, in several directions each, made when they are needed.
+class Chart_rasters
+{
+public:
+  // `density` is in texels per unit of the outlines.
+  Chart_rasters(const std::vector<Chart_outline>& outlines, int rotations, double density,
+                const Packing_raster& raster)
+    : m_outlines(outlines), m_rotations(rotations), m_density(density), m_raster(raster),
+      m_charts(outlines.size() * rotations), m_is_made(m_charts.size(), 0)
+  {}
+
+  std::size_t size() const { return m_outlines.size(); }
+  int rotations() const { return m_rotations; }
+  const Packing_raster& raster() const { return m_raster; }
+
+  double angle(std::size_t chart, int rotation) const
+  {
+    return m_outlines[chart].angle + 2. * CGAL_PI * rotation / m_rotations;
+  }
+
+  // Makes those for which `is_needed(chart, rotation)`.
+  template <class Is_needed>
+  void make_where(const Is_needed& is_needed)
+  {
+    Blocked_execution::blocked_for(m_charts.size(), 8, [&](std::size_t begin, std::size_t end) {
+      for(std::size_t i = begin; i < end; ++i)
+        if(!m_is_made[i] && is_needed(i / m_rotations, int(i % m_rotations)))
+          make_one(i);
+    });
+  }
+
+  // Makes all directions of a chart.
+  void make(std::size_t chart)
+  {
+    const std::size_t first = chart * m_rotations;
+    Blocked_execution::blocked_for(m_rotations, 1, [&](std::size_t begin, std::size_t end) {
+      for(std::size_t i = first + begin; i < first + end; ++i)
+        if(!m_is_made[i])
+          make_one(i);
+    });
+  }
+
+  void make_all()
+  {
+    make_where([](std::size_t, int) { return true; });
+  }
+
+  // Returns a chart that has been made.
+  const Chart_raster& made(std::size_t chart, int rotation) const
+  {
+    return m_charts[chart * m_rotations + rotation];
+  }
+
+private:
+  void make_one(std::size_t i)
+  {
+    const std::size_t chart = i / m_rotations;
+    m_charts[i] = chart_raster(m_outlines[chart], angle(chart, int(i % m_rotations)), m_density,
+                               m_raster);
+    m_is_made[i] = 1;
+  }
+
+  const std::vector<Chart_outline>& m_outlines;
+  int m_rotations;
+  double m_density;
+  Packing_raster m_raster;
+  std::vector<Chart_raster> m_charts; // the rotations of the first, of the second ...
+  std::vector<char> m_is_made;
+};
+
+} // namespace internal
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_INTERNAL_PACKING_CHART_RASTER_H
