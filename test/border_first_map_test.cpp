@@ -48,7 +48,7 @@ std::array<double, 2> length_ratios(const Indexed_triangle_mesh& mesh, const Uv&
   std::array<double, 2> result = {std::numeric_limits<double>::infinity(), 0.};
   for(std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
     for(int c = 0; c < 3; ++c) {
-      if(only_border && adjacency.opposite(t, c) != CGAL::Indexed_mesh::no_vertex)
+      if(only_border && adjacency.opposite(t, c) != CGAL::Indexed_mesh::no_halfedge)
         continue;
       const Vertex_index p = mesh.triangles[t][c], q = mesh.triangles[t][(c + 1) % 3];
       const double ratio = length(uv, p, q) / length(mesh, p, q);

@@ -5,7 +5,7 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_REPAIR_FLIP_PATCHES_H
 
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
-#include <CGAL/Indexed_mesh/Triangles_at_vertices.h>
+#include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 
 #include <algorithm>
 #include <cstdint>

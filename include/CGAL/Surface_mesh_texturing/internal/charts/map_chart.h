@@ -4,11 +4,11 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_MAP_CHART_H
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_MAP_CHART_H
 
-#include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 #include <CGAL/Surface_mesh_parameterization/border_first_map.h>
 #include <CGAL/Surface_mesh_parameterization/conformal_map.h>
 #include <CGAL/Surface_mesh_parameterization/repair_flipped_faces.h>
 #include <CGAL/Surface_mesh_parameterization/self_overlap.h>
+#include <CGAL/Surface_mesh_texturing/Face_charts.h>
 #include <CGAL/Surface_mesh_texturing/Texture_atlas_options.h>
 #include <CGAL/Surface_mesh_texturing/Texture_atlas_report.h>
 
@@ -168,7 +168,7 @@ inline Mapped_chart map_chart(Chart_mesh chart, const Texture_atlas_options& opt
   result.chart = std::move(chart);
   const Indexed_triangle_mesh& mesh = result.chart.mesh;
   result.report.faces = mesh.triangles.size();
-  const std::vector<Border_edge> border = border_edges(mesh.triangles);
+  const std::vector<Border_edge> border = result.chart.border_edges();
   result.report.border_length = border_length(mesh, border);
   if(mesh.triangles.size() == 1) {
     result.uv = lay_out_triangle(mesh);

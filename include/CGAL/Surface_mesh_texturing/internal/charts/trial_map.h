@@ -59,16 +59,17 @@ inline double hull_area(const std::vector<Border_edge>& border, const std::vecto
   return 0.5 * twice;
 }
 
-// Maps the mesh with the given border, if it is a disk, as the whole chart will be mapped later.
-inline Trial_map try_map(const Indexed_triangle_mesh& mesh, const std::vector<Border_edge>& border)
+// Maps the chart, if it is a disk, as the whole chart will be mapped later.
+inline Trial_map try_map(const Chart_mesh& chart)
 {
   namespace SMP = Surface_mesh_parameterization;
   Trial_map result;
-  const SMP::Border_first_map map = SMP::border_first_map(mesh);
+  const SMP::Border_first_map map = SMP::border_first_map(chart.mesh);
   result.is_disk = map.error.empty();
   if(!result.is_disk)
     return result;
-  result.distortion = measure_chart_distortion(mesh, map.uv);
+  const std::vector<Border_edge> border = chart.border_edges();
+  result.distortion = measure_chart_distortion(chart.mesh, map.uv);
   result.is_one_to_one
     = result.distortion.flipped_faces == 0 && !border_meets_itself(border, map.uv);
   const double hull = hull_area(border, map.uv);
