@@ -6,6 +6,7 @@
 
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
 #include <CGAL/Indexed_mesh/Triangle_adjacency.h>
+#include <CGAL/Indexed_mesh/mesh_error.h>
 
 #include <algorithm>
 #include <cmath>
@@ -50,6 +51,30 @@ inline bool is_smooth(const Textured_triangle_mesh& mesh, Halfedge h, Halfedge o
 {
   return uv_of(mesh, h) == uv_of(mesh, next_halfedge(opposite))
       && uv_of(mesh, next_halfedge(h)) == uv_of(mesh, opposite);
+}
+
+/// \ingroup PkgHLSCMLevelsOfDetail
+/// Returns a sentence on the first texture coordinate that is not a finite number, or nothing; the
+/// mesh may have a name, as in `Indexed_mesh::mesh_error()`.
+inline std::string uv_error(const std::vector<Textured_triangle_mesh::Point_2>& uv,
+                            const std::string& name = {})
+{
+  for(std::size_t w = 0; w < uv.size(); ++w)
+    if(!std::isfinite(uv[w].x()) || !std::isfinite(uv[w].y()))
+      return "texture coordinate " + std::to_string(w) + of_mesh(name) + " is not a finite number";
+  return {};
+}
+
+/// \ingroup PkgHLSCMLevelsOfDetail
+/// Returns a sentence on what is wrong with the texture of a mesh, or nothing. Linear time.
+inline std::string texture_error(const Textured_triangle_mesh& mesh, const std::string& name = {})
+{
+  if(mesh.wedges.size() != mesh.triangles.size())
+    return (name.empty() ? "the mesh" : name)
+         + " has not as many triangles in the texture as on the surface";
+  const std::string error
+    = index_error(mesh.wedges, mesh.uv.size(), name, "texture coordinate");
+  return error.empty() ? uv_error(mesh.uv, name) : error;
 }
 
 namespace internal {

@@ -36,16 +36,10 @@ namespace internal {
 
 // What is wrong with a mesh whose charts are given, as a sentence; as the segmentation says it of
 // others.
-inline std::string surface_error(const Indexed_triangle_mesh& mesh)
+inline std::string given_charts_error(const Indexed_triangle_mesh& mesh)
 {
-  namespace SMM = Surface_mesh_multiresolution;
-  const std::string error = error_of_arrays(mesh);
-  if(!error.empty())
-    return error;
-  std::vector<Vertex_index> source(mesh.points.size());
-  for(Vertex_index v = 0; v < source.size(); ++v)
-    source[v] = v;
-  return Indexed_mesh::ring_error(Indexed_mesh::Vertex_rings(mesh), source);
+  const std::string error = segmentation_error(mesh);
+  return error.empty() ? ring_error(Indexed_mesh::Vertex_rings(mesh)) : error;
 }
 
 // The length of the seams between triangles, each once.
@@ -200,7 +194,7 @@ inline bool Texture_atlas_builder::segment()
 {
   const Blocked_execution::Stopwatch watch;
   if(m_options.charts) {
-    m_result.error = surface_error(m_mesh);
+    m_result.error = given_charts_error(m_mesh);
     if(m_result.error.empty())
       m_charts = cut_to_disks(m_mesh, *m_options.charts);
   } else if(m_options.max_charts > 0 || m_mesh.triangles.size() <= 4 * m_options.trial_faces) {

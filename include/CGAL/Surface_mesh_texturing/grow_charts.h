@@ -68,9 +68,7 @@ namespace internal {
 inline std::string growth_error(const Indexed_triangle_mesh& mesh,
                                 const Chart_growth_options& options)
 {
-  if(mesh.triangles.empty())
-    return "the mesh has no triangles";
-  const std::string error = Indexed_mesh::point_error(mesh.points);
+  const std::string error = mesh_error(mesh);
   if(!error.empty())
     return error;
   if(!(options.bound.area_scale > 1.) || !(options.bound.quasi_conformal > 1.))
