@@ -171,7 +171,7 @@ TEST(Border_first_map, opens_seams_that_end_in_saddles)
       const SMP::Border_first_map map = SMP::border_first_map(chart);
       ASSERT_EQ(map.error, "");
       const auto border = CGAL::Indexed_mesh::border_edges(chart.triangles);
-      EXPECT_TRUE(SMT::internal::is_simple_border(border, map.uv))
+      EXPECT_TRUE(SMP::is_simple_border(border, map.uv))
         << excess << ' ' << rings;
       const SMT::Chart_distortion distortion = SMT::measure_chart_distortion(chart, map.uv);
       EXPECT_EQ(distortion.flipped_faces, 0u) << excess << ' ' << rings;

@@ -31,19 +31,6 @@ struct Trial_map
   double fill = 0.;           // the part of its convex hull that the chart fills in the plane
 };
 
-// Whether two edges that share no vertex meet in the plane, up to rounding.
-inline bool border_meets_itself(const std::vector<Border_edge>& edges,
-                                const std::vector<Trial_uv>& uv)
-{
-  bool result = false;
-  Surface_mesh_parameterization::visit_crossing_edges(
-    edges, uv, [&result](const Border_edge&, const Border_edge&) {
-      result = true;
-      return false;
-    });
-  return result;
-}
-
 inline double hull_area(const std::vector<Border_edge>& border, const std::vector<Trial_uv>& uv)
 {
   typedef Exact_predicates_inexact_constructions_kernel::Point_2 Exact_point; // for predicates
@@ -71,7 +58,11 @@ inline Trial_map try_map(const Chart_mesh& chart)
   const std::vector<Border_edge> border = chart.border_edges();
   result.distortion = measure_chart_distortion(chart.mesh, map.uv);
   result.is_one_to_one
-    = result.distortion.flipped_faces == 0 && !border_meets_itself(border, map.uv);
+    = result.distortion.flipped_faces == 0 && result.distortion.degenerate_faces == 0;
+  if(result.is_one_to_one)
+    SMP::visit_crossing_edges(border, map.uv, [&result](const Border_edge&, const Border_edge&) {
+      return result.is_one_to_one = false;
+    });
   const double hull = hull_area(border, map.uv);
   result.fill = hull > 0. ? result.distortion.uv_area / hull : 0.;
   return result;
