@@ -62,6 +62,12 @@ struct Sliced_pattern
   static constexpr std::uint32_t none = std::uint32_t(-1); ///< no imaginary parts
   /// Returns the number of slices.
   std::size_t slices() const { return imaginary.size(); }
+  /// Returns the bytes that the pattern takes.
+  std::size_t memory() const
+  {
+    return (row_of_slot.size() + slice_begin.size() + imaginary.size() + column.size())
+           * sizeof(std::uint32_t);
+  }
 };
 
 /*!
@@ -98,6 +104,16 @@ public:
   /// left out. `slot_of_row()` tells where a row is.
   template <class Use>
   void for_each_entry(std::size_t slot, const Use& use) const;
+
+  /// Returns the number of entries that are not 0, those of the diagonal included. Linear time.
+  std::size_t number_of_nonzeros() const;
+
+  /// Returns the bytes that the matrix takes, with its pattern.
+  std::size_t memory() const
+  {
+    return (m_diagonal.size() + m_re.size() + m_im.size()) * sizeof(Real)
+           + (m_pattern == nullptr ? 0 : m_pattern->memory());
+  }
 
   /// Returns for each row its slot.
   std::vector<std::uint32_t> slot_of_row() const;
@@ -235,6 +251,17 @@ void Hermitian_matrix<Real>::for_each_entry(std::size_t slot, const Use& use) co
     if(value != Complex(0))
       use(p.column[at], value);
   }
+}
+
+template <class Real>
+std::size_t Hermitian_matrix<Real>::number_of_nonzeros() const
+{
+  std::size_t count = 0;
+  for(std::size_t slot = 0; slot < size(); ++slot) {
+    count += m_diagonal[m_pattern->row_of_slot[slot]] != Real(0) ? 1 : 0;
+    for_each_entry(slot, [&count](std::uint32_t, const Complex&) { ++count; });
+  }
+  return count;
 }
 
 template <class Real>

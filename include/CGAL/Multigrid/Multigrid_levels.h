@@ -4,6 +4,7 @@
 #ifndef CGAL_MULTIGRID_MULTIGRID_LEVELS_H
 #define CGAL_MULTIGRID_MULTIGRID_LEVELS_H
 
+#include <CGAL/Blocked_execution/Level_table.h>
 #include <CGAL/Multigrid/Chebyshev_smoother.h>
 #include <CGAL/Multigrid/cycle.h>
 
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <ostream>
 #include <utility>
 #include <vector>
 
@@ -94,6 +96,18 @@ public:
     });
   }
 
+  /// Prints the levels as a table: the rows, nonzeros and memory (matrices and the vectors of
+  /// cycles so far) of each, the ratio of its rows to those of the next coarser one, and the sums
+  /// of all levels divided by the finest one's (the operator complexity). The finest level comes
+  /// first. Linear time.
+  friend std::ostream& operator<<(std::ostream& out, const Multigrid_levels& levels)
+  {
+    Blocked_execution::Level_table table("rows", "nonzeros");
+    for(const Level& level : levels.m_levels)
+      table.add({level.matrix->size(), level.matrix->number_of_nonzeros(), memory(level)});
+    return out << table;
+  }
+
   /// \name The operations of a cycle
   /// @{
 
@@ -124,7 +138,7 @@ private:
     bool is_zero = true;           // u is 0, whatever is stored
     bool has_residual = false;     // r is f - H u
     bool has_step = false;         // r - H z is f - H u
-    Vector x, v;                   // of the accelerator
+    Vector x;                      // of the accelerator
     std::vector<Vector> p, q;      // earlier directions and H times them
   };
 
@@ -132,6 +146,18 @@ private:
   {
     m_levels[l].is_zero = true;
     forget_residual(m_levels[l]);
+  }
+
+  static std::size_t memory(const Level& level)
+  {
+    std::size_t entries = 0;
+    for(const Vector* x : {&level.u, &level.f, &level.r, &level.z, &level.x})
+      entries += x->size();
+    for(const std::vector<Vector>* vectors : {&level.p, &level.q})
+      for(const Vector& x : *vectors)
+        entries += x.size();
+    return level.matrix->memory() + level.inverse_diagonal.size() * sizeof(float)
+           + entries * sizeof(Complex);
   }
 
   // What comes from or goes to a coarser level that does not have a pin leaves it alone.

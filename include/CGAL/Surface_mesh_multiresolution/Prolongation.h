@@ -56,6 +56,13 @@ public:
   /// Returns the number of vertices of the fine level.
   std::size_t number_of_fine_vertices() const { return m_kept.size() + m_stencils.size(); }
 
+  /// Returns the bytes that it takes.
+  std::size_t memory() const
+  {
+    return m_kept.size() * sizeof(Vertex_index) + m_stencils.size() * sizeof(Stencil)
+           + m_begin.size() * sizeof(std::uint32_t) + m_terms.size() * sizeof(Term);
+  }
+
   /// Returns the coarse vertex from which a fine one gets the most, in indices of the coarse level.
   /// Linear time at worst.
   Vertex_index heaviest_source(Vertex_index fine) const;
