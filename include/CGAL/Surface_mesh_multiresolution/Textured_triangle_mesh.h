@@ -179,6 +179,24 @@ inline Textured_triangle_mesh with_wedges(const Textured_triangle_mesh& mesh)
   return result;
 }
 
+/*!
+\ingroup PkgHLSCMLevelsOfDetail
+
+Returns for each entry of `mesh.uv` its vertex. One that no triangle has is taken for that of the
+vertex with its number, so that isolated vertices of a mesh with one for each vertex are kept; or of
+vertex 0, if there are fewer. Linear time.
+*/
+inline std::vector<Vertex_index> vertices_of_wedges(const Textured_triangle_mesh& mesh)
+{
+  std::vector<Vertex_index> vertex(mesh.uv.size(), 0);
+  for(std::size_t w = 0; w < (std::min)(mesh.uv.size(), mesh.points.size()); ++w)
+    vertex[w] = Vertex_index(w);
+  for(std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for(std::size_t c = 0; c < 3; ++c)
+      vertex[mesh.wedges[t][c]] = mesh.triangles[t][c];
+  return vertex;
+}
+
 } // namespace Surface_mesh_multiresolution
 } // namespace CGAL
 
