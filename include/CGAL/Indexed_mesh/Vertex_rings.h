@@ -18,7 +18,12 @@
 namespace CGAL {
 namespace Indexed_mesh {
 
-// The connectivity of a triangle mesh as one ring of neighbours a vertex, counterclockwise:
+/*!
+\ingroup PkgHLSCMIndexedMesh
+
+The class `Vertex_rings` is the connectivity of a triangle mesh that collapses make coarser: one ring
+of neighbours a vertex, counterclockwise. Linear time to build; 64 bytes a vertex.
+*/
 //
 //           r2 ---- r1        The triangles at v are (v, r_i, r_i+1). Inside the surface the ring
 //          /  \    /  \       is closed and may begin anywhere; at the border it is open and
@@ -39,17 +44,19 @@ public:
   using internal::Ring_lines::size;
   using internal::Ring_lines::small_degree;
 
+  /// Has no vertices.
   Vertex_rings() {}
 
-  // Builds the rings of `mesh`; `defect()` says whether they exist.
+  /// Builds the rings of `mesh`; `defect()` says whether they exist.
   explicit Vertex_rings(const Indexed_triangle_mesh& mesh) : m_defect(internal::link_rings(mesh, *this)) {}
 
-  // The first vertex whose triangles do not form one fan, or `no_vertex`.
+  /// Returns the first vertex whose triangles do not form one fan, or `no_vertex`.
   Vertex_index defective_vertex() const { return m_defect.vertex; }
+  /// Returns what is wrong with that vertex.
   Ring_defect defect() const { return m_defect.defect; }
 
-  // Whether the collapse of v into ring vertex k keeps a manifold of the same topology: v and
-  // r_k have only the opposite vertices of their common triangles as common neighbours, and no
+  /// Returns whether the collapse of v into ring vertex k keeps a manifold of the same topology: v
+  /// and r_k have only the opposite vertices of their common triangles as common neighbours, and no
   // triangle pair is folded onto another.
   bool is_collapse_valid(Vertex_index v, std::uint32_t k) const;
 
@@ -61,7 +68,7 @@ public:
     return !is_spilled(t) && degree(t) - 1 + gained > line_capacity;
   }
 
-  // Collapses v into its ring vertex k. Precondition: `is_collapse_valid(v, k)`.
+  /// Collapses v into its ring vertex k. Precondition: `is_collapse_valid(v, k)`.
   void collapse(Vertex_index v, std::uint32_t k);
 
   // Undoes the collapse of v into t that took the triangles (v, t, b) and (v, a, t) away, one of
