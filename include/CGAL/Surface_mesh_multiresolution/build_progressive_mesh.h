@@ -6,7 +6,7 @@
 
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
 #include <CGAL/Indexed_mesh/mesh_arrays.h>
-#include <CGAL/Indexed_mesh/mesh_error.h>
+#include <CGAL/Indexed_mesh/prepare_mesh.h>
 
 #include <CGAL/boost/graph/helpers.h>
 
@@ -66,29 +66,26 @@ Progressive_surface copy_surface(const TriangleMesh& mesh)
   return result;
 }
 
-// Appends the collapses of `mesh`, which has the vertices of `result` at any place and size.
+// Appends the collapses of a mesh that is prepared, in terms of its input.
 template <class Cost, class Filter>
-void decimate(Indexed_triangle_mesh mesh, const Progressive_mesh_options& options,
-              const Cost& cost, const Filter& filter, Progressive_surface& result)
+void decimate(Prepared_mesh prepared, const Progressive_mesh_options& options, const Cost& cost,
+              const Filter& filter, Progressive_surface& result)
 {
   CGAL_precondition(options.is_locked.empty()
                     || options.is_locked.size() == result.points.size());
-  const std::vector<Vertex_index> source = sort_spatially(mesh);
-  Vertex_rings rings(mesh);
-  result.error = ring_error(rings, source);
+  result.error = prepared.error;
   if(!result.error.empty())
     return;
-  std::vector<bool> is_locked(options.is_locked.size());
-  for(std::size_t v = 0; v < is_locked.size(); ++v)
-    is_locked[v] = options.is_locked[source[v]];
   Flat_collapse_options flat;
   flat.target_vertices = options.target_vertices;
   flat.order = options.order;
   flat.progress = options.progress;
-  Flat_collapse_engine<Cost, Filter> engine(mesh, std::move(rings), is_locked, cost, filter);
+  Flat_collapse_engine<Cost, Filter> engine(prepared.mesh, std::move(prepared.rings),
+                                            prepared.flags(options.is_locked), cost, filter);
   Progressive_mesh pm = engine.run(flat);
   for(const Halfedge_collapse& c : pm.collapses)
-    result.progressive_mesh.collapses.push_back({source[c.removed], source[c.kept]});
+    result.progressive_mesh.collapses.push_back(
+      {prepared.source[c.removed], prepared.source[c.kept]});
   result.progressive_mesh.batch_ends = std::move(pm.batch_ends);
 }
 
@@ -114,14 +111,10 @@ build_progressive_mesh(const TriangleMesh& mesh,
                        const Progressive_mesh_options& options = Progressive_mesh_options())
 {
   Progressive_surface result = internal::copy_surface(mesh);
-  if(!result.error.empty())
-    return result;
-  Indexed_triangle_mesh copy = {result.points, result.progressive_mesh.triangles};
-  if(normalize(copy) > 0.)
-    internal::decimate(std::move(copy), options, hierarchy_collapse_cost(),
+  if(result.error.empty())
+    internal::decimate(prepare_mesh({result.points, result.progressive_mesh.triangles}), options,
+                       hierarchy_collapse_cost(),
                        hierarchy_collapse_filter(options.angular_defect_bound), result);
-  else
-    result.error = "all edges are without length";
   return result;
 }
 
@@ -144,9 +137,11 @@ Progressive_surface build_progressive_mesh(const TriangleMesh& mesh,
                                            const Cost& cost, const Filter& filter)
 {
   Progressive_surface result = internal::copy_surface(mesh);
+  Preparation as_it_is;
+  as_it_is.normalizes = false;
   if(result.error.empty())
-    internal::decimate({result.points, result.progressive_mesh.triangles}, options, cost, filter,
-                       result);
+    internal::decimate(prepare_mesh({result.points, result.progressive_mesh.triangles}, as_it_is),
+                       options, cost, filter, result);
   return result;
 }
 
