@@ -68,9 +68,10 @@ Progressive_mesh decimate(Indexed_triangle_mesh mesh, Engine engine, std::size_t
 {
   CGAL::Indexed_mesh::normalize(mesh);
   if(engine == Engine::CGAL) {
-    SMM::Edge_collapse_options options;
+    SMM::Progressive_mesh_options options;
     options.target_vertices = target_vertices;
-    return SMM::progressive_mesh_by_edge_collapse(mesh, is_locked, options);
+    options.is_locked = is_locked;
+    return SMM::progressive_mesh_by_edge_collapse(mesh, options);
   }
   return SMM::Flat_collapse_engine<>(mesh, Vertex_rings(mesh), is_locked)
     .run(flat_options(engine == Engine::STRICT ? SMM::Collapse_order::STRICT
@@ -831,7 +832,8 @@ TEST(Progress, is_told_and_may_cancel)
         told.push_back(part);
         return part < last;
       };
-      SMM::Edge_collapse_options edge_options;
+      SMM::Progressive_mesh_options edge_options;
+      edge_options.target_vertices = 2000;
       edge_options.progress = progress;
       SMM::Flat_collapse_options options
         = flat_options(engine == Engine::STRICT ? SMM::Collapse_order::STRICT
@@ -839,7 +841,7 @@ TEST(Progress, is_told_and_may_cancel)
       options.progress = progress;
       const Progressive_mesh pm
         = engine == Engine::CGAL
-        ? SMM::progressive_mesh_by_edge_collapse(mesh, {}, edge_options)
+        ? SMM::progressive_mesh_by_edge_collapse(mesh, edge_options)
         : SMM::Flat_collapse_engine<>(mesh, Vertex_rings(mesh), {}).run(options);
       ASSERT_FALSE(told.empty());
       EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
