@@ -222,35 +222,6 @@ TEST(Vertex_rings, follow_random_collapses)
   }
 }
 
-// Collapses to the end and splits back to the beginning.
-TEST(Vertex_rings, splits_undo_collapses)
-{
-  std::vector<Named_mesh> inputs = generated_meshes(seed);
-  inputs.push_back({"wheel of 300", fan(300)});
-  for(const Named_mesh& input : inputs) {
-    SCOPED_TRACE(input.name + seed_text);
-    std::vector<Halfedge_collapse> done = random_collapses(input.mesh, 0, seed).collapses;
-    Vertex_rings rings(input.mesh);
-    std::vector<std::array<Vertex_index, 2>> sides; // b and a of each collapse
-    for(const Halfedge_collapse& c : done) {
-      const std::uint32_t k = position_in_ring(rings, c.removed, c.kept);
-      const std::uint32_t d = rings.degree(c.removed);
-      const Vertex_index* r = rings.ring(c.removed);
-      const bool is_open = rings.is_border(c.removed);
-      sides.push_back({is_open && k + 1 == d ? CGAL::Indexed_mesh::no_vertex : r[(k + 1) % d],
-                       is_open && k == 0 ? CGAL::Indexed_mesh::no_vertex : r[(k + d - 1) % d]});
-      rings.collapse(c.removed, k);
-    }
-    for(; !done.empty(); done.pop_back(), sides.pop_back()) {
-      if(done.size() % 16 == 0) {
-        ASSERT_EQ(error_in_rings(rings, input.mesh, done), "");
-      }
-      rings.split(done.back().removed, done.back().kept, sides.back()[0], sides.back()[1]);
-    }
-    EXPECT_EQ(error_in_rings(rings, input.mesh, {}), "");
-  }
-}
-
 // The definition: the collapse leaves a manifold of the same topology with one vertex less, and a
 // border vertex does not leave the border.
 bool is_collapse_valid_by_definition(const std::vector<Triangle_indices>& triangles,
