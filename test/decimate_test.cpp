@@ -457,11 +457,11 @@ TEST(Decimate_errors, are_sentences_and_leave_the_mesh)
   fans.points.push_back(Point_3(9., 8., 9.));
   fans.triangles.push_back({0, 16, 17});
   const std::vector<std::pair<Indexed_triangle_mesh, std::string>> bad = {
-    {far, "triangle 4 has a corner that is not a vertex"},
+    {far, "triangle 4 has a vertex that does not exist"},
     {place, "vertex 5 has a coordinate that is not a finite number"},
     {alone, "vertex 16 has no face; remove it first"},
     {fans, "the faces at vertex 0 do not form one fan; split the vertex first"},
-    {Indexed_triangle_mesh(), "all edges are without length"}};
+    {Indexed_triangle_mesh(), "the mesh has no triangles"}};
   for(const auto& [mesh, sentence] : bad) {
     Indexed_triangle_mesh copy = mesh;
     const SMM::Decimation_result result = SMM::decimate(copy, options);

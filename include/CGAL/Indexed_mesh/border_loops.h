@@ -4,6 +4,7 @@
 #ifndef CGAL_INDEXED_MESH_BORDER_LOOPS_H
 #define CGAL_INDEXED_MESH_BORDER_LOOPS_H
 
+#include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 #include <CGAL/Indexed_mesh/Vertex_rings.h>
 
 #include <algorithm>
@@ -28,14 +29,6 @@ inline std::vector<std::vector<Vertex_index>> border_loops(const Vertex_rings& r
     }
   }
   return loops;
-}
-
-// The representative of i, with shorter ways for the next time.
-inline Vertex_index find_root(std::vector<Vertex_index>& parent, Vertex_index i)
-{
-  while(parent[i] != i)
-    i = parent[i] = parent[parent[i]];
-  return i;
 }
 
 // The vertices that can be reached from `seed` along edges, as a flag for each vertex. Every vertex
@@ -66,13 +59,14 @@ inline std::vector<bool> component_of(const Vertex_rings& rings, Vertex_index se
           found.push_back({parent[v], parent[w]});
       }
   });
+  Disjoint_sets sets(std::move(parent));
   for(const auto& block_links : links)
     for(const auto& [a, b] : block_links)
-      parent[find_root(parent, a)] = find_root(parent, b);
-  const Vertex_index root = find_root(parent, seed);
+      sets.join(a, b);
+  const Vertex_index root = sets.find(seed);
   std::vector<bool> is_reached(n);
   for(std::size_t v = 0; v < n; ++v)
-    is_reached[v] = find_root(parent, Vertex_index(v)) == root;
+    is_reached[v] = sets.find(Vertex_index(v)) == root;
   return is_reached;
 }
 

@@ -47,24 +47,26 @@ public:
   const std::vector<Entry>& entries() const { return m_entries; }
 
   /// Returns \f$ x^H B y \f$.
-  template <class Real>
-  std::complex<double> inner_product(const Complex_vector<Real>& x,
-                                     const Complex_vector<Real>& y) const
+  template <class V>
+  typename Value_traits<V>::Inner inner_product(const std::vector<V>& x,
+                                                const std::vector<V>& y) const
   {
-    std::complex<double> sum = 0.;
+    typedef Value_traits<typename Value_traits<V>::Double> Traits;
+    typename Value_traits<V>::Inner sum = 0.;
     for(const Entry& e : m_entries)
-      sum += e.value * std::conj(std::complex<double>(x[e.row])) * std::complex<double>(y[e.row]);
+      sum += Traits::product(e.value * Traits::from(x[e.row]), Traits::from(y[e.row]));
     return sum;
   }
 
   /// Subtracts a constant from `x` so that \f$ \sum_i b_i x_i = 0 \f$.
-  template <class Real>
-  void remove_mean(Complex_vector<Real>& x) const
+  template <class V>
+  void remove_mean(std::vector<V>& x) const
   {
-    std::complex<double> sum = 0.;
+    typedef Value_traits<typename Value_traits<V>::Double> Traits;
+    typename Value_traits<V>::Double sum = Traits::zero();
     for(const Entry& e : m_entries)
-      sum += e.value * std::complex<double>(x[e.row]);
-    const std::complex<Real> mean(sum / m_total);
+      sum += e.value * Traits::from(x[e.row]);
+    const V mean = Value_traits<V>::from(sum / m_total);
     for_each_index(x.size(), [&](std::size_t i) { x[i] -= mean; });
   }
 
@@ -76,58 +78,63 @@ private:
 namespace internal {
 
 // A vector of the iteration and its product with H.
-template <class Real>
+template <class V>
 struct Vector_and_product
 {
-  Complex_vector<Real> x, hx;
+  typedef typename Value_traits<V>::Inner Inner;
+  typedef typename Value_traits<V>::Scalar Scalar;
+
+  std::vector<V> x, hx;
 
   explicit Vector_and_product(std::size_t n) : x(n), hx(n) {}
 
-  void scale(const std::complex<double>& factor)
+  void scale(const Inner& factor)
   {
-    const std::complex<Real> s(factor);
-    for(Complex_vector<Real>* v : {&x, &hx})
+    const Scalar s(factor);
+    for(std::vector<V>* v : {&x, &hx})
       for_each_index(v->size(), [&](std::size_t i) { (*v)[i] *= s; });
   }
-  void add_scaled(const std::complex<double>& s, const Vector_and_product& other)
+  void add_scaled(const Inner& s, const Vector_and_product& other)
   {
-    Multigrid::add_scaled(std::complex<Real>(s), other.x, x);
-    Multigrid::add_scaled(std::complex<Real>(s), other.hx, hx);
+    Multigrid::add_scaled(Scalar(s), other.x, x);
+    Multigrid::add_scaled(Scalar(s), other.hx, hx);
   }
 };
 
 // The combination of the first `count` vectors with the smallest quotient, by its coefficients;
 // none if the vectors are linearly dependent.
-template <class Real>
-std::vector<std::complex<double>>
-best_combination(const std::array<const Vector_and_product<Real>*, 3>& vectors, int count,
+template <class V>
+std::vector<typename Value_traits<V>::Inner>
+best_combination(const std::array<const Vector_and_product<V>*, 3>& vectors, int count,
                  const Diagonal_mass& mass)
 {
-  Eigen::MatrixXcd energy(count, count), norm(count, count);
+  typedef typename Value_traits<V>::Inner Inner;
+  typedef Eigen::Matrix<Inner, Eigen::Dynamic, Eigen::Dynamic> Matrix;
+  Matrix energy(count, count), norm(count, count);
   for(int i = 0; i < count; ++i)
     for(int j = i; j < count; ++j) {
       energy(i, j) = inner_product(vectors[i]->x, vectors[j]->hx);
       norm(i, j) = mass.inner_product(vectors[i]->x, vectors[j]->x);
-      energy(j, i) = std::conj(energy(i, j));
-      norm(j, i) = std::conj(norm(i, j));
+      energy(j, i) = Value_traits<Inner>::adjoint(energy(i, j));
+      norm(j, i) = Value_traits<Inner>::adjoint(norm(i, j));
     }
   // In units in which each vector has the energy 1. The energy is definite, the mass is not: so the
   // largest mass for a given energy is looked for.
   Eigen::VectorXd unit(count);
   for(int i = 0; i < count; ++i) {
-    if(!(energy(i, i).real() > 0.))
+    if(!(std::real(energy(i, i)) > 0.))
       return {};
-    unit(i) = 1. / std::sqrt(energy(i, i).real());
+    unit(i) = 1. / std::sqrt(std::real(energy(i, i)));
   }
   energy = unit.asDiagonal() * energy * unit.asDiagonal();
   norm = unit.asDiagonal() * norm * unit.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> condition(energy,
-                                                                  Eigen::EigenvaluesOnly);
+  const Eigen::SelfAdjointEigenSolver<Matrix> condition(energy, Eigen::EigenvaluesOnly);
   if(!(condition.eigenvalues()(0) > 1e-10))
     return {};
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXcd> solver(norm, energy);
-  const Eigen::VectorXcd y = unit.asDiagonal() * solver.eigenvectors().col(count - 1);
-  return std::vector<std::complex<double>>(y.data(), y.data() + count);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(norm, energy);
+  const Eigen::Matrix<Inner, Eigen::Dynamic, 1> y
+    = unit.asDiagonal() * solver.eigenvectors().col(count - 1);
+  return std::vector<Inner>(y.data(), y.data() + count);
 }
 
 } // namespace internal
@@ -151,25 +158,26 @@ direction. \f$ H \f$ must be semidefinite with the constants as kernel.
 
 Seven vectors beside `x`; one product with the matrix, one preconditioning a step.
 */
-template <class Real, class Apply, class Precondition, class Observe>
+template <class V, class Apply, class Precondition, class Observe>
 Iteration_report minimize_rayleigh_quotient(const Apply& apply, const Diagonal_mass& mass,
-                                            Complex_vector<Real>& x,
+                                            std::vector<V>& x,
                                             const Precondition& precondition,
                                             const Energy_stop& stop, const Observe& observe)
 {
-  typedef internal::Vector_and_product<Real> Pair;
+  typedef internal::Vector_and_product<V> Pair;
+  typedef typename Value_traits<V>::Real Real;
   const std::size_t n = x.size();
   Pair current(n), residual(n), direction(n);
-  Complex_vector<Real> r(n);
+  std::vector<V> r(n);
   bool has_direction = false;
   current.x.swap(x);
   mass.remove_mean(current.x);
   apply(current.x, current.hx);
   const auto normalize = [&](Pair& pair) {
-    pair.scale(1. / std::sqrt(mass.inner_product(pair.x, pair.x).real()));
+    pair.scale(1. / std::sqrt(std::real(mass.inner_product(pair.x, pair.x))));
   };
   normalize(current);
-  Iteration_control control(stop, 0.5 * inner_product(current.x, current.hx).real());
+  Iteration_control control(stop, 0.5 * std::real(inner_product(current.x, current.hx)));
   while(control.goes_on()) {
     const double quotient = 2. * control.report().energy;
     r = current.hx;
@@ -178,9 +186,9 @@ Iteration_report minimize_rayleigh_quotient(const Apply& apply, const Diagonal_m
     precondition(r, residual.x);
     mass.remove_mean(residual.x);
     apply(residual.x, residual.hx);
-    std::vector<std::complex<double>> y;
+    std::vector<typename Pair::Inner> y;
     for(int count = has_direction ? 3 : 2; y.empty() && count > 1; --count)
-      y = internal::best_combination<Real>({&current, &residual, &direction}, count, mass);
+      y = internal::best_combination<V>({&current, &residual, &direction}, count, mass);
     if(y.empty()) { // the residual is 0, or no longer above rounding
       control.end(true);
       break;
@@ -197,7 +205,7 @@ Iteration_report minimize_rayleigh_quotient(const Apply& apply, const Diagonal_m
     current.scale(y[0]);
     current.add_scaled(1., direction);
     normalize(current);
-    const double energy = 0.5 * inner_product(current.x, current.hx).real();
+    const double energy = 0.5 * std::real(inner_product(current.x, current.hx));
     const double change = control.watches_changes() ? largest_entry(direction.x) : 0.;
     control.step(energy, (std::max)(0., control.report().energy - energy), change, observe);
   }

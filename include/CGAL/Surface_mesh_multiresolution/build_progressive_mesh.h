@@ -7,7 +7,7 @@
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_surface.h>
 #include <CGAL/Indexed_mesh/mesh_arrays.h>
-#include <CGAL/Indexed_mesh/mesh_error.h>
+#include <CGAL/Indexed_mesh/prepare_mesh.h>
 
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/boost/graph/helpers.h>
@@ -59,66 +59,58 @@ inline Progressive_surface copy_surface(const Indexed_triangle_mesh& mesh)
   result.points = mesh.points;
   result.progressive_mesh.number_of_vertices = mesh.points.size();
   result.progressive_mesh.triangles = mesh.triangles;
-  result.error = point_error(mesh.points);
-  for(std::size_t t = 0; t < mesh.triangles.size() && result.error.empty(); ++t)
-    for(const Vertex_index v : mesh.triangles[t])
-      if(v >= mesh.points.size())
-        result.error = "triangle " + std::to_string(t) + " has a corner that is not a vertex";
+  result.error = mesh_error(mesh);
   return result;
 }
 
-// Appends the collapses that `run(engine, source)` returns, of a mesh with the vertices of `result`
-// at any place and size; `source` has for each vertex of the engine its number.
+// Appends the collapses that `run(engine, prepared)` returns, in terms of the input of the mesh that
+// is prepared.
 template <class Cost, class Filter, class Run>
-void decimate(Indexed_triangle_mesh mesh, const Progressive_mesh_options& options,
-              const Cost& cost, const Filter& filter, const Run& run, Progressive_surface& result)
+void decimate(Prepared_mesh prepared, const Progressive_mesh_options& options, const Cost& cost,
+              const Filter& filter, const Run& run, Progressive_surface& result)
 {
-  if(!options.is_locked.empty() && options.is_locked.size() != result.points.size()) {
+  result.error = prepared.error;
+  if(!options.is_locked.empty() && options.is_locked.size() != result.points.size())
     result.error = "is_locked does not have an entry for each vertex";
-    return;
-  }
-  const std::vector<Vertex_index> source = sort_spatially(mesh);
-  Vertex_rings rings(mesh);
-  result.error = ring_error(rings, source);
   if(!result.error.empty())
     return;
-  std::vector<bool> is_locked(options.is_locked.size());
-  for(std::size_t v = 0; v < is_locked.size(); ++v)
-    is_locked[v] = options.is_locked[source[v]];
-  Flat_collapse_engine<Cost, Filter> engine(mesh, std::move(rings), is_locked, cost, filter);
-  Progressive_mesh pm = run(engine, source);
+  Flat_collapse_engine<Cost, Filter> engine(prepared.mesh, std::move(prepared.rings),
+                                            prepared.flags(options.is_locked), cost, filter);
+  Progressive_mesh pm = run(engine, prepared);
   result.progressive_mesh.collapses.reserve(pm.collapses.size());
   for(const Halfedge_collapse& c : pm.collapses)
-    result.progressive_mesh.collapses.push_back({source[c.removed], source[c.kept]});
+    result.progressive_mesh.collapses.push_back(
+      {prepared.source[c.removed], prepared.source[c.kept]});
   result.progressive_mesh.batch_ends = std::move(pm.batch_ends);
 }
 
-// With the default policies, which want edges of length 1. `run(engine, source, unit)` is told the
-// length that is 1.
+// With the default policies, which want edges of length 1.
 template <class Run>
 void decimate_normalized(const Progressive_mesh_options& options, const Run& run,
                          Progressive_surface& result)
 {
-  if(!result.error.empty())
-    return;
-  Indexed_triangle_mesh copy = {result.points, result.progressive_mesh.triangles};
-  const double factor = normalize(copy);
-  if(!(factor > 0.)) {
-    result.error = "all edges are without length";
-    return;
-  }
-  decimate(std::move(copy), options, hierarchy_collapse_cost(),
-           hierarchy_collapse_filter(options.angular_defect_bound),
-           [&](auto& engine, const std::vector<Vertex_index>& source) {
-             return run(engine, source, 1. / factor);
-           }, result);
+  if(result.error.empty())
+    decimate(prepare_mesh({result.points, result.progressive_mesh.triangles}), options,
+             hierarchy_collapse_cost(), hierarchy_collapse_filter(options.angular_defect_bound),
+             run, result);
 }
 
-inline void build_collapses(const Progressive_mesh_options& options, Progressive_surface& result)
+// With given policies, which see the coordinates of the mesh.
+template <class Cost, class Filter, class Run>
+void decimate_as_it_is(const Progressive_mesh_options& options, const Cost& cost,
+                       const Filter& filter, const Run& run, Progressive_surface& result)
 {
-  decimate_normalized(options, [&options](auto& engine, const auto&, double) {
-    return engine.run(options);
-  }, result);
+  Preparation as_it_is;
+  as_it_is.normalizes = false;
+  if(result.error.empty())
+    decimate(prepare_mesh({result.points, result.progressive_mesh.triangles}, as_it_is), options,
+             cost, filter, run, result);
+}
+
+// What runs an engine to the target of `options`.
+inline auto to_target(const Progressive_mesh_options& options)
+{
+  return [&options](auto& engine, const Prepared_mesh&) { return engine.run(options); };
 }
 
 } // namespace internal
@@ -148,7 +140,7 @@ build_progressive_mesh(const TriangleMesh& mesh,
                        const NamedParameters& np = parameters::default_values())
 {
   Progressive_surface result = internal::copy_surface_of(mesh, np);
-  internal::build_collapses(options, result);
+  internal::decimate_normalized(options, internal::to_target(options), result);
   return result;
 }
 
@@ -160,7 +152,7 @@ build_progressive_mesh(const Indexed_triangle_mesh& mesh,
                        const Progressive_mesh_options& options = Progressive_mesh_options())
 {
   Progressive_surface result = internal::copy_surface(mesh);
-  internal::build_collapses(options, result);
+  internal::decimate_normalized(options, internal::to_target(options), result);
   return result;
 }
 
@@ -183,10 +175,7 @@ Progressive_surface build_progressive_mesh(const TriangleMesh& mesh,
                                            const Cost& cost, const Filter& filter)
 {
   Progressive_surface result = internal::copy_surface_of(mesh, parameters::default_values());
-  if(result.error.empty())
-    internal::decimate({result.points, result.progressive_mesh.triangles}, options, cost, filter,
-                       [&options](auto& engine, const auto&) { return engine.run(options); },
-                       result);
+  internal::decimate_as_it_is(options, cost, filter, internal::to_target(options), result);
   return result;
 }
 

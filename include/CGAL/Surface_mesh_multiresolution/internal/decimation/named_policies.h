@@ -146,21 +146,17 @@ Decimation_status decimate_by(const StopPredicate& stop, const NamedParameters& 
       options.is_locked[v] = options.is_locked[v] || is_locked[v];
 
   Decimation_status status = Decimation_status::BAD_INPUT;
-  const auto run = [&](auto& engine, const std::vector<Vertex_index>& source, double unit) {
+  const auto run = [&](auto& engine, const Prepared_mesh& prepared) {
     Indexed_triangle_mesh shown;
-    for(const Vertex_index v : source)
+    for(const Vertex_index v : prepared.source)
       shown.points.push_back(surface.points[v]);
-    Progressive_mesh pm = engine.run(options, stop, shown, unit);
+    Progressive_mesh pm = engine.run(options, stop, shown, 1. / prepared.scale);
     status = engine.status();
     return pm;
   };
   constexpr bool has_cost = is_given<NamedParameters, internal_np::get_cost_policy_t>;
   if constexpr(has_cost || has_placement || is_given<NamedParameters, internal_np::filter_t>)
-    decimate({surface.points, surface.progressive_mesh.triangles}, options,
-             cost_of(np), filter_of(np, options),
-             [&](auto& engine, const std::vector<Vertex_index>& source) {
-               return run(engine, source, 1.);
-             }, surface);
+    decimate_as_it_is(options, cost_of(np), filter_of(np, options), run, surface);
   else
     decimate_normalized(options, run, surface);
   return status;

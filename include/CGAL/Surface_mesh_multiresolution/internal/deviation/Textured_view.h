@@ -5,7 +5,7 @@
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_DEVIATION_TEXTURED_VIEW_H
 
 #include <CGAL/Surface_mesh_multiresolution/Level_extractor.h>
-#include <CGAL/Indexed_mesh/Triangles_at_vertices.h>
+#include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 
 #include <array>
 #include <cmath>

@@ -5,7 +5,7 @@
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_TEXTURED_COLLAPSING_WEDGES_H
 
 #include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
-#include <CGAL/Indexed_mesh/Triangles_at_vertices.h>
+#include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 #include <CGAL/Indexed_mesh/Vertex_rings.h>
 
 #include <algorithm>

@@ -82,8 +82,8 @@ inline Chart_state::Indices Chart_state::neighbors(std::uint32_t c) const
   for(const std::uint32_t t : pieces[c].triangles)
     for(std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
       const std::uint32_t g = graph.opposite(h);
-      if(!graph.is_border(h) && label[g / 3] != c)
-        result.push_back(label[g / 3]);
+      if(!graph.is_border(h) && label[triangle_of(g)] != c)
+        result.push_back(label[triangle_of(g)]);
     }
   std::sort(result.begin(), result.end());
   result.erase(std::unique(result.begin(), result.end()), result.end());
@@ -106,9 +106,9 @@ inline std::vector<bool> Chart_state::take_apart(const Growth_surface& surface,
   std::vector<bool> is_atom(pieces.size(), false);
   for(const std::uint32_t t : triangles)
     for(std::uint32_t h = 3 * t; h < 3 * t + 3; ++h)
-      if(!graph.is_border(h) && is_apart[label[graph.opposite(h) / 3]]
+      if(!graph.is_border(h) && is_apart[label[triangle_of(graph.opposite(h))]]
          && atoms.graph.is_seam(h))
-        graph.close(h);
+        graph.add_seam(h);
   for(const std::uint32_t c : charts)
     pieces[c] = Chart_piece();
   for(const std::uint32_t t : triangles) {

@@ -30,7 +30,6 @@ struct Chart_union
 // seams between junctions, and seams that would end within the chart then.
 class Union_finder
 {
-  static constexpr std::uint32_t none = Indexed_mesh::no_vertex;
   static constexpr double least_dart_defect = 0.3; // radians
   typedef Chart_state::Indices Indices;
   typedef Chart_state::Pair Pair;
@@ -70,7 +69,7 @@ inline Union_finder::Indices Union_finder::longest_arc(const Chart_state& state,
 {
   const Seam_graph& graph = state.graph;
   const auto is_between = [&](std::uint32_t h) {
-    return graph.is_seam(h) && !graph.is_border(h) && state.label[graph.opposite(h) / 3] == b;
+    return graph.is_seam(h) && !graph.is_border(h) && state.label[triangle_of(graph.opposite(h))] == b;
   };
   Indices best;
   double longest = -1.;
@@ -89,15 +88,15 @@ inline Union_finder::Indices Union_finder::longest_arc(const Chart_state& state,
     }
   };
   const double unlimited = (std::numeric_limits<double>::max)();
-  std::uint32_t some = none;
+  std::uint32_t some = no_halfedge;
   for(const std::uint32_t t : state.pieces[a].triangles)
     for(std::uint32_t h = 3 * t; h < 3 * t + 3; ++h)
       if(is_between(h)) {
-        some = some == none ? h : some;
+        some = some == no_halfedge ? h : some;
         if(graph.degree(graph.source(h)) != 2)
           follow(h, unlimited);
       }
-  if(best.empty() && some != none)
+  if(best.empty() && some != no_halfedge)
     follow(some, 0.25 * (state.pieces[a].perimeter + state.pieces[b].perimeter));
   return best;
 }
@@ -113,16 +112,16 @@ inline Chart_union Union_finder::find(Chart_state& state, const Pair& pair) cons
   const std::uint32_t to = graph.target(result.opened.back());
   result.arc = result.opened.size();
   for(const std::uint32_t h : result.opened)
-    graph.open(h);
+    graph.remove_seam(h);
   graph.zip(from, result.opened);
   graph.zip(to, result.opened);
   if(graph.is_single_edge(from)) { // a sphere with a slit of one edge is none any more
-    graph.close(result.opened.front());
+    graph.add_seam(result.opened.front());
     result.opened.erase(result.opened.begin());
     result.arc = 0;
   }
   for(const std::uint32_t h : result.opened)
-    graph.close(h);
+    graph.add_seam(h);
   measure(result);
   return result;
 }

@@ -5,7 +5,7 @@
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_GROWTH_SURFACE_H
 
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
-#include <CGAL/Indexed_mesh/Triangle_adjacency.h>
+#include <CGAL/Surface_mesh_texturing/internal/seams/Halfedge_triangles.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ struct Growth_surface
 
   Indexed_triangle_mesh mesh;        // in a unit and at a place of its own
   double scale = 1.;                 // its lengths to those of the input
-  Triangle_adjacency adjacency;
+  Halfedge_triangles adjacency;
   std::vector<double> length;        // of each halfedge
   std::vector<double> angle;         // across each halfedge between the normals, 0 on the border
   std::vector<double> area;          // of each triangle
@@ -50,7 +50,7 @@ inline double round_to_unit(Indexed_triangle_mesh& mesh)
 }
 
 inline Growth_surface::Growth_surface(const Indexed_triangle_mesh& input)
-  : mesh(input), scale(round_to_unit(mesh)), adjacency(mesh.triangles)
+  : mesh(input), scale(round_to_unit(mesh)), adjacency(mesh.triangles, mesh.points.size())
   , length(3 * size()), angle(3 * size(), 0.), area(size()), centre(size())
   , defect(mesh.points.size(), 2. * CGAL_PI)
 {
@@ -70,17 +70,17 @@ inline Growth_surface::Growth_surface(const Indexed_triangle_mesh& input)
     }
   }
   for(std::uint32_t h = 0; h < angle.size(); ++h) {
-    const std::uint32_t g = adjacency.opposite(h);
-    if(g == Indexed_mesh::no_vertex) {
-      defect[mesh.triangles[h / 3][h % 3]] = 0.;
+    const Halfedge g = adjacency.opposite(h);
+    if(g == no_halfedge) {
+      defect[adjacency.source(h)] = 0.;
       continue;
     }
-    const auto &m = normal[h / 3], &n = normal[g / 3];
+    const auto &m = normal[triangle_of(h)], &n = normal[triangle_of(g)];
     const auto x = cross_product(m, n);
     angle[h] = std::atan2(std::sqrt(x * x), m * n);
   }
   const Face_charts components
-    = charts_between(mesh.triangles, std::vector<std::uint8_t>(size(), 0));
+    = label_charts(adjacency, std::vector<std::uint8_t>(size(), 0));
   component = components.chart;
   number_of_components = components.number_of_charts;
 }

@@ -5,7 +5,6 @@
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_FEATURE_CURVES_H
 
 #include <CGAL/Surface_mesh_texturing/internal/charts/Growth_surface.h>
-#include <CGAL/Surface_mesh_texturing/internal/seams/Seam_graph.h>
 
 #include <algorithm>
 #include <numeric>
@@ -26,7 +25,6 @@ public:
   // Angles below `least_angle` (radians) are not sharp.
   Feature_curves(const Growth_surface& surface, double least_angle)
     : m_surface(surface)
-    , m_graph(surface.mesh.triangles, surface.adjacency, surface.mesh.points.size())
     , m_is_feature(3 * surface.size(), 0)
     , m_near(surface.mesh.points.size(), Vector(0., 0., 0.))
     , m_threshold((std::max)(least_angle, (std::min)(sharpest_angle(), surely_sharp)))
@@ -51,8 +49,10 @@ private:
 
   Vector step_of(std::uint32_t h) const
   {
-    return m_surface.mesh.points[m_graph.target(h)] - m_surface.mesh.points[m_graph.source(h)];
+    return m_surface.mesh.points[m_surface.adjacency.target(h)] - m_surface.mesh.points[m_surface.adjacency.source(h)];
   }
+
+  bool is_border(Halfedge h) const { return m_surface.adjacency.opposite(h) == no_halfedge; }
 
   // Whether h lies on a curve or runs along one.
   bool is_taken(std::uint32_t h) const
@@ -62,8 +62,8 @@ private:
       const double cosine = step * direction;
       return cosine * cosine > 0.5 * (step * step);
     };
-    return m_is_feature[h] || (is_parallel(m_near[m_graph.source(h)])
-                               && is_parallel(m_near[m_graph.target(h)]));
+    return m_is_feature[h] || (is_parallel(m_near[m_surface.adjacency.source(h)])
+                               && is_parallel(m_near[m_surface.adjacency.target(h)]));
   }
 
   // Calls f for the halfedges from the target of h, clockwise from the one that leads back,
@@ -71,16 +71,15 @@ private:
   template <class F>
   void for_each_after(std::uint32_t h, const F& f) const
   {
-    const std::uint32_t back = m_graph.opposite(h);
-    for(std::uint32_t g = next_halfedge(h); g != back; g = next_halfedge(m_graph.opposite(g))) {
+    const std::uint32_t back = m_surface.adjacency.opposite(h);
+    for(std::uint32_t g = next_halfedge(h); g != back; g = next_halfedge(m_surface.adjacency.opposite(g))) {
       f(g);
-      if(m_graph.is_border(g))
+      if(is_border(g))
         return;
     }
   }
 
   const Growth_surface& m_surface;
-  Seam_graph m_graph;
   std::vector<std::uint8_t> m_is_feature;
   std::vector<Vector> m_near; // for each vertex on or beside a curve the direction of the curve
   double m_threshold;
@@ -104,7 +103,7 @@ inline double Feature_curves::best_ahead(std::uint32_t h, int depth, std::uint32
     return best;
   const Vector along = step_of(h);
   for_each_after(h, [&](std::uint32_t g) {
-    if(m_graph.is_border(g) || m_surface.angle[g] < 0.5 * m_threshold || is_taken(g)
+    if(is_border(g) || m_surface.angle[g] < 0.5 * m_threshold || is_taken(g)
        || !(step_of(g) * along > 0.))
       return;
     std::uint32_t unused = g;
@@ -126,9 +125,9 @@ inline void Feature_curves::extend(std::vector<std::uint32_t>& path) const
     if(first == path.back()
        || !(ahead >= search_depth * m_threshold || m_surface.angle[first] >= m_threshold))
       return;
-    const std::uint32_t end = m_graph.target(first);
+    const std::uint32_t end = m_surface.adjacency.target(first);
     const bool closes = std::any_of(path.begin(), path.end(),
-                                    [&](std::uint32_t g) { return m_graph.source(g) == end; });
+                                    [&](std::uint32_t g) { return m_surface.adjacency.source(g) == end; });
     path.push_back(first);
     if(closes)
       return;
@@ -142,7 +141,7 @@ inline void Feature_curves::find()
   const double least = least_length * std::sqrt(area);
   std::vector<std::uint32_t> sharp;
   for(std::uint32_t h = 0; h < m_is_feature.size(); ++h)
-    if(!m_graph.is_border(h) && h < m_graph.opposite(h) && m_surface.angle[h] >= m_threshold)
+    if(!is_border(h) && h < m_surface.adjacency.opposite(h) && m_surface.angle[h] >= m_threshold)
       sharp.push_back(h);
   std::stable_sort(sharp.begin(), sharp.end(), [this](std::uint32_t a, std::uint32_t b) {
     return m_surface.angle[a] > m_surface.angle[b];
@@ -150,11 +149,11 @@ inline void Feature_curves::find()
   for(const std::uint32_t h : sharp) {
     if(is_taken(h))
       continue;
-    std::vector<std::uint32_t> path(1, m_graph.opposite(h));
+    std::vector<std::uint32_t> path(1, m_surface.adjacency.opposite(h));
     extend(path);
     std::reverse(path.begin(), path.end());
     for(std::uint32_t& g : path)
-      g = m_graph.opposite(g);
+      g = m_surface.adjacency.opposite(g);
     extend(path);
     double sum = 0.;
     for(const std::uint32_t g : path)
@@ -168,15 +167,15 @@ inline void Feature_curves::find()
 inline void Feature_curves::keep(const std::vector<std::uint32_t>& path)
 {
   for(const std::uint32_t g : path)
-    m_is_feature[g] = m_is_feature[m_graph.opposite(g)] = 1;
+    m_is_feature[g] = m_is_feature[m_surface.adjacency.opposite(g)] = 1;
   for(const std::uint32_t g : path) {
     const Vector step = step_of(g);
     if(!(step * step > 0.))
       continue;
     const Vector direction = step / std::sqrt(step * step);
-    for(const std::uint32_t side : {g, m_graph.opposite(g)}) {
-      m_near[m_graph.source(side)] = direction;
-      Vector& beside = m_near[m_graph.source(previous_halfedge(side))];
+    for(const std::uint32_t side : {g, m_surface.adjacency.opposite(g)}) {
+      m_near[m_surface.adjacency.source(side)] = direction;
+      Vector& beside = m_near[m_surface.adjacency.source(previous_halfedge(side))];
       if(beside * beside == 0.)
         beside = direction;
     }

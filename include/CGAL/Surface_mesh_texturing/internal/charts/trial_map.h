@@ -31,19 +31,6 @@ struct Trial_map
   double fill = 0.;           // the part of its convex hull that the chart fills in the plane
 };
 
-// Whether two edges that share no vertex meet in the plane, up to rounding.
-inline bool border_meets_itself(const std::vector<Border_edge>& edges,
-                                const std::vector<Trial_uv>& uv)
-{
-  bool result = false;
-  Surface_mesh_parameterization::visit_crossing_edges(
-    edges, uv, [&result](const Border_edge&, const Border_edge&) {
-      result = true;
-      return false;
-    });
-  return result;
-}
-
 inline double hull_area(const std::vector<Border_edge>& border, const std::vector<Trial_uv>& uv)
 {
   typedef Exact_predicates_inexact_constructions_kernel::Point_2 Exact_point; // for predicates
@@ -59,18 +46,23 @@ inline double hull_area(const std::vector<Border_edge>& border, const std::vecto
   return 0.5 * twice;
 }
 
-// Maps the mesh with the given border, if it is a disk, as the whole chart will be mapped later.
-inline Trial_map try_map(const Indexed_triangle_mesh& mesh, const std::vector<Border_edge>& border)
+// Maps the chart, if it is a disk, as the whole chart will be mapped later.
+inline Trial_map try_map(const Chart_mesh& chart)
 {
   namespace SMP = Surface_mesh_parameterization;
   Trial_map result;
-  const SMP::Border_first_map map = SMP::border_first_map(mesh);
+  const SMP::Border_first_map map = SMP::border_first_map(chart.mesh);
   result.is_disk = map.error.empty();
   if(!result.is_disk)
     return result;
-  result.distortion = measure_chart_distortion(mesh, map.uv);
+  const std::vector<Border_edge> border = chart.border_edges();
+  result.distortion = measure_chart_distortion(chart.mesh, map.uv);
   result.is_one_to_one
-    = result.distortion.flipped_faces == 0 && !border_meets_itself(border, map.uv);
+    = result.distortion.flipped_faces == 0 && result.distortion.degenerate_faces == 0;
+  if(result.is_one_to_one)
+    SMP::visit_crossing_edges(border, map.uv, [&result](const Border_edge&, const Border_edge&) {
+      return result.is_one_to_one = false;
+    });
   const double hull = hull_area(border, map.uv);
   result.fill = hull > 0. ? result.distortion.uv_area / hull : 0.;
   return result;

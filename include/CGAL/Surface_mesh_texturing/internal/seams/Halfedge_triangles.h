@@ -1,8 +1,8 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_SEAMS_LINKED_TRIANGLES_H
-#define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_SEAMS_LINKED_TRIANGLES_H
+#ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_SEAMS_HALFEDGE_TRIANGLES_H
+#define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_SEAMS_HALFEDGE_TRIANGLES_H
 
 #include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 
@@ -15,12 +15,6 @@ namespace CGAL {
 namespace Surface_mesh_texturing {
 namespace internal {
 
-
-// Of a `Triangle_adjacency`; its triangle is on its left.
-typedef std::uint32_t Halfedge;
-
-constexpr Halfedge no_halfedge = Halfedge(-1);
-
 // A triangle mesh that halfedge collapses make coarser and vertex splits finer again.
 //
 //          L              L        A collapse of r into k links the neighbours a and b of a dying
@@ -29,10 +23,10 @@ constexpr Halfedge no_halfedge = Halfedge(-1);
 //      r --e-> k          k        linked list of which Knuth says that its links dance.
 //
 // Every triangle keeps its number and corners.
-class Linked_triangles
+class Halfedge_triangles
 {
 public:
-  Linked_triangles(const std::vector<Triangle_indices>& triangles, std::size_t number_of_vertices)
+  Halfedge_triangles(const std::vector<Triangle_indices>& triangles, std::size_t number_of_vertices)
     : m_triangles(triangles), m_opposite(Triangle_adjacency(triangles).take())
     , m_outgoing(number_of_vertices, no_halfedge)
   {
@@ -44,7 +38,7 @@ public:
   std::size_t number_of_vertices() const { return m_outgoing.size(); }
 
   Halfedge opposite(Halfedge h) const { return m_opposite[h]; }
-  Vertex_index source(Halfedge h) const { return m_triangles[h / 3][h % 3]; }
+  Vertex_index source(Halfedge h) const { return vertex_of(m_triangles, h); }
   Vertex_index target(Halfedge h) const { return source(next_halfedge(h)); }
 
   // A halfedge from v; `no_halfedge` if v has no triangle.
@@ -111,7 +105,7 @@ private:
   void rename(Halfedge outgoing, Vertex_index v)
   {
     for_each_outgoing(outgoing, [&](Halfedge h) {
-      m_triangles[h / 3][h % 3] = v;
+      m_triangles[triangle_of(h)][corner_of(h)] = v;
       return true;
     });
   }
@@ -129,7 +123,7 @@ private:
   std::vector<Halfedge> m_outgoing; // of each vertex
 };
 
-inline Halfedge Linked_triangles::collapse(Vertex_index r, Vertex_index k)
+inline Halfedge Halfedge_triangles::collapse(Vertex_index r, Vertex_index k)
 {
   Halfedge e = no_halfedge;
   for_each_outgoing(m_outgoing[r], [&](Halfedge h) {
@@ -147,7 +141,7 @@ inline Halfedge Linked_triangles::collapse(Vertex_index r, Vertex_index k)
   rename(all[0].corner_of_r, k);
   for(int i = 0; i < n; ++i) {
     const Dying& d = all[i];
-    m_triangles[d.corner_of_r / 3][d.corner_of_r % 3] = r;
+    m_triangles[triangle_of(d.corner_of_r)][corner_of(d.corner_of_r)] = r;
     const Halfedge a = m_opposite[d.side_of_r], b = m_opposite[d.side_of_k];
     if(a != no_halfedge)
       m_opposite[a] = b;
@@ -159,7 +153,7 @@ inline Halfedge Linked_triangles::collapse(Vertex_index r, Vertex_index k)
   return e;
 }
 
-inline void Linked_triangles::split(Halfedge e, Vertex_index r)
+inline void Halfedge_triangles::split(Halfedge e, Vertex_index r)
 {
   for_each_dying(e, r, [&](const Dying& d) {
     const Halfedge a = m_opposite[d.side_of_r], b = m_opposite[d.side_of_k];
@@ -178,4 +172,4 @@ inline void Linked_triangles::split(Halfedge e, Vertex_index r)
 } // namespace Surface_mesh_texturing
 } // namespace CGAL
 
-#endif // CGAL_SURFACE_MESH_TEXTURING_INTERNAL_SEAMS_LINKED_TRIANGLES_H
+#endif // CGAL_SURFACE_MESH_TEXTURING_INTERNAL_SEAMS_HALFEDGE_TRIANGLES_H

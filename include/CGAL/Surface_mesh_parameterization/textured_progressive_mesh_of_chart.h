@@ -1,8 +1,8 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_BUILD_TEXTURED_PROGRESSIVE_MESH_H
-#define CGAL_SURFACE_MESH_PARAMETERIZATION_BUILD_TEXTURED_PROGRESSIVE_MESH_H
+#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_TEXTURED_PROGRESSIVE_MESH_OF_CHART_H
+#define CGAL_SURFACE_MESH_PARAMETERIZATION_TEXTURED_PROGRESSIVE_MESH_OF_CHART_H
 
 #include <CGAL/Surface_mesh_multiresolution/build_textured_progressive_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/Chart_progressive_mesh.h>
@@ -64,4 +64,4 @@ build_textured_progressive_mesh(
 } // namespace Surface_mesh_parameterization
 } // namespace CGAL
 
-#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_BUILD_TEXTURED_PROGRESSIVE_MESH_H
+#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_TEXTURED_PROGRESSIVE_MESH_OF_CHART_H
