@@ -145,8 +145,8 @@ build_progressive_mesh(const TriangleMesh& mesh,
 }
 
 /// \ingroup PkgHLSCMMultiresolution
-/// Returns a progressive mesh of two arrays, as of any mesh. A corner that is not a vertex is bad
-/// data, too.
+/// Returns a progressive mesh of two arrays, as of any mesh. A triangle with a vertex that
+/// does not exist is bad data, too.
 inline Progressive_surface
 build_progressive_mesh(const Indexed_triangle_mesh& mesh,
                        const Progressive_mesh_options& options = Progressive_mesh_options())

@@ -25,8 +25,7 @@ namespace Surface_mesh_multiresolution {
 The struct `Decimation_options` tells `decimate()` where to stop, as a stop predicate does, and what
 else there is to choose: the first bound that is met ends the decimation.
 
-\cgalModels{StopPredicate (of CGAL's package Triangulated Surface Mesh Simplification; for profiles
-            of the flat engine)}
+\cgalModels{StopPredicate of CGAL's Triangulated Surface Mesh Simplification}
 */
 struct Decimation_options
   : Progressive_mesh_options
@@ -131,7 +130,7 @@ Decimation_result decimate(TriangleMesh& mesh, const StopPredicate& stop,
 
 Simplifies a mesh of two arrays in place, as any other mesh; of the named parameters `get_cost`,
 `filter` and `get_placement` count. Vertices and triangles that are left keep their order and become
-consecutive. A corner that is not a vertex is bad data, too.
+consecutive. A triangle with a vertex that does not exist is bad data, too.
 */
 template <class ConcurrencyTag = Sequential_tag, class StopPredicate,
           class NamedParameters = parameters::Default_named_parameters>

@@ -37,9 +37,9 @@ bound. Coarse levels then keep the geometry that a conformal map depends on (Ray
 section 4, "Validity of hcoll", where the bound is 70 degrees; figure 1). The shape of the border
 does not influence a conformal map in this way, so that border vertices pass.
 
-\tparam BaseFilter a model of `PlacementFilter`, applied first
+\tparam BaseFilter a model of CGAL's `PlacementFilter`, applied first
 
-\cgalModels{PlacementFilter}
+\cgalModels{PlacementFilter of CGAL's Triangulated Surface Mesh Simplification}
 
 \sa `Collapse_shape_filter`
 */

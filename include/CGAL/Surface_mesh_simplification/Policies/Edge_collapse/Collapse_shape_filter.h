@@ -66,9 +66,9 @@ private:
 The class `Collapse_shape_filter` rejects the collapses that make bad triangles: those that turn a
 normal too far, that make a sliver, or that make a vertex of too large a degree.
 
-\tparam BaseFilter a model of `PlacementFilter`, applied first
+\tparam BaseFilter a model of CGAL's `PlacementFilter`, applied first
 
-\cgalModels{PlacementFilter}
+\cgalModels{PlacementFilter of CGAL's Triangulated Surface Mesh Simplification}
 
 \sa `Angular_defect_filter`
 */

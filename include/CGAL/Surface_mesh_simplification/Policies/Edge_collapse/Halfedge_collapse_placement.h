@@ -32,12 +32,12 @@ coarse mesh are then vertices of the fine one. Directions that the filter or the
 not considered; if none is left the edge has no placement. A border vertex moves only along the
 border.
 
-\tparam Cost a model of `GetCost`
-\tparam Filter a model of `PlacementFilter`
+\tparam Cost a model of CGAL's `GetCost`
+\tparam Filter a model of CGAL's `PlacementFilter`
 \tparam VertexIsLockedMap a model of `ReadablePropertyMap` with the vertex descriptor as key and
         `bool` as value; locked vertices are never removed
 
-\cgalModels{GetPlacement}
+\cgalModels{GetPlacement of CGAL's Triangulated Surface Mesh Simplification}
 */
 template <class Cost = Volume_and_border_area_cost,
           class Filter = internal::Accept_all_filter,
