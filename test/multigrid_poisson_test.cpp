@@ -14,6 +14,8 @@
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
 #include <CGAL/Surface_mesh_multiresolution/Mesh_hierarchy.h>
 
+#include <Eigen/Eigenvalues>
+
 #include <gtest/gtest.h>
 
 #include <map>
@@ -319,6 +321,50 @@ TEST(Multigrid_values, of_real_and_of_complex_numbers_agree)
   levels.precondition(Schedule(), levels.number_of_levels() - 1, r_complex, z_complex);
   const Complex_vector<double> expected(z.begin(), z.end());
   EXPECT_LE(relative_error(to_dense(z_complex), to_dense(expected)), 1e-5);
+}
+
+// The best combination of up to three vectors, and that of Eigen's dense solver.
+template <class Value>
+void test_best_coefficients()
+{
+  Random_numbers random(11);
+  for(int n = 1; n <= 3; ++n)
+    for(int i = 0; i < 200; ++i) {
+      typedef Eigen::Matrix<Value, Eigen::Dynamic, Eigen::Dynamic> Matrix;
+      const Eigen::Matrix<Value, Eigen::Dynamic, Eigen::Dynamic> a = Matrix::Random(n, n),
+                                                                 b = Matrix::Random(1, n);
+      const Matrix energy = std::pow(10., 6. * random.real()) * a * a.adjoint();
+      const Matrix norm = b.adjoint() * b; // of rank 1: most of a mass is 0
+      internal::Small_matrix<Value> e = {}, m = {};
+      for(int r = 0; r < n; ++r)
+        for(int c = 0; c < n; ++c) {
+          e[r][c] = energy(r, c);
+          m[r][c] = norm(r, c);
+        }
+      const std::vector<Value> found = internal::best_coefficients(n, e, m);
+      const Matrix unit = energy.diagonal().real().cwiseSqrt().cwiseInverse().asDiagonal();
+      const Eigen::SelfAdjointEigenSolver<Matrix> condition(unit * energy * unit);
+      if(condition.eigenvalues()(0) < 1e-9) {
+        EXPECT_LE(condition.eigenvalues()(0), found.empty() ? 2e-10 : 1e-9);
+        continue;
+      }
+      ASSERT_EQ(found.size(), std::size_t(n));
+      const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(norm, energy);
+      const double largest = solver.eigenvalues()(n - 1);
+      Eigen::Matrix<Value, Eigen::Dynamic, 1> y(n);
+      for(int r = 0; r < n; ++r)
+        y(r) = found[r];
+      EXPECT_NEAR(std::real(y.dot(norm * y)) / std::real(y.dot(energy * y)), largest,
+                  1e-6 * largest);
+      EXPECT_NEAR(std::abs(std::imag(y(0))), 0., 1e-12 * std::abs(y(0)));
+      EXPECT_GE(std::real(y(0)), 0.);
+    }
+}
+
+TEST(Rayleigh_quotient, of_few_vectors_is_the_dense_one)
+{
+  test_best_coefficients<double>();
+  test_best_coefficients<std::complex<double>>();
 }
 
 // The least eigenvalues of the Laplacian of a closed surface whose mass is that of some vertices,

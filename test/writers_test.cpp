@@ -361,6 +361,25 @@ SMT::Textured_model two_pages()
   return model;
 }
 
+TEST(Writers, make_a_model_of_an_atlas)
+{
+  const SMT::Textured_model two = two_pages();
+  SMT::Texture_atlas atlas;
+  atlas.mesh = two.mesh;
+  atlas.charts.chart = {1, 0};
+  atlas.page = {1, 0};
+  atlas.number_of_pages = 2;
+  const SMT::Textured_model model = SMT::textured_model(atlas, "name");
+  EXPECT_EQ(model.name, "name");
+  EXPECT_EQ(model.page, (std::vector<std::uint32_t>{0, 1}));
+  EXPECT_EQ(model.materials.size(), 2u);
+  EXPECT_EQ(model.frames.normals.size(), 4u);
+  std::ostringstream os;
+  EXPECT_TRUE(SMT::IO::write_MTL(os, model));
+  EXPECT_EQ(os.str().find("map_"), std::string::npos);
+  EXPECT_NE(glb_of(model), "");
+}
+
 TEST(Writers, obj_names_the_material_of_each_page)
 {
   const SMT::Textured_model model = two_pages();
@@ -492,7 +511,7 @@ TEST(Writers, glb_of_a_mesh_has_its_normals)
 {
   Mesh mesh;
   CGAL::make_icosahedron(mesh, Point_3(0, 0, 0), 2.);
-  const auto uv = mesh.add_property_map<Mesh::Vertex_index, Point_2>("v:uv").first;
+  const auto uv = mesh.add_property_map<Mesh::Vertex_index, Point_2>("v:uv", {0., 0.}).first;
   const tinygltf::Model read = read_glb(glb_of(mesh, uv));
   const auto& attributes = read.meshes.at(0).primitives.at(0).attributes;
   const auto points = numbers<float>(read, attributes.at("POSITION"));

@@ -7,8 +7,6 @@
 #include <CGAL/Multigrid/Iteration_control.h>
 #include <CGAL/Multigrid/vector_operations.h>
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -101,6 +99,99 @@ struct Vector_and_product
   }
 };
 
+// A matrix of at most three rows and columns. Eigen's solvers for such small eigenvalue problems would
+// take a fifth of the time in which a program with the parameterizer is compiled.
+template <class Inner>
+using Small_matrix = std::array<std::array<Inner, 3>, 3>;
+
+// Diagonalizes the first n rows and columns of a Hermitian matrix by Jacobi's rotations; returns its
+// eigenvectors as columns.
+template <class Inner>
+Small_matrix<Inner> diagonalize(int n, Small_matrix<Inner>& a)
+{
+  constexpr int most_sweeps = 30; // quadratic convergence makes four or five of it
+  constexpr double negligible = 1e-17;
+  Small_matrix<Inner> v = {};
+  for(int i = 0; i < n; ++i)
+    v[i][i] = 1.;
+  bool is_diagonal = false;
+  for(int sweep = 0; sweep < most_sweeps && !is_diagonal; ++sweep) {
+    is_diagonal = true;
+    for(int p = 0; p < n; ++p)
+      for(int q = p + 1; q < n; ++q) {
+        const double r = std::abs(a[p][q]), app = std::real(a[p][p]), aqq = std::real(a[q][q]);
+        if(!(r > negligible * (std::abs(app) + std::abs(aqq))))
+          continue;
+        is_diagonal = false;
+        // The rotation that makes of the columns x and y: c x - s z y and s x + c z y
+        const Inner z = Value_traits<Inner>::adjoint(a[p][q]) / r;
+        const double theta = (aqq - app) / (2. * r);
+        const double t = (theta < 0. ? -1. : 1.) / (std::abs(theta) + std::hypot(theta, 1.));
+        const double c = 1. / std::hypot(t, 1.), s = t * c;
+        for(Small_matrix<Inner>* m : {&a, &v})
+          for(int i = 0; i < n; ++i) {
+            const Inner x = (*m)[i][p], y = z * (*m)[i][q];
+            (*m)[i][p] = c * x - s * y;
+            (*m)[i][q] = s * x + c * y;
+          }
+        for(int j = 0; j < n; ++j) {
+          const Inner x = a[p][j], y = Value_traits<Inner>::adjoint(z) * a[q][j];
+          a[p][j] = c * x - s * y;
+          a[q][j] = s * x + c * y;
+        }
+        a[p][q] = a[q][p] = 0.;
+      }
+  }
+  return v;
+}
+
+// The coefficients y of least y^H E y / y^H N y with y_0 >= 0, where E is definite and N semidefinite;
+// none if E is nearly singular.
+template <class Inner>
+std::vector<Inner> best_coefficients(int n, Small_matrix<Inner> energy,
+                                     const Small_matrix<Inner>& norm)
+{
+  typedef Value_traits<Inner> Traits;
+  constexpr double nearly_singular = 1e-10;
+  // In units in which each vector has the energy 1
+  std::array<double, 3> unit = {};
+  for(int i = 0; i < n; ++i) {
+    if(!(std::real(energy[i][i]) > 0.))
+      return {};
+    unit[i] = 1. / std::sqrt(std::real(energy[i][i]));
+  }
+  for(int i = 0; i < n; ++i)
+    for(int j = 0; j < n; ++j)
+      energy[i][j] *= unit[i] * unit[j];
+  // W^H E W = 1 for the columns of W, and the largest eigenvalue of W^H N W is what is looked for.
+  Small_matrix<Inner> w = diagonalize(n, energy), reduced = {};
+  for(int j = 0; j < n; ++j) {
+    if(!(std::real(energy[j][j]) > nearly_singular))
+      return {};
+    for(int i = 0; i < n; ++i)
+      w[i][j] *= unit[i] / std::sqrt(std::real(energy[j][j]));
+  }
+  for(int i = 0; i < n; ++i)
+    for(int j = 0; j < n; ++j)
+      for(int k = 0; k < n; ++k)
+        for(int l = 0; l < n; ++l)
+          reduced[i][j] += Traits::adjoint(w[k][i]) * norm[k][l] * w[l][j];
+  const Small_matrix<Inner> u = diagonalize(n, reduced);
+  int best = 0;
+  for(int j = 1; j < n; ++j)
+    if(std::real(reduced[j][j]) > std::real(reduced[best][best]))
+      best = j;
+  std::vector<Inner> y(n, Inner(0.));
+  for(int i = 0; i < n; ++i)
+    for(int k = 0; k < n; ++k)
+      y[i] += w[i][k] * u[k][best];
+  const double size = std::abs(y[0]);
+  const Inner phase = size > 0. ? Inner(Traits::adjoint(y[0]) / size) : Inner(1.);
+  for(Inner& value : y)
+    value *= phase;
+  return y;
+}
+
 // The combination of the first `count` vectors with the smallest quotient, by its coefficients;
 // none if the vectors are linearly dependent.
 template <class V>
@@ -109,32 +200,15 @@ best_combination(const std::array<const Vector_and_product<V>*, 3>& vectors, int
                  const Diagonal_mass& mass)
 {
   typedef typename Value_traits<V>::Inner Inner;
-  typedef Eigen::Matrix<Inner, Eigen::Dynamic, Eigen::Dynamic> Matrix;
-  Matrix energy(count, count), norm(count, count);
+  Small_matrix<Inner> energy = {}, norm = {};
   for(int i = 0; i < count; ++i)
     for(int j = i; j < count; ++j) {
-      energy(i, j) = inner_product(vectors[i]->x, vectors[j]->hx);
-      norm(i, j) = mass.inner_product(vectors[i]->x, vectors[j]->x);
-      energy(j, i) = Value_traits<Inner>::adjoint(energy(i, j));
-      norm(j, i) = Value_traits<Inner>::adjoint(norm(i, j));
+      energy[i][j] = inner_product(vectors[i]->x, vectors[j]->hx);
+      norm[i][j] = mass.inner_product(vectors[i]->x, vectors[j]->x);
+      energy[j][i] = Value_traits<Inner>::adjoint(energy[i][j]);
+      norm[j][i] = Value_traits<Inner>::adjoint(norm[i][j]);
     }
-  // In units in which each vector has the energy 1. The energy is definite, the mass is not: so the
-  // largest mass for a given energy is looked for.
-  Eigen::VectorXd unit(count);
-  for(int i = 0; i < count; ++i) {
-    if(!(std::real(energy(i, i)) > 0.))
-      return {};
-    unit(i) = 1. / std::sqrt(std::real(energy(i, i)));
-  }
-  energy = unit.asDiagonal() * energy * unit.asDiagonal();
-  norm = unit.asDiagonal() * norm * unit.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix> condition(energy, Eigen::EigenvaluesOnly);
-  if(!(condition.eigenvalues()(0) > 1e-10))
-    return {};
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(norm, energy);
-  const Eigen::Matrix<Inner, Eigen::Dynamic, 1> y
-    = unit.asDiagonal() * solver.eigenvectors().col(count - 1);
-  return std::vector<Inner>(y.data(), y.data() + count);
+  return best_coefficients(count, energy, norm);
 }
 
 } // namespace internal
@@ -147,7 +221,7 @@ Minimizes the Rayleigh quotient \f$ x^H H x / x^H B x \f$ over the vectors with 
 `x`: each step takes the best combination of the vector, its preconditioned residual and the last
 direction. \f$ H \f$ must be semidefinite with the constants as kernel.
 
-\param apply `apply(x, y)` sets y to \f$ H x \f$
+\param apply \f$ H \f$, a model of `MultigridOperator`: `apply(x, y)` sets y to \f$ H x \f$
 \param mass \f$ B \f$
 \param x the vector; in the end \f$ x^H B x = 1 \f$
 \param precondition `precondition(r, w)` sets w to an approximation of \f$ H^{-1} r \f$ up to a
