@@ -21,8 +21,8 @@ namespace Indexed_mesh {
 /*!
 \ingroup PkgHLSCMIndexedMesh
 
-The class `Vertex_rings` is the connectivity of a triangle mesh that collapses make coarser: one ring
-of neighbours a vertex, counterclockwise. Linear time to build; 64 bytes a vertex.
+The class `Vertex_rings` is the connectivity of a triangle mesh that collapses make coarser: one
+ring of neighbours a vertex, counterclockwise. Linear time to build; 64 bytes a vertex.
 */
 //
 //           r2 ---- r1        The triangles at v are (v, r_i, r_i+1). Inside the surface the ring

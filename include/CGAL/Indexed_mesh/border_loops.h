@@ -44,7 +44,8 @@ inline std::vector<bool> component_of(const Vertex_rings& rings, Vertex_index se
   Blocked_execution::blocked_for(n, block, [&](std::size_t begin, std::size_t end) {
     for(std::size_t v = begin; v < end; ++v) {
       const Vertex_index* r = rings.ring(Vertex_index(v));
-      parent[v] = (std::min)(Vertex_index(v), *std::min_element(r, r + rings.degree(Vertex_index(v))));
+      const std::uint32_t d = rings.degree(Vertex_index(v));
+      parent[v] = (std::min)(Vertex_index(v), *std::min_element(r, r + d));
     }
   });
   for(std::size_t v = 0; v < n; ++v) // parents are smaller, and settled

@@ -145,8 +145,8 @@ struct Nearest_surface_point
 };
 
 // The point nearest to the origin of the triangle abc in the plane or in space: the foot of the
-// perpendicular, or the best point of the sides. (The levels' `nearest_in_triangle()` is in float and
-// one division shorter: it weighs prolongations, millions of them; this one measures.)
+// perpendicular, or the best point of the sides. (`nearest_in_triangle()` of the levels does this in
+// float, with one division: what it weighs are prolongations; this one measures.)
 template <std::size_t N>
 Nearest_surface_point nearest_to_origin(const std::array<Real_vector<N>, 3>& abc)
 {
