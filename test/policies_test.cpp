@@ -658,11 +658,11 @@ TEST(Angular_defect_filter, bound_is_kept_in_both_engines)
   Indexed_triangle_mesh mesh = with_noise(irregular_grid(20, 20, seed), 0.4, seed);
   CGAL::Indexed_mesh::normalize(mesh);
   for(const double bound : {20., 45., 70.}) {
-    SMM::Edge_collapse_options edge_options;
+    SMM::Progressive_mesh_options edge_options;
     edge_options.target_vertices = 100;
     edge_options.angular_defect_bound = bound;
     std::vector<Progressive_mesh> results
-      = {SMM::progressive_mesh_by_edge_collapse(mesh, {}, edge_options)};
+      = {SMM::progressive_mesh_by_edge_collapse(mesh, edge_options)};
     for(const auto order : {SMM::Collapse_order::BATCHED, SMM::Collapse_order::STRICT}) {
       SMM::Flat_collapse_options options;
       options.target_vertices = 100;

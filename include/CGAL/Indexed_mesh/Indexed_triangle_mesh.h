@@ -16,10 +16,33 @@
 #include <utility>
 #include <vector>
 
+/*
+A mesh is two arrays, and what is asked of it is built beside them once and passed on:
+`Triangle_adjacency` (across edges), `Triangles_at_vertices`, `Vertex_rings` (under collapses).
+
+A chart, a part of a mesh that is laid out in the plane, passes through these types. A new one is
+needed only where it has to know something that none of them has.
+
+  type              knows                                           from -> to
+  Face_charts       all charts of a mesh, as seams and labels       segmentation -> all that follows
+  Chart_state       charts while they are merged: a Chart_piece     patches -> Face_charts
+                    each, and the Seam_graph between them
+  Chart_mesh        one chart as a mesh of its own, cut along       Chart_cutter -> its map
+                    seams, with the way back to the whole mesh
+  Prepared_mesh     any mesh normalized and sorted, with rings      prepare_mesh() -> collapses
+  Chart             a Prepared_mesh that is a disk, its borders     the caller's mesh -> the solver
+  Mapped_chart      a Chart_mesh with uv and a report               map_chart() -> packing
+  Chart_shape       uv and triangles, no surface any more           pack_charts() -> packer
+  Chart_outline,    what a packer sees of a shape: its border       packer -> Chart_placement
+  Chart_raster      turned and its texels
+  Textured_triangle_mesh  the whole mesh again, with uv             atlas -> levels, baking, files
+*/
+
 namespace CGAL {
 namespace Indexed_mesh {
 
-// What can be wrong with the connectivity at a vertex.
+/// \ingroup PkgHLSCMIndexedMesh
+/// What can be wrong with the connectivity at a vertex.
 enum class Ring_defect : std::uint8_t { NONE, ISOLATED, REPEATED_HALFEDGE, SEVERAL_FANS };
 
 /// \ingroup PkgHLSCMIndexedMesh
@@ -112,7 +135,19 @@ struct Indexed_triangle_mesh
   std::vector<Triangle_indices> triangles; ///< The vertices of each triangle.
 };
 
-// For each of `n` things its position among the members, or `no_vertex`.
+/// \ingroup PkgHLSCMIndexedMesh
+/// A point of a triangle mesh: a triangle and the barycentric coordinates in it.
+struct Surface_point
+{
+  Triangle_index triangle = no_triangle;     ///< or `no_triangle`
+  std::array<double, 3> weights = {0, 0, 0}; ///< of its corners
+
+  /// Returns whether there is a point.
+  bool exists() const { return triangle != no_triangle; }
+};
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// Returns for each of `n` things its position among the members, or `no_vertex`.
 inline std::vector<Vertex_index> ranks(const std::vector<Vertex_index>& members, std::size_t n)
 {
   constexpr std::size_t block = 32768;

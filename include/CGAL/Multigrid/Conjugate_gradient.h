@@ -59,7 +59,8 @@ Minimizes the energy \f$ E(x) = \frac12 x^H H x \f$ over the free unknowns by th
 preconditioned conjugate gradient method, from the given `x`. Rows of the fixed unknowns (pins) are
 zero in \f$ H \f$, their values in `x` are kept.
 
-\param apply `apply(x, y)` sets y, of the same size, to \f$ H x \f$; a `Self_adjoint_matrix` does
+\param apply \f$ H \f$, a model of `MultigridOperator`: `apply(x, y)` sets y, of the same size, to
+       \f$ H x \f$; a `Self_adjoint_matrix` does
 \param x the unknowns, of any type that `Value_traits` knows
 \param energy \f$ E(x) \f$ on entry, where the whole energy counts, that of the pins' rows too
 \param precondition a model of `MultigridPreconditioner`: `precondition(r, z)` sets z to an

@@ -66,6 +66,8 @@ It is a function object: `h(x, y)` sets y to \f$ H x \f$.
 
 \tparam Value what `Value_traits` knows: `float`, `double`, `std::complex` of them, or a block of
         `Block_values.h`
+
+\cgalModels{MultigridOperator}
 */
 template <class Value>
 class Self_adjoint_matrix
@@ -96,6 +98,7 @@ public:
       y[i] = m_diagonal[i] * x[i] + s;
     });
   }
+  /// Is `multiply()`.
   void operator()(const Vector& x, Vector& y) const { multiply(x, y); }
 
   /// Calls `use(j, H_ij)` for the entries beside the diagonal of the row i in `slot`, stored zeros

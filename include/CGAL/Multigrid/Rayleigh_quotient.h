@@ -221,7 +221,7 @@ Minimizes the Rayleigh quotient \f$ x^H H x / x^H B x \f$ over the vectors with 
 `x`: each step takes the best combination of the vector, its preconditioned residual and the last
 direction. \f$ H \f$ must be semidefinite with the constants as kernel.
 
-\param apply `apply(x, y)` sets y to \f$ H x \f$
+\param apply \f$ H \f$, a model of `MultigridOperator`: `apply(x, y)` sets y to \f$ H x \f$
 \param mass \f$ B \f$
 \param x the vector; in the end \f$ x^H B x = 1 \f$
 \param precondition `precondition(r, w)` sets w to an approximation of \f$ H^{-1} r \f$ up to a

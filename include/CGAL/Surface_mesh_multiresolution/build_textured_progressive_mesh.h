@@ -25,13 +25,12 @@ namespace Surface_mesh_multiresolution {
 /// \ingroup PkgHLSCMLevelsOfDetail
 /// The options of `build_textured_progressive_mesh()`.
 struct Textured_progressive_mesh_options
+  : Progressive_mesh_options
 {
-  /// Vertices of the coarsest level; 0: as few as topology, shape and texture allow.
-  std::size_t target_vertices = 0;
-  Collapse_order order = Collapse_order::BATCHED; ///< which collapse comes next
-  /// A vertex of no smaller angular defect stays, in degrees; 360 for none. The bound that helps
-  /// hierarchies for maps keeps so many tips that little is left for the rest of a very light model.
-  double angular_defect_bound = 360.;
+  /// No vertex stays for its angular defect alone: the bound that helps hierarchies for maps keeps
+  /// so many tips that little is left for the rest of a very light model.
+  Textured_progressive_mesh_options() { angular_defect_bound = 360.; }
+
   /// How much the texture deviation at the removed vertex (Cohen, Olano, Manocha 1998) counts
   /// beside volume, border and shape, as a length beside lengths; 0 leaves it out.
   double texture_deviation_weight = 0.;
@@ -39,10 +38,6 @@ struct Textured_progressive_mesh_options
   /// collapse takes a border over a corner of a border, across a notch or a gutter. Where charts
   /// touch or overlap in the input, nothing is kept apart.
   bool keep_chart_borders_simple = true;
-  /// For each vertex whether it must stay; empty for none.
-  std::vector<bool> is_locked;
-  /// Told the part done in [0, 1] from time to time; returning false stops early.
-  std::function<bool(double)> progress;
 };
 
 /// \ingroup PkgHLSCMLevelsOfDetail
@@ -79,14 +74,10 @@ inline Wedge_collapses decimate_textured(const Textured_triangle_mesh& mesh,
   Flat_collapse_engine<Hierarchy_collapse_cost<>, Hierarchy_collapse_filter, Texture_layer> engine(
     prepared.mesh, std::move(prepared.rings), prepared.flags(options.is_locked),
     hierarchy_collapse_cost(), hierarchy_collapse_filter(options.angular_defect_bound), texture);
-  Flat_collapse_options flat;
-  flat.target_vertices = options.target_vertices;
-  flat.order = options.order;
-  flat.progress = options.progress;
-  const Progressive_mesh pm = engine.run(flat);
+  const Progressive_mesh pm = engine.run(options);
   auto batch_end = pm.batch_ends.begin();
   for(std::size_t i = 0; i < pm.collapses.size(); ++i) {
-    engine.texture().wedges().for_each_collapse(
+    engine.layer().wedges().for_each_collapse(
       pm.collapses[i].removed, [&result](Vertex_index removed, Vertex_index kept) {
         result.collapses.push_back({removed, kept});
       });

@@ -6,7 +6,6 @@
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/Chart_state.h>
-#include <CGAL/Surface_mesh_texturing/internal/charts/Chart_unions.h>
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_CHART_SEARCH_H
 
 #include <CGAL/Surface_mesh_texturing/internal/charts/Chart_merger.h>
-#include <CGAL/Surface_mesh_texturing/internal/charts/feature_curves.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/Growth_surface.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/grow_patches.h>
 
 #include <algorithm>
