@@ -35,16 +35,15 @@ inline std::string point_error(const std::vector<Indexed_triangle_mesh::Point_3>
 }
 
 /// \ingroup PkgHLSCMIndexedMesh
-/// Says which triangle has a vertex, or texture coordinate, that is none of the first `n`; `thing`
-/// tells which of the two.
+/// Says which triangle has a vertex that is none of the first `n`.
 inline std::string index_error(const std::vector<Triangle_indices>& triangles, std::size_t n,
-                               const std::string& name = {}, const std::string& thing = "vertex")
+                               const std::string& name = {})
 {
   for(std::size_t t = 0; t < triangles.size(); ++t)
     for(const Vertex_index v : triangles[t])
       if(v >= n)
-        return "triangle " + std::to_string(t) + of_mesh(name) + " has a " + thing
-             + " that does not exist";
+        return "triangle " + std::to_string(t) + of_mesh(name)
+             + " has a vertex that does not exist";
   return {};
 }
 

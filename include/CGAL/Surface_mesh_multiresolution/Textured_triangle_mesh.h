@@ -72,9 +72,17 @@ inline std::string texture_error(const Textured_triangle_mesh& mesh, const std::
   if(mesh.wedges.size() != mesh.triangles.size())
     return (name.empty() ? "the mesh" : name)
          + " has not as many triangles in the texture as on the surface";
-  const std::string error
-    = index_error(mesh.wedges, mesh.uv.size(), name, "texture coordinate");
-  return error.empty() ? uv_error(mesh.uv, name) : error;
+  for(std::size_t t = 0; t < mesh.wedges.size(); ++t)
+    for(const Vertex_index w : mesh.wedges[t]) {
+      const char* defect = nullptr;
+      if(w >= mesh.uv.size())
+        defect = " has a corner without texture coordinate";
+      else if(!std::isfinite(mesh.uv[w].x()) || !std::isfinite(mesh.uv[w].y()))
+        defect = " has a texture coordinate that is not a finite number";
+      if(defect != nullptr)
+        return "triangle " + std::to_string(t) + of_mesh(name) + defect;
+    }
+  return uv_error(mesh.uv, name); // those without a triangle
 }
 
 namespace internal {
