@@ -6,6 +6,10 @@
 
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
 
+#include <CGAL/boost/graph/iterator.h>
+#include <CGAL/boost/graph/properties.h>
+#include <CGAL/number_utils.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -144,6 +148,47 @@ inline void Conformal_triangle::lay_out(double a, double b, double c)
   m_edge[1] = Complex((a * a - b * b - c * c) / (2. * c), -2. * m_area / c);
   m_edge[0] = -(m_edge[1] + m_edge[2]);
 }
+
+namespace internal {
+
+// The mean length of the sides of the faces; 1 if there are none, or all are points.
+template <class TriangleMesh>
+double mean_edge_length(const TriangleMesh& mesh)
+{
+  const auto vpm = get(CGAL::vertex_point, mesh);
+  double sum = 0.;
+  for(const auto f : faces(mesh))
+    for(const auto h : halfedges_around_face(halfedge(f, mesh), mesh)) {
+      const auto& p = get(vpm, source(h, mesh));
+      const auto& q = get(vpm, target(h, mesh));
+      const double x = to_double(q[0]) - to_double(p[0]), y = to_double(q[1]) - to_double(p[1]),
+                   z = to_double(q[2]) - to_double(p[2]);
+      sum += std::sqrt(x * x + y * y + z * z);
+    }
+  return sum > 0. ? sum / (3. * double(num_faces(mesh))) : 1.;
+}
+
+// The face on the surface, its first corner in the origin, lengths in units of `mean_edge`: squares
+// of lengths exist whatever the unit of the mesh.
+template <class TriangleMesh>
+Conformal_triangle
+conformal_triangle(const TriangleMesh& mesh,
+                   typename boost::graph_traits<TriangleMesh>::face_descriptor f, double mean_edge)
+{
+  const auto vpm = get(CGAL::vertex_point, mesh);
+  const auto h = halfedge(f, mesh), h1 = next(h, mesh);
+  const auto& origin = get(vpm, target(h, mesh));
+  const auto corner = [&](auto v) {
+    const auto& p = get(vpm, v);
+    const auto coordinate
+      = [&](int i) { return (to_double(p[i]) - to_double(origin[i])) / mean_edge; };
+    return Conformal_triangle::Point_3(coordinate(0), coordinate(1), coordinate(2));
+  };
+  return Conformal_triangle(Conformal_triangle::Point_3(0., 0., 0.), corner(target(h1, mesh)),
+                            corner(target(next(h1, mesh), mesh)));
+}
+
+} // namespace internal
 
 } // namespace Surface_mesh_parameterization
 } // namespace CGAL

@@ -5,17 +5,33 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_SOLVER_TRAITS_CHOLESKY_H
 
 #include <CGAL/Multigrid/Hermitian_matrix.h>
-#include <CGAL/Multigrid/Sparse_cholesky.h>
+#include <CGAL/Surface_mesh_parameterization/internal/solver/Coarsest_solver.h>
 
 #include <CGAL/Default.h>
 
 #include <complex>
 #include <cstdint>
 #include <memory>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_parameterization {
+
+namespace internal {
+
+// Matrices of iterative solvers know that they are symmetric; others are told.
+template <class Matrix>
+std::shared_ptr<Matrix> symmetric_matrix(int size)
+{
+  if constexpr(std::is_constructible<Matrix, int, int, bool>::value)
+    return std::make_shared<Matrix>(size, size, true);
+  else
+    return std::make_shared<Matrix>(size);
+}
+
+} // namespace internal
 
 /*!
 \ingroup PkgHLSCMParameterizer
@@ -52,7 +68,7 @@ public:
       return true;
     const int n = int(m_free.size());
     const std::vector<std::uint32_t> slot = matrix.slot_of_row();
-    m_matrix = std::make_shared<typename SolverTraits::Matrix>(2 * n, 2 * n, true);
+    m_matrix = internal::symmetric_matrix<typename SolverTraits::Matrix>(2 * n);
     const auto set = [&](int i, int j, std::complex<double> h) {
       m_matrix->set_coef(2 * i, 2 * j, NT(h.real()), true);
       m_matrix->set_coef(2 * i + 1, 2 * j + 1, NT(h.real()), true);
@@ -99,11 +115,31 @@ private:
 
 namespace internal {
 
-// What solves the coarsest level for the given template argument of a parameterizer.
+template <class SolverTraits, class = void>
+struct Has_factor
+  : std::false_type
+{};
 template <class SolverTraits>
-struct Coarsest_solver { typedef Solver_traits_cholesky<SolverTraits> type; };
-template <>
-struct Coarsest_solver<Default> { typedef Multigrid::Sparse_cholesky<> type; };
+struct Has_factor<SolverTraits, std::void_t<decltype(std::declval<SolverTraits&>().factor(
+                                  std::declval<const typename SolverTraits::Matrix&>(),
+                                  std::declval<typename SolverTraits::NT&>()))>>
+  : std::true_type
+{};
+
+// What solves the coarsest level for an object of the template argument of a parameterizer.
+template <class SolverTraits>
+Coarsest_solver coarsest_solver_of(const SolverTraits& traits)
+{
+  static_assert(Has_factor<SolverTraits>::value,
+                "The solver of a conformal parameterizer needs factor(): it must be a model of "
+                "SparseLinearAlgebraWithFactorTraits_d.");
+  if constexpr(Has_factor<SolverTraits>::value)
+    return Coarsest_solver(std::make_shared<Solver_traits_cholesky<SolverTraits>>(traits));
+  else
+    return Coarsest_solver();
+}
+
+inline Coarsest_solver coarsest_solver_of(const Default&) { return Coarsest_solver(); }
 
 } // namespace internal
 
