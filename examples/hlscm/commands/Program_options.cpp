@@ -129,6 +129,7 @@ void add_parameterize(CLI::App& app, Program_options& o)
                   "a folder for domain.png, isolines.png, checker.png and levels.png")
       ->type_name("DIR");
   add_report_and_quiet(*run, o);
+  run->add_flag("--verbose", o.is_verbose, "show the levels of the solver on stderr");
   run->callback([&o] { o.command = Command::PARAMETERIZE; });
 }
 

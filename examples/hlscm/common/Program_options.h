@@ -71,6 +71,7 @@ struct Program_options
   Command command = Command::PARAMETERIZE;
   std::string input;
   bool is_quiet = false;
+  bool is_verbose = false;  ///< of `parameterize`: shows the levels of the solver
   bool prints_json = false; ///< of `info`
 
   std::string output;    ///< .obj or .ply; else a folder

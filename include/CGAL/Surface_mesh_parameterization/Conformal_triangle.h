@@ -4,6 +4,8 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_CONFORMAL_TRIANGLE_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_CONFORMAL_TRIANGLE_H
 
+#include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Blocked_execution/memory.h>
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
 
 #include <CGAL/boost/graph/iterator.h>
@@ -14,6 +16,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <cstddef>
 
 namespace CGAL {
 namespace Surface_mesh_parameterization {
@@ -187,6 +190,49 @@ conformal_triangle(const TriangleMesh& mesh,
   return Conformal_triangle(Conformal_triangle::Point_3(0., 0., 0.), corner(target(h1, mesh)),
                             corner(target(next(h1, mesh), mesh)));
 }
+
+inline Conformal_triangle
+conformal_triangle(const Indexed_mesh::Indexed_triangle_mesh& mesh, std::size_t t)
+{
+  const auto& v = mesh.triangles[t];
+  return Conformal_triangle(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]);
+}
+
+inline std::array<double, 3> half_cotangents(const Conformal_triangle& t)
+{
+  return {0.5 * t.cotangent(0), 0.5 * t.cotangent(1), 0.5 * t.cotangent(2)};
+}
+
+// Half the cotangents of all triangles, three each: all that the energy needs to know of a metric.
+struct Half_cotangents
+{
+  // 3 t + c: of the angle at corner c of triangle t
+  Blocked_execution::Uninitialized_vector<double> value;
+  std::size_t mollified = 0;
+
+  Half_cotangents() {}
+
+  // Those of the triangles as they lie in space.
+  explicit Half_cotangents(const Indexed_mesh::Indexed_triangle_mesh& mesh)
+    : value(3 * mesh.triangles.size())
+  {
+    const auto fill = [&](std::size_t begin, std::size_t end) {
+      std::size_t count = 0;
+      for(std::size_t t = begin; t < end; ++t) {
+        const Conformal_triangle triangle = conformal_triangle(mesh, t);
+        set(t, half_cotangents(triangle));
+        count += triangle.is_mollified() ? 1 : 0;
+      }
+      return count;
+    };
+    mollified = Blocked_execution::blocked_sum<std::size_t>(mesh.triangles.size(), 16384, fill);
+  }
+
+  void set(std::size_t t, const std::array<double, 3>& c)
+  {
+    std::copy(c.begin(), c.end(), value.begin() + 3 * t);
+  }
+};
 
 } // namespace internal
 

@@ -4,11 +4,10 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_HLSCM_PARAMETERIZER_3_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_HLSCM_PARAMETERIZER_3_H
 
-#include <CGAL/Surface_mesh_parameterization/Chart_progressive_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
 #include <CGAL/Surface_mesh_parameterization/Solver_traits_cholesky.h>
-#include <CGAL/Surface_mesh_parameterization/internal/repair/repair_chart.h>
+#include <CGAL/Surface_mesh_parameterization/internal/repair/mapped_faces.h>
 #include <CGAL/Surface_mesh_parameterization/internal/solver/map_chart_conformally.h>
 
 #include <CGAL/Blocked_execution/blocked_for.h>

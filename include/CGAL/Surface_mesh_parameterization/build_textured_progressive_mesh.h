@@ -5,7 +5,7 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_BUILD_TEXTURED_PROGRESSIVE_MESH_H
 
 #include <CGAL/Surface_mesh_multiresolution/build_textured_progressive_mesh.h>
-#include <CGAL/Surface_mesh_parameterization/Chart_progressive_mesh.h>
+#include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
 
 #include <CGAL/boost/graph/properties.h>
 #include <CGAL/number_utils.h>

@@ -6,9 +6,13 @@
 
 #include <CGAL/Surface_mesh_parameterization/Conformal_triangle.h>
 #include <CGAL/Surface_mesh_parameterization/Flip_repair_options.h>
+#include <CGAL/Surface_mesh_parameterization/internal/solver/Pins.h>
+#include <CGAL/Surface_mesh_parameterization/internal/solver/Run_control.h>
 
 #include <cmath>
+#include <complex>
 #include <cstdint>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -82,6 +86,47 @@ shapes_of_triangles(const Indexed_mesh::Indexed_triangle_mesh& mesh,
     const Conformal_triangle shape(corner(0), corner(1), corner(2));
     return std::make_pair(shape, energy_weight(shape, weights, unit));
   };
+}
+
+// Takes what the repair changed over into the report of the map.
+inline void report_repair(Flip_repair_report repair, HLSCM_report& report)
+{
+  const double rise = repair.energy_after - repair.energy_before;
+  repair.energy_before = report.energy;
+  report.energy += rise;
+  report.energy_gap_estimate += rise;
+  repair.energy_after = report.energy;
+  if(!repair.unmended_faces.empty())
+    report.warnings.push_back(std::to_string(repair.unmended_faces.size())
+                              + (repair.stopped_early ? " flipped faces are left: there was no time"
+                                                      : " flipped faces could not be repaired"));
+  report.flip_repair = std::move(repair);
+}
+
+// Repairs the map `z` of a chart of `mesh`, given by the place of each vertex of the mesh in it or
+// `no_vertex`, by the function of the options, and takes what changes over into the report.
+template <class TriangleMesh>
+void repair_chart(const TriangleMesh& mesh, const std::vector<std::uint32_t>& places,
+                  const Pins& pins, Run_control& run, std::vector<std::complex<double>>& z)
+{
+  const auto place = get(CGAL::dynamic_vertex_property_t<std::uint32_t>(), mesh);
+  std::size_t position = 0;
+  for(const auto v : vertices(mesh))
+    put(place, v, places[position++]);
+  std::vector<bool> is_pinned(z.size(), false);
+  for(const Pin& pin : pins)
+    is_pinned[pin.vertex] = true;
+  const Mapped_faces<TriangleMesh> mapped(mesh, place);
+  Map_to_repair map
+    = {mapped.triangles, is_pinned, shapes_of_faces(mesh, mapped, run.options().weights), z};
+  const Blocked_execution::Stopwatch watch;
+  Flip_repair_report repair = run.options().repair_flips(
+    map, [&run](double part) { return run.tell_repair(part) && !run.is_enough(); });
+  for(std::size_t& face : repair.unmended_faces)
+    face = mapped.positions[face];
+  repair.seconds = watch.seconds();
+  run.tell_repair(1.);
+  report_repair(std::move(repair), run.report());
 }
 
 } // namespace internal

@@ -9,7 +9,7 @@
 #include <CGAL/Multigrid/Rayleigh_quotient.h>
 #include <CGAL/Surface_mesh_multiresolution/Mesh_hierarchy.h>
 #include <CGAL/Surface_mesh_parameterization/Conformal_operator.h>
-#include <CGAL/Surface_mesh_parameterization/internal/solver/Coarsest_solver.h>
+#include <CGAL/Surface_mesh_parameterization/Solver_traits_cholesky.h>
 #include <CGAL/Surface_mesh_parameterization/internal/solver/Pins.h>
 #include <CGAL/Surface_mesh_parameterization/internal/solver/coarse_cotangents.h>
 
@@ -105,6 +105,9 @@ public:
   Coarsest_solver& coarsest_solver() { return m_cycle->coarsest_solver(); }
   bool factorize_coarsest() { return coarsest_solver().factorize(coarsest().matrix); }
 
+  // The entries that the matrix of level l stores, and the bytes of its matrices.
+  std::pair<std::size_t, std::size_t> size_of_matrices(std::size_t l) const;
+
   // Gives the pins of level l their values.
   void set_pins(std::size_t l, const Pins& pins, Vector& z) const
   {
@@ -151,7 +154,9 @@ private:
     Cycle;
 
   template <class Use>
-  void for_each_operator(std::size_t l, const Use& use);
+  void for_each_operator(std::size_t l, const Use& use) { for_each_operator(*this, l, use); }
+  template <class Hierarchy, class Use>
+  static void for_each_operator(Hierarchy& hierarchy, std::size_t l, const Use& use);
   template <class Real>
   void precondition(std::size_t l, const Multigrid::Schedule& schedule,
                     const Multigrid::Complex_vector<Real>& r, Multigrid::Complex_vector<Real>& x);
@@ -219,15 +224,29 @@ inline void Conformal_hierarchy::build_cycle()
 }
 
 // Calls `use` for the operators of level l that there are.
-template <class Use>
-void Conformal_hierarchy::for_each_operator(std::size_t l, const Use& use)
+template <class Hierarchy, class Use>
+void Conformal_hierarchy::for_each_operator(Hierarchy& hierarchy, std::size_t l, const Use& use)
 {
-  if(l + 1 == m_levels.size())
-    use(m_finest);
+  if(l + 1 == hierarchy.m_levels.size())
+    use(hierarchy.m_finest);
   else if(l == 0)
-    use(m_coarsest);
-  if(m_single[l].matrix.size() > 0)
-    use(m_single[l]);
+    use(hierarchy.m_coarsest);
+  if(hierarchy.m_single[l].matrix.size() > 0)
+    use(hierarchy.m_single[l]);
+}
+
+// Matrices of one level share their pattern.
+inline std::pair<std::size_t, std::size_t> Conformal_hierarchy::size_of_matrices(std::size_t l) const
+{
+  std::size_t entries = 0, bytes = 0, pattern = 0;
+  for_each_operator(*this, l, [&](const auto& op) {
+    typedef typename std::decay_t<decltype(op.matrix.diagonal())>::value_type Real;
+    const Multigrid::Sliced_pattern& p = op.matrix.pattern();
+    entries = p.column.size();
+    bytes += (entries + op.matrix.size()) * sizeof(Real);
+    pattern = (entries + p.row_of_slot.size() + 2 * p.slices()) * sizeof(std::uint32_t);
+  });
+  return {entries, bytes + pattern};
 }
 
 inline void Conformal_hierarchy::pin(Vertex_index v)

@@ -15,6 +15,7 @@
 #include <complex>
 #include <functional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -251,6 +252,8 @@ inline void Conformal_system::build_operators(Run_control& run)
     hierarchy.build_cycle();
   update_pins();
   HLSCM_report& report = run.report();
+  for(std::size_t l = 0; l < count; ++l)
+    std::tie(report.levels[l].entries, report.levels[l].bytes) = hierarchy.size_of_matrices(l);
   report.mollified_faces = hierarchy.finest().mollified_triangles;
   if(report.mollified_faces > 0)
     report.warnings.push_back(std::to_string(report.mollified_faces)
