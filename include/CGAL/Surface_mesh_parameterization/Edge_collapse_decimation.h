@@ -23,12 +23,12 @@ struct Edge_collapse_decimation
   operator()(const Indexed_mesh::Indexed_triangle_mesh& mesh, const std::vector<bool>& is_locked,
              const Decimation_goal& goal) const
   {
-    Surface_mesh_multiresolution::Edge_collapse_options options;
+    Surface_mesh_multiresolution::Progressive_mesh_options options;
+    options.is_locked = is_locked;
     options.target_vertices = goal.target_vertices;
     options.angular_defect_bound = goal.angular_defect_bound;
     options.progress = goal.progress;
-    return Surface_mesh_multiresolution::progressive_mesh_by_edge_collapse(mesh, is_locked,
-                                                                           options);
+    return Surface_mesh_multiresolution::progressive_mesh_by_edge_collapse(mesh, options);
   }
 };
 

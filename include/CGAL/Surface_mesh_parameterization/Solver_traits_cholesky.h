@@ -64,6 +64,7 @@ public:
         rank[i] = std::uint32_t(m_free.size());
         m_free.push_back(i);
       }
+    m_is_factorized = true;
     if(m_free.empty())
       return true;
     const int n = int(m_free.size());
@@ -85,8 +86,12 @@ public:
       });
     }
     NT scale;
-    return m_traits.factor(*m_matrix, scale);
+    m_is_factorized = m_traits.factor(*m_matrix, scale);
+    return m_is_factorized;
   }
+
+  /// Returns whether the last call of `factorize()` succeeded; `false` before.
+  bool is_factorized() const { return m_is_factorized; }
 
   /// Solves for `x`; unknowns of rows of zeros become 0.
   template <class Real>
@@ -111,6 +116,7 @@ private:
   SolverTraits m_traits;
   std::shared_ptr<typename SolverTraits::Matrix> m_matrix; // some factorizations refer to it
   std::vector<std::uint32_t> m_free;
+  bool m_is_factorized = false;
 };
 
 namespace internal {
@@ -128,10 +134,13 @@ public:
     : m_solver(std::make_shared<Model<Solver>>(std::move(solver)))
   {}
 
-  bool factorize(const Multigrid::Hermitian_matrix<double>& matrix)
+  template <class Real>
+  bool factorize(const Multigrid::Hermitian_matrix<Real>& matrix)
   {
     return m_solver->factorize(matrix);
   }
+
+  bool is_factorized() const { return m_solver->is_factorized(); }
 
   template <class Real>
   void solve(const Multigrid::Complex_vector<Real>& f, Multigrid::Complex_vector<Real>& x)
@@ -143,7 +152,9 @@ private:
   struct Base
   {
     virtual ~Base() {}
+    virtual bool factorize(const Multigrid::Hermitian_matrix<float>& matrix) = 0;
     virtual bool factorize(const Multigrid::Hermitian_matrix<double>& matrix) = 0;
+    virtual bool is_factorized() const = 0;
     virtual void solve(const Multigrid::Complex_vector<float>& f,
                        Multigrid::Complex_vector<float>& x) = 0;
     virtual void solve(const Multigrid::Complex_vector<double>& f,
@@ -156,10 +167,15 @@ private:
   {
     explicit Model(std::shared_ptr<Solver> s) : solver(std::move(s)) {}
 
+    bool factorize(const Multigrid::Hermitian_matrix<float>& matrix) override
+    {
+      return solver->factorize(matrix);
+    }
     bool factorize(const Multigrid::Hermitian_matrix<double>& matrix) override
     {
       return solver->factorize(matrix);
     }
+    bool is_factorized() const override { return solver->is_factorized(); }
     void solve(const Multigrid::Complex_vector<float>& f,
                Multigrid::Complex_vector<float>& x) override
     {

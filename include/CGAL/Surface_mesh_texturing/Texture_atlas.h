@@ -15,6 +15,7 @@ namespace CGAL {
 namespace Surface_mesh_texturing {
 
 using Surface_mesh_multiresolution::Textured_triangle_mesh;
+using Surface_mesh_multiresolution::vertices_of_wedges;
 
 /*!
 \ingroup PkgHLSCMTexturing

@@ -127,7 +127,7 @@ inline Baked_map bake_image(const Textured_triangle_mesh& fine,
   if(result.error.empty() && (image.width == 0 || image.height == 0))
     result.error = "the former image has no texels";
   if(result.error.empty())
-    result.error = internal::wedge_error(former, "the former texture");
+    result.error = texture_error(former, "the former texture");
   if(!result.error.empty())
     return result;
   return bake(light, Equal_uv(fine, light, options), Image_shader(former, image), options);

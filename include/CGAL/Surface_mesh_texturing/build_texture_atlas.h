@@ -36,16 +36,10 @@ namespace internal {
 
 // What is wrong with a mesh whose charts are given, as a sentence; as the segmentation says it of
 // others.
-inline std::string surface_error(const Indexed_triangle_mesh& mesh)
+inline std::string given_charts_error(const Indexed_triangle_mesh& mesh)
 {
-  namespace SMM = Surface_mesh_multiresolution;
-  const std::string error = error_of_arrays(mesh);
-  if(!error.empty())
-    return error;
-  std::vector<Vertex_index> source(mesh.points.size());
-  for(Vertex_index v = 0; v < source.size(); ++v)
-    source[v] = v;
-  return Indexed_mesh::ring_error(Indexed_mesh::Vertex_rings(mesh), source);
+  const std::string error = segmentation_error(mesh);
+  return error.empty() ? ring_error(Indexed_mesh::Vertex_rings(mesh)) : error;
 }
 
 // The length of the seams between triangles, each once.
@@ -56,7 +50,7 @@ inline double seam_length(const Indexed_triangle_mesh& mesh, const Face_charts& 
   for(std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
     for(int c = 0; c < 3; ++c) {
       const std::uint32_t opposite = adjacency.opposite(t, c);
-      if(opposite != no_vertex && 3 * t + std::uint32_t(c) < opposite && charts.is_seam(t, c))
+      if(opposite != no_halfedge && 3 * t + std::uint32_t(c) < opposite && charts.is_seam(t, c))
         sum += std::sqrt(squared_distance(mesh.points[mesh.triangles[t][c]],
                                           mesh.points[mesh.triangles[t][(c + 1) % 3]]));
     }
@@ -68,13 +62,9 @@ inline Face_charts charts_of_maps(const Indexed_triangle_mesh& mesh,
                                   const std::vector<Mapped_chart>& maps)
 {
   std::vector<std::uint8_t> seams(mesh.triangles.size());
-  for(const Mapped_chart& map : maps) {
-    const Triangle_adjacency adjacency(map.chart.mesh.triangles);
-    for(std::uint32_t t = 0; t < map.chart.triangles.size(); ++t)
-      for(int c = 0; c < 3; ++c)
-        if(adjacency.opposite(t, c) == no_vertex)
-          seams[map.chart.triangles[t]] |= 1 << c;
-  }
+  for(const Mapped_chart& map : maps)
+    for(const Halfedge h : map.chart.border)
+      mark(seams, 3 * map.chart.triangles[triangle_of(h)] + corner_of(h));
   return charts_between(mesh.triangles, std::move(seams));
 }
 
@@ -204,7 +194,7 @@ inline bool Texture_atlas_builder::segment()
 {
   const Blocked_execution::Stopwatch watch;
   if(m_options.charts) {
-    m_result.error = surface_error(m_mesh);
+    m_result.error = given_charts_error(m_mesh);
     if(m_result.error.empty())
       m_charts = cut_to_disks(m_mesh, *m_options.charts);
   } else if(m_options.max_charts > 0 || m_mesh.triangles.size() <= 4 * m_options.trial_faces) {
