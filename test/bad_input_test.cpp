@@ -12,7 +12,7 @@
 #include <CGAL/Surface_mesh_parameterization/Hierarchical_conformal_map.h>
 #include <CGAL/Surface_mesh_parameterization/Spectral_conformal_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/border_first_map.h>
-#include <CGAL/Surface_mesh_parameterization/build_textured_progressive_mesh.h>
+#include <CGAL/Surface_mesh_parameterization/textured_progressive_mesh_of_chart.h>
 #include <CGAL/Surface_mesh_parameterization/conformal_map.h>
 
 #include <gtest/gtest.h>
