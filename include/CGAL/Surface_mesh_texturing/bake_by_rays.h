@@ -101,7 +101,8 @@ a texture of `light`, with meshes of any types: see the other overloads.
 */
 template <class RayCaster_, class ConcurrencyTag = Default, class FineMesh, class LightMesh, class LightUVMap,
           class NamedParameters_fine = parameters::Default_named_parameters,
-          class NamedParameters_light = parameters::Default_named_parameters>
+          class NamedParameters_light = parameters::Default_named_parameters,
+          class = typename boost::property_traits<LightUVMap>::key_type>
 Baked_map bake_normal_map_by_rays(const FineMesh& fine,
                                   const LightMesh& light, LightUVMap light_uv,
                                   const Baking_by_rays_options& options = Baking_by_rays_options(),

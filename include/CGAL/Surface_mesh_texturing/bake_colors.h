@@ -155,7 +155,8 @@ shares its atlas, with meshes of any types: see the other overloads.
 */
 template <class ConcurrencyTag = Default, class FineMesh, class FineUVMap, class FineValueMap, class LightMesh, class LightUVMap,
           class NamedParameters_fine = parameters::Default_named_parameters,
-          class NamedParameters_light = parameters::Default_named_parameters>
+          class NamedParameters_light = parameters::Default_named_parameters,
+          class = typename boost::property_traits<FineUVMap>::key_type>
 Baked_map bake_vertex_colors(const FineMesh& fine, FineUVMap fine_uv,
                              FineValueMap values, std::size_t channels,
                              const LightMesh& light, LightUVMap light_uv,

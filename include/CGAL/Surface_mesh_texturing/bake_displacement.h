@@ -129,7 +129,8 @@ Bakes how far `fine` lies above `light`, which shares its atlas, with meshes of 
 */
 template <class ConcurrencyTag = Default, class FineMesh, class FineUVMap, class LightMesh, class LightUVMap,
           class NamedParameters_fine = parameters::Default_named_parameters,
-          class NamedParameters_light = parameters::Default_named_parameters>
+          class NamedParameters_light = parameters::Default_named_parameters,
+          class = typename boost::property_traits<FineUVMap>::key_type>
 Baked_displacement bake_displacement(const FineMesh& fine, FineUVMap fine_uv,
                                      const LightMesh& light, LightUVMap light_uv,
                                      const Baking_options& options = Baking_options(),

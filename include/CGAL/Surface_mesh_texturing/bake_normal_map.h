@@ -177,7 +177,8 @@ Bakes the normals of `fine` into a texture of `light`, which shares its atlas, w
 */
 template <class ConcurrencyTag = Default, class FineMesh, class FineUVMap, class LightMesh, class LightUVMap,
           class NamedParameters_fine = parameters::Default_named_parameters,
-          class NamedParameters_light = parameters::Default_named_parameters>
+          class NamedParameters_light = parameters::Default_named_parameters,
+          class = typename boost::property_traits<FineUVMap>::key_type>
 Baked_map bake_normal_map(const FineMesh& fine, FineUVMap fine_uv,
                           const LightMesh& light, LightUVMap light_uv,
                           const Baking_options& options = Baking_options(),

@@ -117,7 +117,8 @@ If there is an error, the maps are left as they are. See `mark_seams()` for the 
 */
 template <class ConcurrencyTag = Default, class FaceGraph, class HalfedgeUVMap, class FaceChartMap,
           class Segmenter, class Parameterizer, class Packer,
-          class NamedParameters = parameters::Default_named_parameters>
+          class NamedParameters = parameters::Default_named_parameters,
+          class = typename boost::property_traits<FaceChartMap>::key_type>
 Texture_atlas_result build_texture_atlas(const FaceGraph& mesh, HalfedgeUVMap uvmap,
                                          FaceChartMap chartmap,
                                          const Texture_atlas_options& options,
@@ -160,7 +161,8 @@ Texture_atlas_result build_texture_atlas(const FaceGraph& mesh, HalfedgeUVMap uv
 /// \ingroup PkgHLSCMTexturing
 /// The same with the default models.
 template <class ConcurrencyTag = Default, class FaceGraph, class HalfedgeUVMap, class FaceChartMap,
-          class NamedParameters = parameters::Default_named_parameters>
+          class NamedParameters = parameters::Default_named_parameters,
+          class = typename boost::property_traits<FaceChartMap>::key_type>
 Texture_atlas_result build_texture_atlas(const FaceGraph& mesh, HalfedgeUVMap uvmap,
                                          FaceChartMap chartmap,
                                          const Texture_atlas_options& options

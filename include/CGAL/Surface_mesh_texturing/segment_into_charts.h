@@ -116,7 +116,8 @@ Cuts a mesh of any type into charts: see the other overload.
 If there is an error, the map is left as it is. See `mark_seams()` for the seams.
 */
 template <class ConcurrencyTag = Default, class FaceGraph, class FaceChartMap,
-          class NamedParameters = parameters::Default_named_parameters>
+          class NamedParameters = parameters::Default_named_parameters,
+          class = typename boost::property_traits<FaceChartMap>::key_type>
 Segmentation_result segment_into_charts(const FaceGraph& mesh, FaceChartMap chartmap,
                                         const Segmentation_options& options
                                         = Segmentation_options(),
