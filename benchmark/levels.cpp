@@ -18,7 +18,7 @@
 #include <CGAL/Surface_mesh_multiresolution/copy_textured_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/texture_deviation.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_parameterizer_3.h>
-#include <CGAL/Surface_mesh_parameterization/build_textured_progressive_mesh.h>
+#include <CGAL/Surface_mesh_parameterization/textured_progressive_mesh_of_chart.h>
 
 #include <cstdlib>
 #include <filesystem>

@@ -72,7 +72,7 @@ public:
       queue.pop();
       for(int c = 0; c < 3 && distance == m_distance[face]; ++c) {
         const std::uint32_t opposite = m_adjacency.opposite(face, c);
-        if(opposite != SMT::no_vertex)
+        if(opposite != SMT::no_halfedge)
           offer(opposite / 3, distance + length(face, opposite / 3) / reach);
       }
     }

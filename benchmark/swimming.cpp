@@ -146,9 +146,9 @@ SMM::Wedge_mesh by_quadrics(const Mesh& mesh, const SMM::Wedge_mesh& fine,
   const SMM::internal::Textured_view fine_view(fine), view(result);
   const SMM::internal::Nearest_start start(view, fine_view);
   for(CGAL::Indexed_mesh::Vertex_index v = 0; v < result.uv.size(); ++v) {
-    const SMM::internal::Surface_point nearest
+    const SMM::internal::Nearest_surface_point nearest
       = SMM::internal::descend_to_nearest(fine_view, start.start(v), view.point(v));
-    const auto uv = fine_view.uv(nearest.triangle, nearest.weight);
+    const auto uv = fine_view.uv(nearest.triangle, nearest.weights);
     result.uv[v] = Point_2(uv[0], uv[1]);
   }
   return result;

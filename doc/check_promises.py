@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026  The HLSCM for CGAL authors.
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checks that every test that the manual names as the proof of a promise exists, and that the text
-of every link stands on one line: doxygen shows what follows one that does not as it is in the source,
-and says nothing.
+"""Checks that every test that the manual names as the proof of a promise exists, that the headers
+which README and manual tell to read are there, the same in both, and that the text of every link
+stands on one line: doxygen shows what follows one that does not as it is in the source, and says
+nothing.
 
 Usage: check_promises.py REPOSITORY
 
@@ -16,6 +17,7 @@ from pathlib import Path
 
 GTEST = re.compile(r"^TEST(?:_F|_P)?\(\s*(\w+)\s*,\s*(\w+)\s*\)", re.MULTILINE)
 TYPED = re.compile(r"^TYPED_TEST\(\s*(\w+)\s*,\s*(\w+)\s*\)", re.MULTILINE)
+READING_PATH = re.compile(r"^\| \d+ \| `([\w/]+\.h)` \|", re.MULTILINE)
 BROKEN_LINK = re.compile(r'\\ref \w+ "[^"\n]*\n')
 CTEST = re.compile(r"add_test\(NAME ([\w.]+)")
 
@@ -35,6 +37,16 @@ def promised_tests(manual):
     section = manual.split(r"\subsection HLSCM_promises")[1].split(r"\subsection")[0]
     rows = [line.split("|") for line in section.splitlines() if line.startswith("| ")]
     return re.findall(r"`(\w+\.[\w.*]+)`", "\n".join(row[2] for row in rows))
+
+
+def wrong_reading_paths(repository):
+    readme, manual = (READING_PATH.findall((repository / file).read_text())
+                      for file in ("README.md", "doc/hlscm_manual.txt"))
+    if not readme or readme != manual:
+        yield "README.md and doc/hlscm_manual.txt tell to read different headers"
+    for header in readme:
+        if not (repository / "include/CGAL" / header).exists():
+            yield f"README.md tells to read {header}, which does not exist"
 
 
 def broken_links(repository):
@@ -57,10 +69,13 @@ def main():
         print(f"doc/hlscm_manual.txt names the test {name}, which does not exist")
     if not promised:
         print("doc/hlscm_manual.txt names no tests")
+    wrong_paths = list(wrong_reading_paths(repository))
+    for line in wrong_paths:
+        print(line)
     broken = list(broken_links(repository))
     for link in broken:
         print(f"a link whose text does not end on its line: {link}")
-    return 1 if missing or broken or not promised else 0
+    return 1 if missing or wrong_paths or broken or not promised else 0
 
 
 if __name__ == "__main__":

@@ -46,7 +46,12 @@ int main(int argc, char* argv[])
     std::cerr << "cannot read " << argv[1] << "\n";
     return EXIT_FAILURE;
   }
-  Conformal_map map(mesh, CGAL::Polygon_mesh_processing::longest_border(mesh).first);
+  const auto border = CGAL::Polygon_mesh_processing::longest_border(mesh).first;
+  if(border == Mesh::null_halfedge()) {
+    std::cerr << "the surface has no border; cut it open first\n";
+    return EXIT_FAILURE;
+  }
+  Conformal_map map(mesh, border);
   if(map.solve() != SMP::OK) {
     std::cerr << map.report().message << "\n";
     return EXIT_FAILURE;

@@ -38,6 +38,10 @@ int main(int argc, char* argv[])
     std::cerr << "cannot read " << argv[1] << "\n";
     return EXIT_FAILURE;
   }
+  if(num_vertices(mesh) == 0) {
+    std::cerr << "there are no vertices\n";
+    return EXIT_FAILURE;
+  }
   // The seam: a shortest path from the lowest vertex to the highest
   const auto is_seam_edge = mesh.add_property_map<Mesh::Edge_index, bool>("e:seam", false).first;
   const auto is_seam_vertex = mesh.add_property_map<Vertex, bool>("v:seam", false).first;
@@ -46,6 +50,10 @@ int main(int argc, char* argv[])
   const auto before = mesh.add_property_map<Vertex, Vertex>("v:before").first;
   boost::breadth_first_search(mesh, *ends.first, boost::visitor(boost::make_bfs_visitor(
     boost::record_predecessors(before, boost::on_tree_edge()))));
+  if(*ends.first == *ends.second || before[*ends.second] == Mesh::null_vertex()) {
+    std::cerr << "there is no path from the lowest vertex to the highest\n";
+    return EXIT_FAILURE;
+  }
   Seam_mesh seam_mesh(mesh, is_seam_edge, is_seam_vertex);
   for(Vertex v = *ends.second; v != *ends.first; v = before[v])
     seam_mesh.add_seam(v, before[v]);

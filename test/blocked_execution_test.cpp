@@ -4,7 +4,7 @@
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Blocked_execution/sort_and_select.h>
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
-#include <CGAL/Indexed_mesh/Triangles_at_vertices.h>
+#include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/decimation/Batched_collapses.h>
 
 #include <gtest/gtest.h>

@@ -48,7 +48,7 @@ std::array<double, 2> length_ratios(const Indexed_triangle_mesh& mesh, const Uv&
   std::array<double, 2> result = {std::numeric_limits<double>::infinity(), 0.};
   for(std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
     for(int c = 0; c < 3; ++c) {
-      if(only_border && adjacency.opposite(t, c) != CGAL::Indexed_mesh::no_vertex)
+      if(only_border && adjacency.opposite(t, c) != CGAL::Indexed_mesh::no_halfedge)
         continue;
       const Vertex_index p = mesh.triangles[t][c], q = mesh.triangles[t][(c + 1) % 3];
       const double ratio = length(uv, p, q) / length(mesh, p, q);
@@ -171,7 +171,7 @@ TEST(Border_first_map, opens_seams_that_end_in_saddles)
       const SMP::Border_first_map map = SMP::border_first_map(chart);
       ASSERT_EQ(map.error, "");
       const auto border = CGAL::Indexed_mesh::border_edges(chart.triangles);
-      EXPECT_TRUE(SMT::internal::is_simple_border(border, map.uv))
+      EXPECT_TRUE(SMP::is_simple_border(border, map.uv))
         << excess << ' ' << rings;
       const SMT::Chart_distortion distortion = SMT::measure_chart_distortion(chart, map.uv);
       EXPECT_EQ(distortion.flipped_faces, 0u) << excess << ' ' << rings;

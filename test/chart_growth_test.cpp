@@ -131,7 +131,7 @@ std::string error_of_disk(const Indexed_triangle_mesh& mesh)
   std::uint32_t some = 0;
   for(std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
     for(int c = 0; c < 3; ++c)
-      if(adjacency.opposite(t, c) == SMT::no_vertex) {
+      if(adjacency.opposite(t, c) == SMT::no_halfedge) {
         some = mesh.triangles[t][c];
         if(after[some] != SMT::no_vertex)
           return "a vertex with two fans of triangles";
@@ -169,8 +169,9 @@ std::string error_of_charts(const Indexed_triangle_mesh& mesh, const Chart_growt
     const std::string error = error_of_disk(chart.mesh);
     if(!error.empty())
       return name + error;
-    const auto border = CGAL::Indexed_mesh::border_edges(chart.mesh.triangles);
-    const auto trial = SMT::internal::try_map(chart.mesh, border);
+    if(chart.border_edges() != CGAL::Indexed_mesh::border_edges(chart.mesh.triangles))
+      return name + "border";
+    const auto trial = SMT::internal::try_map(chart);
     if(!trial.is_disk)
       return name + "no map";
     const bool is_good = trial.is_one_to_one && trial.distortion.is_within(options.bound);
@@ -261,10 +262,7 @@ TEST(Chart_growth, patches_are_disks)
       SMT::internal::Patch_growth growth(surface, std::vector<std::uint8_t>(3 * surface.size(), 0));
       growth.grow(number, 2);
       const SMT::internal::Seam_graph graph = growth.seams();
-      std::vector<std::uint8_t> seams(surface.size(), 0);
-      for(std::uint32_t h = 0; h < 3 * surface.size(); ++h)
-        seams[h / 3] |= graph.is_seam(h) ? 1 << h % 3 : 0;
-      const SMT::Face_charts charts = SMT::charts_between(mesh.triangles, seams);
+      const SMT::Face_charts charts = SMT::charts_between(mesh.triangles, graph.seams());
       EXPECT_EQ(charts.number_of_charts, growth.number_of_patches());
       for(const SMT::Chart_mesh& chart : SMT::chart_meshes(mesh, charts))
         EXPECT_EQ(error_of_disk(chart.mesh), "");

@@ -8,7 +8,7 @@
 
 #include <CGAL/Surface_mesh_multiresolution/Level_extractor.h>
 #include <CGAL/Surface_mesh_multiresolution/copy_textured_mesh.h>
-#include <CGAL/Surface_mesh_parameterization/build_textured_progressive_mesh.h>
+#include <CGAL/Surface_mesh_parameterization/textured_progressive_mesh_of_chart.h>
 
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Surface_mesh_parameterization/parameterize.h>

@@ -140,8 +140,7 @@ TEST(Polyhedron, with_ids)
   test_polyhedron<CGAL::Polyhedron_3<Double_kernel, CGAL::Polyhedron_items_with_id_3>>();
 }
 
-// SMP::parameterize() of CGAL does not compile with OpenMesh.
-TEST(OpenMesh, by_the_member_function)
+TEST(OpenMesh, of_doubles)
 {
   struct Traits : OpenMesh::DefaultTraits
   {
@@ -157,7 +156,9 @@ TEST(OpenMesh, by_the_member_function)
     v.push_back(mesh.add_vertex(OpenMesh::Vec3d(p.x(), p.y(), p.z())));
   for(const auto& t : arrays.triangles)
     mesh.add_face(v[t[0]], v[t[1]], v[t[2]]);
-  expect_same_parameters(mesh, get(CGAL::dynamic_vertex_property_t<Point>(), mesh), 0.);
+  const auto uvmap = get(CGAL::dynamic_vertex_property_t<Point>(), mesh);
+  expect_same_parameters(mesh, uvmap, 0.);
+  expect_same_by_function(mesh, uvmap, 0.);
 }
 
 // --- Two arrays

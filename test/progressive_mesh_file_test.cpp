@@ -461,10 +461,10 @@ TEST(Progressive_mesh_file, other_files_are_told)
   EXPECT_EQ(read("ply\nformat binary").status, Status::OTHER_FORMAT);
   EXPECT_EQ(read("ply").message, "this is not a progressive mesh file");
   EXPECT_EQ(read(std::string(1000, '\0')).status, Status::OTHER_FORMAT);
-  bytes[8] = 2;
+  bytes[8] = 3;
   EXPECT_EQ(read(bytes).status, Status::UNSUPPORTED_VERSION);
   EXPECT_EQ(read(bytes.substr(0, 9)).message,
-            "this is a progressive mesh file of another version than 1");
+            "this is a progressive mesh file of another version than 1 and 2");
   bytes[8] = 1;
   bytes[9] = 1;
   EXPECT_EQ(read(bytes).status, Status::UNSUPPORTED_VERSION);

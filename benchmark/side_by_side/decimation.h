@@ -28,10 +28,10 @@ inline SMM::Progressive_mesh decimate(const CGAL::Indexed_mesh::Indexed_triangle
   const CGAL::Surface_mesh_parameterization::HLSCM_options defaults;
   const std::vector<bool> is_locked(mesh.points.size(), false);
   if(engine == Decimation_engine::CGAL) {
-    SMM::Edge_collapse_options options;
+    SMM::Progressive_mesh_options options;
     options.target_vertices = defaults.coarsest_size;
     options.angular_defect_bound = defaults.angular_defect_bound;
-    return SMM::progressive_mesh_by_edge_collapse(mesh, is_locked, options);
+    return SMM::progressive_mesh_by_edge_collapse(mesh, options);
   }
   SMM::Flat_collapse_options options;
   options.target_vertices = defaults.coarsest_size;

@@ -5,8 +5,8 @@
 \ingroup PkgHLSCMConcepts
 \cgalConcept
 
-The concept `MultigridCoarsestSolver` describes a direct solver for Hermitian systems. Rows of zeros
-stand for fixed unknowns (pins) and are left out.
+The concept `MultigridCoarsestSolver` describes a direct solver for self-adjoint systems. Rows of
+zeros stand for fixed unknowns (pins) and are left out.
 
 \cgalRefines{DefaultConstructible}
 
@@ -18,14 +18,21 @@ class MultigridCoarsestSolver
 public:
   /// Factorizes `matrix`; returns whether that succeeded. The factorization is kept until the next
   /// call; `matrix` is not needed any more.
-  template <class Real>
-  bool factorize(const CGAL::Multigrid::Hermitian_matrix<Real>& matrix);
+  ///
+  /// \tparam Value an entry, such as `std::complex<float>`. Only those that are used need be
+  ///         supported.
+  template <class Value>
+  bool factorize(const CGAL::Multigrid::Self_adjoint_matrix<Value>& matrix);
+
+  /// Returns whether `factorize()` has been called, and has succeeded the last time.
+  bool is_factorized() const;
 
   /// Sets `x`, whatever its size was, to the solution for the right-hand side `f`; the unknowns of
   /// rows of zeros become 0.
   ///
-  /// \pre `factorize()` has succeeded
-  template <class Real>
-  void solve(const CGAL::Multigrid::Complex_vector<Real>& f,
-             CGAL::Multigrid::Complex_vector<Real>& x);
+  /// \tparam V an entry of a vector, perhaps in another precision than the matrix was
+  ///
+  /// \pre `is_factorized()`
+  template <class V>
+  void solve(const std::vector<V>& f, std::vector<V>& x);
 };

@@ -9,15 +9,16 @@ The concept `MultigridPreconditioner` describes what `CGAL::Multigrid::minimize_
 its directions with: a function object that approximates \f$ H^{-1} r \f$. It may change from step
 to step, as a K-cycle does, since the conjugate gradients are flexible.
 
-\cgalHasModel{CGAL::Multigrid::Jacobi_preconditioner}
-\cgalHasModel{CGAL::Multigrid::Symmetric_gauss_seidel_preconditioner}
+\cgalHasModel{CGAL::Multigrid::Diagonal_preconditioner}
+\cgalHasModel{CGAL::Multigrid::Gauss_seidel_preconditioner}
 A lambda function that calls `CGAL::Multigrid::Multigrid_levels::precondition()` is a model, too.
 */
 class MultigridPreconditioner
 {
 public:
   /// Sets `z`, whatever its size was, to an approximation of \f$ H^{-1} r \f$; 0 at rows of zeros.
-  template <class Real>
-  void operator()(const CGAL::Multigrid::Complex_vector<Real>& r,
-                  CGAL::Multigrid::Complex_vector<Real>& z) const;
+  ///
+  /// \tparam V an entry of a vector
+  template <class V>
+  void operator()(const std::vector<V>& r, std::vector<V>& z) const;
 };

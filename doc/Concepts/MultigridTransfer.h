@@ -15,7 +15,7 @@ class MultigridTransfer
 public:
   /// Sets `fine`, whatever its size was, to \f$ P \f$ times `coarse`.
   ///
-  /// \tparam Vector `CGAL::Multigrid::Complex_vector` of `float` or `double`
+  /// \tparam Vector a vector of the levels, `CGAL::Multigrid::Value_vector<Value>`
   template <class Vector>
   void prolongate(const Vector& coarse, Vector& fine) const;
 

@@ -11,6 +11,7 @@
 #include "common/Program_error.h"
 
 #include <cstdio>
+#include <iostream>
 #include <new>
 
 namespace {
@@ -32,6 +33,18 @@ int run(const hlscm::Program_options& options)
   return hlscm::run_parameterize(options);
 }
 
+// An error if what was printed did not arrive, which is known only now.
+int after_output(int exit_code)
+{
+  std::cout.flush();
+  if(exit_code != 0 || std::cout) {
+    return exit_code;
+  }
+  std::fprintf(stderr, "hlscm: error: what was to be printed could not be written, make room or "
+                       "choose another place for the standard output\n");
+  return 1;
+}
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -39,11 +52,11 @@ int main(int argc, char** argv)
   hlscm::Interruption::install();
   const hlscm::Parsed_command_line command_line = hlscm::parse_command_line(argc, argv);
   if(!command_line.options) {
-    return command_line.exit_code;
+    return after_output(command_line.exit_code);
   }
   const char* input = command_line.options->input.c_str();
   try {
-    return run(*command_line.options);
+    return after_output(run(*command_line.options));
   } catch(const hlscm::Cancelled&) {
     hlscm::Interruption::say_cancelled();
   } catch(const hlscm::Program_error& e) {

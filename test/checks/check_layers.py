@@ -10,6 +10,8 @@ Usage: check_layers.py INCLUDE_DIR [CGAL_INCLUDE_DIR]
 - No header includes itself, directly or through others.
 - The layers below Multigrid do not include Eigen; Multigrid knows no mesh.
 - No header has the path of one of CGAL's own (the two are installed side by side).
+- No two headers have the same name.
+- An internal folder has at most 15 headers, a header at most 400 lines.
 
 Prints one line for each violation, and returns 1 if there is one.
 """
@@ -42,6 +44,9 @@ FORBIDDEN = {
     4: [(EIGEN, "Eigen")],
     5: [(MESH, "a mesh")],
 }
+
+MOST_INTERNAL_HEADERS = 15  # in one folder
+MOST_LINES = 400
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
@@ -111,12 +116,39 @@ def find_collisions(includes, cgal_include_dir):
             yield f"{header}: CGAL has a header of this name in {cgal_include_dir}"
 
 
+def headers_by(key, includes):
+    """key(path of a header) -> the headers, in their order."""
+    groups = {}
+    for header in includes:
+        groups.setdefault(key(Path(header)), []).append(header)
+    return groups
+
+
+def find_name_errors(includes):
+    for name, headers in headers_by(lambda path: path.name, includes).items():
+        if len(headers) > 1:
+            yield f"{name}: the name of two headers or more: " + ", ".join(headers)
+
+
+def find_size_errors(includes, include_dir):
+    for folder, headers in headers_by(lambda path: path.parent, includes).items():
+        if "internal" in folder.parts and len(headers) > MOST_INTERNAL_HEADERS:
+            yield (f"{folder.as_posix()}: {len(headers)} headers, more than "
+                   f"{MOST_INTERNAL_HEADERS}: two rooms?")
+    for header in includes:
+        lines = (include_dir / header).read_text().count("\n")
+        if lines > MOST_LINES:
+            yield f"{header}: {lines} lines, more than {MOST_LINES}: two concepts?"
+
+
 def check(include_dir, cgal_include_dir=None):
     """The violations, as a list of lines."""
     includes = read_includes(include_dir)
     errors = [] if includes else [f"{include_dir}: no headers"]
     errors += find_layer_errors(includes)
     errors += find_cycles(includes)
+    errors += find_name_errors(includes)
+    errors += find_size_errors(includes, include_dir)
     if cgal_include_dir:
         errors += find_collisions(includes, cgal_include_dir)
     return errors

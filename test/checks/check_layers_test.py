@@ -10,14 +10,15 @@ from pathlib import Path
 from check_layers import check
 
 
-def errors_of(headers, cgal_headers=()):
-    """What check() says of headers given as {path: [included path, ...]}."""
+def errors_of(headers, cgal_headers=(), lines=0):
+    """What check() says of headers given as {path: [included path, ...]}, with empty lines added."""
     with tempfile.TemporaryDirectory() as folder:
         include, cgal = Path(folder, "include"), Path(folder, "cgal")
         for header, targets in headers.items():
             path = include / header
             path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text("".join(f"#include <{target}>\n" for target in targets))
+            path.write_text("".join(f"#include <{target}>\n" for target in targets)
+                            + "\n" * (lines - len(targets)))
         for header in cgal_headers:
             path = cgal / header
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -79,6 +80,25 @@ class Check_layers(unittest.TestCase):
 
     def test_rejects_name_of_cgal(self):
         self.expect("CGAL has", {PARAMETERIZER: []}, [PARAMETERIZER])
+
+    def test_rejects_two_headers_of_one_name(self):
+        other = "CGAL/Surface_mesh_parameterization/internal/levels/Hierarchy.h"
+        self.expect("Hierarchy.h: the name of two", {HIERARCHY: [], other: []})
+
+    def test_rejects_crowded_internal_folders(self):
+        def folder(name, number):
+            return {f"{name}/Header_{i}.h": [] for i in range(number)}
+
+        internal = "CGAL/Multigrid/internal/room"
+        self.assertEqual(errors_of(folder(internal, 15)), [])
+        self.assertEqual(errors_of(folder("CGAL/Multigrid", 16)), [])
+        self.expect("16 headers", folder(internal, 16))
+
+    def test_rejects_long_headers(self):
+        self.assertEqual(errors_of({CYCLE: []}, lines=400), [])
+        errors = errors_of({CYCLE: []}, lines=401)
+        self.assertEqual(len(errors), 1, errors)
+        self.assertIn("401 lines", errors[0])
 
     def test_rejects_empty_folder(self):
         self.expect("no headers", {})

@@ -11,6 +11,9 @@ file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${include_dir} ${include_di
 if(NOT TARGET embree)
   list(FILTER headers EXCLUDE REGEX "Embree_")
 endif()
+if(NOT TARGET PNG::PNG)
+  list(FILTER headers EXCLUDE REGEX "/PNG\\.h$")
+endif()
 
 # find_opening(<header> <variable>): the header that <header> includes before it says anything else;
 # "" if it says anything but comments and a guard that bears its own name, and no other's.
@@ -64,7 +67,7 @@ file(CONFIGURE OUTPUT ${folder}/two.cpp CONTENT "${all_includes}int main() {}\n"
 add_library(lone_headers OBJECT EXCLUDE_FROM_ALL ${lone_files})
 add_executable(headers_in_two_files EXCLUDE_FROM_ALL ${folder}/one.cpp ${folder}/two.cpp)
 foreach(target IN ITEMS lone_headers headers_in_two_files)
-  target_link_libraries(${target} PRIVATE CGAL::HLSCM HLSCM_cholmod HLSCM_embree)
+  target_link_libraries(${target} PRIVATE CGAL::HLSCM HLSCM_cholmod HLSCM_embree HLSCM_png)
   target_compile_options(${target} PRIVATE -O0 -Wall -Wextra -Werror)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
 endforeach()

@@ -19,6 +19,11 @@ using Kernel = CGAL::Simple_cartesian<double>;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 namespace SMP = CGAL::Surface_mesh_parameterization;
 namespace PMP = CGAL::Polygon_mesh_processing;
+#ifdef CGAL_LINKED_WITH_TBB
+using Concurrency_tag = CGAL::Parallel_tag;
+#else
+using Concurrency_tag = CGAL::Sequential_tag;
+#endif
 
 int main()
 {
@@ -32,7 +37,7 @@ int main()
 
   const auto border = PMP::longest_border(mesh).first;
   auto uv = mesh.add_property_map<Mesh::Vertex_index, Kernel::Point_2>("v:uv").first;
-  SMP::HLSCM_parameterizer_3<Mesh> parameterizer;
+  SMP::HLSCM_parameterizer_3<Mesh, CGAL::Default, CGAL::Default, Concurrency_tag> parameterizer;
   const SMP::Error_code error = SMP::parameterize(mesh, parameterizer, border, uv);
   if(error != SMP::OK) {
     std::cerr << parameterizer.report().message << std::endl;

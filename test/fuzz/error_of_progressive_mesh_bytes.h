@@ -57,7 +57,7 @@ inline std::string error_in_read_mesh(
     return read.status != Status::COMPLETE && mesh.points.empty() ? "" : "complete, but no mesh";
   if(read.status == Status::COMPLETE && mesh.number_of_collapses() != read.number_of_splits)
     return "complete, but not all splits";
-  if(mesh.vertex.size() != n || mesh.uv.size() != n || mesh.points.size() != mesh.vertex[n - 1] + 1u)
+  if(mesh.vertex.size() != n || (mesh.has_texture() && mesh.uv.size() != n) || mesh.points.size() != mesh.vertex[n - 1] + 1u)
     return "arrays of different sizes";
   for(std::size_t w = 1; w < n; ++w)
     if(mesh.vertex[w] - mesh.vertex[w - 1] > 1)

@@ -13,13 +13,16 @@
 #include <support/mesh_generators.h>
 
 #include <CGAL/Multigrid/Matrix_builder.h>
-#include <CGAL/Multigrid/Schedule.h>
+#include <CGAL/Multigrid/Multigrid_levels.h>
+#include <CGAL/Multigrid/Sparse_cholesky.h>
 #include <CGAL/Surface_mesh_multiresolution/Prolongation.h>
 
 #include <Eigen/Dense>
 
 #include <algorithm>
 #include <complex>
+#include <functional>
+#include <utility>
 #include <vector>
 
 namespace test_support {
@@ -305,11 +308,51 @@ private:
   }
 };
 
+// The levels of a chain in single precision.
+template <class Smoother = CGAL::Multigrid::Chebyshev_smoother<std::complex<float>>>
+struct Sparse_levels
+  : CGAL::Multigrid::Multigrid_levels<CGAL::Surface_mesh_multiresolution::Prolongation,
+                                      CGAL::Multigrid::Sparse_cholesky<>, std::complex<float>,
+                                      Smoother>
+{
+  std::vector<CGAL::Multigrid::Hermitian_matrix<float>> matrices;
+
+  explicit Sparse_levels(const Chain_hierarchy& hierarchy)
+  {
+    for(const auto& h : hierarchy.matrices)
+      matrices.push_back(sparse_matrix<float>(h));
+    for(std::size_t l = 0; l < matrices.size(); ++l)
+      this->add_level(matrices[l], l == 0 ? nullptr : &hierarchy.prolongations[l]);
+  }
+};
+
+// `steps` steps of a smoother on a u = f.
+typedef std::function<void(const Dense_matrix& a, unsigned int steps, const Dense_vector& f,
+                           Dense_vector& u)> Dense_smoother;
+
+// The Chebyshev smoother by its three-term recurrence (Lottes 2022, algorithm 3), on D of its
+// definition.
+inline void dense_chebyshev(const Dense_matrix& a, unsigned int steps, const Dense_vector& f,
+                            Dense_vector& u)
+{
+  Eigen::VectorXd inverse = Eigen::VectorXd::Zero(a.rows());
+  for(Eigen::Index i = 0; i < a.rows(); ++i)
+    if(a(i, i).real() > 0.)
+      inverse(i) = 2. / (a(i, i).real() + a.row(i).cwiseAbs().sum() - std::abs(a(i, i)));
+  Dense_vector z = Dense_vector::Zero(u.size());
+  for(unsigned int k = 1; k <= steps; ++k) {
+    z = (2. * k - 3.) / (2. * k + 1.) * z
+      + (8. * k - 4.) / (2. * k + 1.) / 2. * inverse.cwiseProduct(f - a * u);
+    u += z;
+  }
+}
+
 // Algorithm 1 of the paper in dense matrices, and the Krylov acceleration of Notay and Vassilevski.
 class Dense_levels
 {
 public:
-  explicit Dense_levels(const Chain_hierarchy& hierarchy) : m_hierarchy(hierarchy)
+  explicit Dense_levels(const Chain_hierarchy& hierarchy, Dense_smoother smooth = dense_chebyshev)
+    : m_hierarchy(hierarchy), m_smooth(std::move(smooth))
   {
     for(std::size_t l = 0; l < hierarchy.matrices.size(); ++l)
       m_prolongations.push_back(l == 0 ? Dense_matrix()
@@ -333,7 +376,7 @@ private:
       u = solve_free(a, m_hierarchy.pins[0], f);
       return;
     }
-    smooth(a, s.pre_smoothing, f, u);
+    m_smooth(a, s.pre_smoothing, f, u);
     const Dense_vector coarse_f = m_prolongations[l].transpose() * (f - a * u);
     Dense_vector v = Dense_vector::Zero(coarse_f.size());
     if(s.acceleration == CGAL::Multigrid::Acceleration::KRYLOV && l > 1)
@@ -342,23 +385,7 @@ private:
       for(unsigned int visit = 0; visit < s.coarse_visits; ++visit)
         cycle(s, l - 1, coarse_f, v);
     u += m_prolongations[l] * v;
-    smooth(a, s.post_smoothing, f, u);
-  }
-
-  // The smoother by its three-term recurrence (Lottes 2022, algorithm 3), on D of its definition.
-  static void smooth(const Dense_matrix& a, unsigned int steps, const Dense_vector& f,
-                     Dense_vector& u)
-  {
-    Eigen::VectorXd inverse = Eigen::VectorXd::Zero(a.rows());
-    for(Eigen::Index i = 0; i < a.rows(); ++i)
-      if(a(i, i).real() > 0.)
-        inverse(i) = 2. / (a(i, i).real() + a.row(i).cwiseAbs().sum() - std::abs(a(i, i)));
-    Dense_vector z = Dense_vector::Zero(u.size());
-    for(unsigned int k = 1; k <= steps; ++k) {
-      z = (2. * k - 3.) / (2. * k + 1.) * z
-        + (8. * k - 4.) / (2. * k + 1.) / 2. * inverse.cwiseProduct(f - a * u);
-      u += z;
-    }
+    m_smooth(a, s.post_smoothing, f, u);
   }
 
   // Minimises the energy over the span of all directions so far, each a cycle on the residual.
@@ -382,6 +409,7 @@ private:
   }
 
   const Chain_hierarchy& m_hierarchy;
+  Dense_smoother m_smooth;
   std::vector<Dense_matrix> m_prolongations;
 };
 

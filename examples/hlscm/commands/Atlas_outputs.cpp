@@ -5,11 +5,14 @@
 
 #include "writing/Checkerboard.h"
 #include "common/Interruption.h"
-#include "writing/Model_files.h"
 #include "commands/Overlap.h"
 #include "commands/Run_report.h"
 #include "common/Stopwatch.h"
 #include "reading/Surface_reading.h"
+
+#include <CGAL/Surface_mesh_texturing/IO/GLB.h>
+#include <CGAL/Surface_mesh_texturing/IO/OBJ.h>
+#include <CGAL/Surface_mesh_texturing/IO/PLY.h>
 
 #include <iostream>
 #include <utility>
@@ -31,13 +34,15 @@ Model_outputs::Model_outputs(Folder_outputs& folder, std::string name, bool has_
     m_ply(has_ply ? &folder.create(m_name + ".ply") : nullptr)
 {}
 
-void Model_outputs::write(const Textured_model& model)
+void Model_outputs::write(Textured_model model)
 {
-  write_obj(model, m_name + ".mtl", m_obj);
-  write_mtl(model, m_mtl);
-  m_glb.put(to_glb(model, m_name));
+  namespace IO = CGAL::Surface_mesh_texturing::IO;
+  model.name = m_name;
+  m_obj.write([&](std::ostream& stream) { return IO::write_OBJ(stream, model); });
+  m_mtl.write([&](std::ostream& stream) { return IO::write_MTL(stream, model); });
+  m_glb.write([&](std::ostream& stream) { return IO::write_GLB(stream, model); });
   if(m_ply != nullptr) {
-    write_ply(model, *m_ply);
+    m_ply->write([&](std::ostream& stream) { return IO::write_PLY(stream, model.mesh); });
   }
 }
 
@@ -62,14 +67,13 @@ Atlas_outputs::Atlas_outputs(const Program_options& options)
 void Atlas_outputs::write(const Texture_atlas& atlas, Progress_bar& progress)
 {
   progress.start_stage("writing");
-  const Texture_file checker{"checker.png", checkerboard_png(checker_size, checker_squares)};
-  m_checker->put(checker.png);
-  Textured_model model;
-  model.mesh = atlas.mesh;
-  model.page = pages_of_triangles(atlas);
-  model.textures.assign(atlas.number_of_pages, {&checker, nullptr});
-  model.frames.normals = CGAL::Surface_mesh_texturing::vertex_normals(atlas.mesh);
-  m_model->write(model);
+  Textured_model model = CGAL::Surface_mesh_texturing::textured_model(atlas);
+  model.textures.push_back({"checker.png", checkerboard_png(checker_size, checker_squares)});
+  for(Texture_material& material : model.materials) {
+    material.color = 0;
+  }
+  m_checker->put(model.textures[0].png);
+  m_model->write(std::move(model));
 }
 
 void Atlas_outputs::draw(const Texture_atlas& atlas, Progress_bar& progress)

@@ -21,7 +21,7 @@ class Model_outputs
 public:
   Model_outputs(Folder_outputs& folder, std::string name, bool has_ply);
 
-  void write(const Textured_model& model);
+  void write(Textured_model model);
 
 private:
   std::string m_name;

@@ -40,18 +40,12 @@ SMT::Texture_image Bake_outputs::write(const Baking_input& input, const Baked_im
 {
   progress.start_stage("writing");
   Textured_model model = light_model(input, images);
-  std::vector<Texture_file> normals, colours;
-  put_normal_maps(images.normals, input.pages, normals);
+  put_normal_maps(images.normals, model);
   put_displacement(images, input.pages);
-  for(std::size_t page = 0; images.colours && page < input.pages; ++page) {
-    const Image image = page_of_sheet(*images.colours, page, input.pages);
-    colours.push_back(put(page_name("color", page), png_of<std::uint8_t>(image, 0, 1)));
+  if(images.colours) {
+    put_colours(*images.colours, model);
   }
-  for(std::size_t page = 0; page < input.pages; ++page) {
-    model.textures.push_back({colours.empty() ? nullptr : &colours[page],
-                              m_options.bake.is_object_space ? nullptr : &normals[page]});
-  }
-  m_model.write(model);
+  m_model.write(std::move(model));
   return m_options.bake.bits == 16
              ? SMT::decode_values(SMT::encode_unit_vectors<std::uint16_t>(images.normals),
                                   images.normals, -1, 1)
@@ -72,19 +66,33 @@ Textured_model Bake_outputs::light_model(const Baking_input& input,
   model.page = pages_on_sheet(input.light, input.pages);
   model.mesh = from_sheet(input.light, model.page, input.pages);
   model.frames = images.frames;
+  model.materials.resize(input.pages);
   return model;
 }
 
 // GLB files get 8 bits, which is all that their viewers keep.
-void Bake_outputs::put_normal_maps(const Image& normals, std::size_t pages,
-                                   std::vector<Texture_file>& in_glb)
+void Bake_outputs::put_normal_maps(const Image& normals, Textured_model& model)
 {
+  const std::size_t pages = model.materials.size();
   for(std::size_t page = 0; page < pages; ++page) {
     const Image image = page_of_sheet(normals, page, pages);
     const std::string name = page_name("normal", page);
     const std::string png = png_of<std::uint8_t>(image, -1, 1);
     put(name, m_options.bake.bits == 16 ? png_of<std::uint16_t>(image, -1, 1) : png);
-    in_glb.push_back({name, png});
+    if(!m_options.bake.is_object_space) {
+      model.materials[page].normal_map = model.textures.size();
+      model.textures.push_back({name, png});
+    }
+  }
+}
+
+void Bake_outputs::put_colours(const Image& colours, Textured_model& model)
+{
+  const std::size_t pages = model.materials.size();
+  for(std::size_t page = 0; page < pages; ++page) {
+    const Image image = page_of_sheet(colours, page, pages);
+    model.materials[page].color = model.textures.size();
+    model.textures.push_back(put(page_name("color", page), png_of<std::uint8_t>(image, 0, 1)));
   }
 }
 

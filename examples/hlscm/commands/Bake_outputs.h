@@ -28,7 +28,8 @@ private:
 
   Texture_file put(const std::string& name, std::string png);
   Textured_model light_model(const Baking_input& input, const Baked_images& images) const;
-  void put_normal_maps(const Image& normals, std::size_t pages, std::vector<Texture_file>& in_glb);
+  void put_normal_maps(const Image& normals, Textured_model& model);
+  void put_colours(const Image& colours, Textured_model& model);
   void put_displacement(const Baked_images& images, std::size_t pages);
 
   Folder_outputs& m_folder;

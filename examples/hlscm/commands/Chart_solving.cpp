@@ -10,6 +10,7 @@
 
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_parameterizer_3.h>
+#include <CGAL/Surface_mesh_parameterization/repair_flipped_faces.h>
 
 #include <algorithm>
 #include <utility>
@@ -67,6 +68,9 @@ Mesh read_chart(const std::string& input, Progress_bar& progress,
 Solved_chart solve_chart(const Program_options& options, SMP::HLSCM_options library,
                          const Mesh& mesh, Uv_map uv, Progress_bar& progress)
 {
+  if(options.repairs_flips) {
+    library.repair_flips = SMP::Flip_repairer();
+  }
   library.progress = [&progress](double fraction) { return progress.try_advance(fraction); };
   SMP::HLSCM_parameterizer_3<Mesh, CGAL::Default, CGAL::Default, CGAL::Parallel_if_available_tag>
       parameterizer(library);

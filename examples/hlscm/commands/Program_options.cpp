@@ -5,8 +5,6 @@
 
 #include "commands/Option_parts.h"
 
-#include <CGAL/Surface_mesh_parameterization/repair_flipped_faces.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -51,8 +49,9 @@ void set_schedule(const std::string& text, SMP::HLSCM_options& options)
   options.schedule = schedule;
 }
 
-void add_solver_options(CLI::App& app, SMP::HLSCM_options& o)
+void add_solver_options(CLI::App& app, Program_options& options)
 {
+  SMP::HLSCM_options& o = options.library;
   add_method(app, o.method);
   add_choice<SMP::Conformal_weights>(
       app, "--weights",
@@ -65,8 +64,8 @@ void add_solver_options(CLI::App& app, SMP::HLSCM_options& o)
              "as 1/4096 for a texel");
   add_number(app, "--time-limit", 0, 1e9, o.time_limit,
              "after that many seconds take the map as it is, once there is one");
-  app.add_flag_callback(
-      "--repair-flips", [&o] { o.repair_flips = SMP::Flip_repairer(); },
+  app.add_flag(
+      "--repair-flips", options.repairs_flips,
       "move vertices around flipped triangles of the map until none is left, if possible");
   app.add_option_function<std::string>(
          "--schedule", [&o](const std::string& text) { set_schedule(text, o); },
@@ -127,7 +126,7 @@ void add_parameterize(CLI::App& app, Program_options& o)
          "two far border vertices are taken and the map is scaled and moved into the unit square")
       ->type_name("INDEX=U,V")
       ->allow_extra_args(false);
-  add_solver_options(*run, o.library);
+  add_solver_options(*run, o);
   run->add_option("--pictures", o.pictures,
                   "a folder for domain.png, isolines.png, checker.png and levels.png")
       ->type_name("DIR");
@@ -200,7 +199,7 @@ void add_levels(CLI::App& app, Program_options& o)
       ->type_name("obj|ply|glb|pm");
   run->add_flag("--lossless", o.is_lossless,
                 "write mesh.pm with all bits instead of 16 for each coordinate");
-  add_solver_options(*run, o.library);
+  add_solver_options(*run, o);
   run->add_option("--pictures", o.pictures, "a folder for levels.png and swimming.png")
       ->type_name("DIR");
   add_report_and_quiet(*run, o);

@@ -5,9 +5,7 @@
 #include "commands/Commands.h"
 #include "reading/Diagnosis.h"
 #include "writing/Folder_outputs.h"
-#include "writing/Glb_file.h"
 #include "common/Interruption.h"
-#include "writing/Level_files.h"
 #include "pictures/Level_pictures.h"
 #include "commands/Levels_report.h"
 #include "reading/Mesh_reading.h"
@@ -16,10 +14,14 @@
 #include "commands/Run_report.h"
 #include "common/Stopwatch.h"
 #include "reading/Surface_reading.h"
+#include "writing/Checkerboard.h"
 
 #include <CGAL/Surface_mesh_multiresolution/Level_extractor.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh_file.h>
-#include <CGAL/Surface_mesh_parameterization/build_textured_progressive_mesh.h>
+#include <CGAL/Surface_mesh_parameterization/textured_progressive_mesh_of_chart.h>
+#include <CGAL/Surface_mesh_texturing/IO/GLB.h>
+#include <CGAL/Surface_mesh_texturing/IO/OBJ.h>
+#include <CGAL/Surface_mesh_texturing/IO/PLY.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -33,9 +35,12 @@ namespace hlscm {
 
 namespace SMM = CGAL::Surface_mesh_multiresolution;
 namespace SMP = CGAL::Surface_mesh_parameterization;
+namespace IO = CGAL::Surface_mesh_texturing::IO;
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr std::size_t checker_size = 256, checker_squares = 32; // each way
 
 constexpr double default_parts[] = {0.5, 0.25, 0.1, 0.04, 0.01};
 
@@ -197,14 +202,18 @@ public:
     for(const Level_of_detail& level : levels) {
       const std::string name = "level_" + std::to_string(level.triangles.size());
       if(wants(m_options, Level_format::OBJ)) {
-        write_level_obj(model, level, m_folder.create(name + ".obj"));
+        m_folder.create(name + ".obj").write([&](std::ostream& stream) {
+          return IO::write_OBJ(stream, to_mesh(model, level));
+        });
       }
       if(wants(m_options, Level_format::PLY)) {
-        write_level_ply(model, level, m_folder.create(name + ".ply"));
+        m_folder.create(name + ".ply").write([&](std::ostream& stream) {
+          return IO::write_PLY(stream, to_mesh(model, level));
+        });
       }
     }
     if(m_glb != nullptr) {
-      m_glb->put(levels_as_glb(model, levels));
+      write_glb(model, levels);
     }
     if(m_pm != nullptr) {
       SMM::Progressive_mesh_write_options write;
@@ -233,6 +242,18 @@ public:
   }
 
 private:
+  void write_glb(const Progressive_model& model, const std::vector<Level_of_detail>& levels)
+  {
+    std::vector<std::vector<CGAL::Indexed_mesh::Triangle_indices>> triangles;
+    for(const Level_of_detail& level : levels) {
+      triangles.push_back(level.triangles);
+    }
+    m_glb->write([&](std::ostream& stream) {
+      return IO::write_GLB(stream, model, triangles,
+                           {"checkerboard", checkerboard_png(checker_size, checker_squares)});
+    });
+  }
+
   const Program_options& m_options;
   Folder_outputs m_folder;
   Output_file* m_glb = nullptr;

@@ -77,6 +77,7 @@ struct Program_options
   std::string pictures;  ///< a folder; empty: none
   std::vector<Pin> pins; ///< none, or two and more
   CGAL::Surface_mesh_parameterization::HLSCM_options library;
+  bool repairs_flips = false; ///< of the map
 
   std::vector<std::size_t> faces;          ///< of the levels; empty: parts of all
   std::optional<Length> error;             ///< of the surface of one level more, of the light model

@@ -23,6 +23,22 @@ struct Level_of_detail
   std::optional<CGAL::Surface_mesh_multiresolution::Texture_deviation> deviation;
 };
 
+/// The arrays of a level.
+inline CGAL::Surface_mesh_multiresolution::Textured_triangle_mesh
+to_mesh(const Progressive_model& model, const Level_of_detail& level)
+{
+  CGAL::Surface_mesh_multiresolution::Textured_triangle_mesh mesh;
+  mesh.points.assign(model.points.begin(), model.points.begin() + long(level.vertices));
+  mesh.uv.assign(model.uv.begin(), model.uv.begin() + long(level.wedges));
+  mesh.wedges = mesh.triangles = level.triangles;
+  for(auto& t : mesh.triangles) {
+    for(auto& v : t) {
+      v = model.vertex[v];
+    }
+  }
+  return mesh;
+}
+
 } // namespace hlscm
 
 #endif // HLSCM_PROGRAM_LEVEL_OF_DETAIL_H

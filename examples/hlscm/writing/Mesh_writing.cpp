@@ -3,7 +3,8 @@
 
 #include "writing/Mesh_writing.h"
 
-#include "writing/Mesh_items.h"
+#include <CGAL/Surface_mesh_texturing/IO/OBJ.h>
+#include <CGAL/Surface_mesh_texturing/IO/PLY.h>
 
 #include <cctype>
 #include <filesystem>
@@ -12,60 +13,26 @@ namespace hlscm {
 
 namespace {
 
-// The elements pass the bar from one fraction of the file to another.
-template <typename Elements, typename Write>
-void write_all(const Elements& elements, double begin, double end, Progress_bar& progress,
-               Write write)
-{
-  const double each = (end - begin) / double(elements.size());
-  for(const auto element : elements) {
-    if(element % 16384 == 0) {
-      progress.advance(begin + each * double(element));
-    }
-    write(element);
-  }
-}
-
-void write_obj(const Mesh& mesh, const Uv_map& uv, Output_file& file, Progress_bar& progress)
-{
-  write_all(mesh.vertices(), 0, 0.4, progress, [&](Mesh::Vertex_index v) {
-    const auto& p = mesh.point(v);
-    put_numbers(file, "v", {p.x(), p.y(), p.z()});
-  });
-  write_all(mesh.vertices(), 0.4, 0.7, progress, [&](Mesh::Vertex_index v) {
-    put_numbers(file, "vt", {uv[v].x(), uv[v].y()});
-  });
-  write_all(mesh.faces(), 0.7, 1, progress, [&](Mesh::Face_index f) {
-    file.put("f");
-    for(std::size_t v : corners(mesh, f)) {
-      file.put(" ");
-      file.put(v + 1);
-      file.put("/");
-      file.put(v + 1);
-    }
-    file.put("\n");
-  });
-}
-
-void write_ply(const Mesh& mesh, const Uv_map& uv, Output_file& file, Progress_bar& progress)
-{
-  put_ply_header(file, mesh.number_of_vertices(), mesh.number_of_faces());
-  write_all(mesh.vertices(), 0, 0.6, progress, [&](Mesh::Vertex_index v) {
-    put_ply_vertex(file, mesh.point(v), uv[v]);
-  });
-  write_all(mesh.faces(), 0.6, 1, progress,
-            [&](Mesh::Face_index f) { put_ply_face(file, corners(mesh, f)); });
-}
+constexpr double obj_bytes_of_vertex = 104, obj_bytes_of_face = 40; // about, for the progress bar
+constexpr double ply_bytes_of_vertex = 48, ply_bytes_of_face = 13;
 
 } // namespace
 
 void write_mesh(const Mesh& mesh, const Uv_map& uv, const std::string& name, Output_file& file,
                 Progress_bar& progress)
 {
+  namespace IO = CGAL::Surface_mesh_texturing::IO;
   progress.start_stage("writing");
   const std::string extension = std::filesystem::path(name).extension().string();
   const bool is_ply = extension.size() == 4 && std::tolower((unsigned char)(extension[1])) == 'p';
-  (is_ply ? write_ply : write_obj)(mesh, uv, file, progress);
+  const double vertices = double(mesh.number_of_vertices()), faces = double(mesh.number_of_faces());
+  const double all = is_ply ? ply_bytes_of_vertex * vertices + ply_bytes_of_face * faces
+                            : obj_bytes_of_vertex * vertices + obj_bytes_of_face * faces;
+  file.write(
+      [&](std::ostream& stream) {
+        return is_ply ? IO::write_PLY(stream, mesh, uv) : IO::write_OBJ(stream, mesh, uv);
+      },
+      [&](std::size_t bytes) { progress.advance(double(bytes) / all); });
 }
 
 } // namespace hlscm

@@ -7,9 +7,11 @@
 #include "common/Program_error.h"
 
 #include <cerrno>
-#include <charconv>
 #include <cstdlib>
 #include <cstring>
+#include <ostream>
+#include <streambuf>
+#include <utility>
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -49,6 +51,32 @@ void check_target(const fs::path& name, const fs::path& target)
   }
 }
 
+/// The buffer of a stream whose bytes go to a function as they come.
+class File_buffer : public std::streambuf
+{
+public:
+  using Put = std::function<void(std::string_view)>;
+  explicit File_buffer(Put put) : m_put(std::move(put)) {}
+
+private:
+  std::streamsize xsputn(const char* bytes, std::streamsize size) override
+  {
+    m_put(std::string_view(bytes, std::size_t(size)));
+    return size;
+  }
+
+  int_type overflow(int_type byte) override
+  {
+    if(!traits_type::eq_int_type(byte, traits_type::eof())) {
+      const char c = traits_type::to_char_type(byte);
+      xsputn(&c, 1);
+    }
+    return traits_type::not_eof(byte);
+  }
+
+  Put m_put;
+};
+
 } // namespace
 
 Output_file::Output_file(const fs::path& target) : m_name(target)
@@ -87,18 +115,21 @@ void Output_file::put(std::string_view bytes)
   }
 }
 
-void Output_file::put(double number)
+void Output_file::write(const std::function<bool(std::ostream&)>& write,
+                        const std::function<void(std::size_t)>& observe)
 {
-  char text[32];
-  const std::to_chars_result end = std::to_chars(text, text + sizeof text, number);
-  put(std::string_view(text, std::size_t(end.ptr - text)));
-}
-
-void Output_file::put(std::size_t number)
-{
-  char text[24];
-  const std::to_chars_result end = std::to_chars(text, text + sizeof text, number);
-  put(std::string_view(text, std::size_t(end.ptr - text)));
+  File_buffer buffer([&](std::string_view bytes) {
+    put(bytes);
+    if(observe) {
+      observe(m_size);
+    }
+  });
+  std::ostream stream(&buffer);
+  stream.exceptions(std::ios::badbit); // to throw what the buffer has thrown
+  if(!write(stream)) {
+    throw Program_error(m_name.string(),
+                        "this format cannot hold the model, choose another or split the mesh");
+  }
 }
 
 void Output_file::close()

@@ -6,6 +6,8 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <functional>
+#include <iosfwd>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -25,8 +27,12 @@ public:
   Output_file& operator=(const Output_file&) = delete;
 
   void put(std::string_view bytes);
-  void put(double number); ///< the shortest text that reads back as the same number
-  void put(std::size_t number);
+
+  /// Passes a stream to a function that writes to it and returns whether it could. What makes the
+  /// file fail is thrown through it, and what `observe` throws, which gets the size so far.
+  void write(const std::function<bool(std::ostream&)>& write,
+             const std::function<void(std::size_t)>& observe = nullptr);
+
   void close();
   std::size_t size() const { return m_size; } ///< bytes put so far
 

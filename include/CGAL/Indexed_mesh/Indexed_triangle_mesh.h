@@ -6,20 +6,43 @@
 
 #include <CGAL/Blocked_execution/sort_and_select.h>
 
+#include <CGAL/Bbox_3.h>
 #include <CGAL/Simple_cartesian.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <utility>
 #include <vector>
+
+/*
+A mesh is two arrays, and what is asked of it is built beside them once and passed on:
+`Triangle_adjacency` (across edges), `Triangles_at_vertices`, `Vertex_rings` (under collapses).
+
+A chart, a part of a mesh that is laid out in the plane, passes through these types. A new one is
+needed only where it has to know something that none of them has.
+
+  type              knows                                           from -> to
+  Face_charts       all charts of a mesh, as seams and labels       segmentation -> all that follows
+  Chart_state       charts while they are merged: a Chart_piece     patches -> Face_charts
+                    each, and the Seam_graph between them
+  Chart_mesh        one chart as a mesh of its own, cut along       Chart_cutter -> its map
+                    seams, with the way back to the whole mesh
+  Prepared_mesh     any mesh normalized and sorted, with rings      prepare_mesh() -> collapses
+  Chart             a Prepared_mesh that is a disk, its borders     the caller's mesh -> the solver
+  Mapped_chart      a Chart_mesh with uv and a report               map_chart() -> packing
+  Chart_shape       uv and triangles, no surface any more           pack_charts() -> packer
+  Chart_outline,    what a packer sees of a shape: its border       packer -> Chart_placement
+  Chart_raster      turned and its texels
+  Textured_triangle_mesh  the whole mesh again, with uv             atlas -> levels, baking, files
+*/
 
 namespace CGAL {
 namespace Indexed_mesh {
 
-// What can be wrong with the connectivity at a vertex.
+/// \ingroup PkgHLSCMIndexedMesh
+/// What can be wrong with the connectivity at a vertex.
 enum class Ring_defect : std::uint8_t { NONE, ISOLATED, REPEATED_HALFEDGE, SEVERAL_FANS };
 
 /// \ingroup PkgHLSCMIndexedMesh
@@ -31,8 +54,70 @@ typedef std::uint32_t Vertex_index;
 typedef std::array<Vertex_index, 3> Triangle_indices;
 
 /// \ingroup PkgHLSCMIndexedMesh
+/// The index of a triangle, 32 bits.
+typedef std::uint32_t Triangle_index;
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// The number \f$ 3 t + c \f$ stands for corner \f$ c \f$ of triangle \f$ t \f$, and for the
+/// halfedge from there to the next corner, which has the triangle on its left.
+typedef std::uint32_t Halfedge;
+
+/// \ingroup PkgHLSCMIndexedMesh
 /// "No vertex".
 constexpr Vertex_index no_vertex = Vertex_index(-1);
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// "No triangle".
+constexpr Triangle_index no_triangle = Triangle_index(-1);
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// "No halfedge", what lies across the border of a surface.
+constexpr Halfedge no_halfedge = Halfedge(-1);
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// Returns the triangle of a halfedge or corner.
+constexpr Triangle_index triangle_of(Halfedge h) { return h / 3; }
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// Returns which corner of its triangle a corner is, or a halfedge starts from: 0, 1 or 2.
+constexpr std::uint32_t corner_of(Halfedge h) { return h % 3; }
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// Returns the next halfedge around the triangle of `h`, counterclockwise.
+constexpr Halfedge next_halfedge(Halfedge h) { return h % 3 == 2 ? h - 2 : h + 1; }
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// Returns the halfedge before `h` around its triangle.
+constexpr Halfedge previous_halfedge(Halfedge h) { return h % 3 == 0 ? h + 2 : h - 1; }
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// Returns the vertex from which a halfedge starts: that of the corner.
+inline Vertex_index vertex_of(const std::vector<Triangle_indices>& triangles, Halfedge h)
+{
+  return triangles[triangle_of(h)][corner_of(h)];
+}
+
+/*!
+\ingroup PkgHLSCMIndexedMesh
+
+The struct `Triangle_corner` is a corner \f$ 3 t + c \f$ taken apart, for loops over many of them:
+without branches, which nobody could guess.
+*/
+struct Triangle_corner
+{
+  Triangle_index triangle; ///< \f$ t \f$
+  std::uint32_t next;      ///< the corner after \f$ c \f$ of the triangle
+  std::uint32_t last;      ///< the corner before \f$ c \f$ of the triangle
+
+  /// Takes a corner apart.
+  explicit Triangle_corner(Halfedge corner)
+    : triangle(triangle_of(corner))
+  {
+    const std::uint32_t twice_c = 2 * (corner - 3 * triangle);
+    next = (9u >> twice_c) & 3u;  // 1, 2, 0
+    last = (18u >> twice_c) & 3u; // 2, 0, 1
+  }
+};
 
 /*!
 \ingroup PkgHLSCMIndexedMesh
@@ -50,7 +135,19 @@ struct Indexed_triangle_mesh
   std::vector<Triangle_indices> triangles; ///< The vertices of each triangle.
 };
 
-// For each of `n` things its position among the members, or `no_vertex`.
+/// \ingroup PkgHLSCMIndexedMesh
+/// A point of a triangle mesh: a triangle and the barycentric coordinates in it.
+struct Surface_point
+{
+  Triangle_index triangle = no_triangle;     ///< or `no_triangle`
+  std::array<double, 3> weights = {0, 0, 0}; ///< of its corners
+
+  /// Returns whether there is a point.
+  bool exists() const { return triangle != no_triangle; }
+};
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// Returns for each of `n` things its position among the members, or `no_vertex`.
 inline std::vector<Vertex_index> ranks(const std::vector<Vertex_index>& members, std::size_t n)
 {
   constexpr std::size_t block = 32768;
@@ -106,46 +203,28 @@ inline std::vector<std::uint32_t> sorted_order(const std::vector<std::uint32_t>&
   return order;
 }
 
-// The box of points.
-struct Extremes
-{
-  static constexpr double infinity = (std::numeric_limits<double>::infinity)();
-
-  std::array<double, 3> lo = {infinity, infinity, infinity};
-  std::array<double, 3> hi = {-infinity, -infinity, -infinity};
-
-  template <class Point>
-  void add(const Point& low, const Point& high)
-  {
-    for(int c = 0; c < 3; ++c) {
-      lo[c] = (std::min)(lo[c], low[c]);
-      hi[c] = (std::max)(hi[c], high[c]);
-    }
-  }
-
-  Extremes& operator+=(const Extremes& other)
-  {
-    add(other.lo, other.hi);
-    return *this;
-  }
-
-  friend Extremes operator+(Extremes a, const Extremes& b) { return a += b; }
-
-  double longest_side() const { return (std::max)({hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]}); }
-};
-
 constexpr std::size_t block_of_points = 16384;
 
-// Precondition: there is a point.
-inline Extremes extremes(const std::vector<Indexed_triangle_mesh::Point_3>& points)
+/// \ingroup PkgHLSCMIndexedMesh
+/// Returns the bounding box of points; that of no points is empty, from plus to minus infinity.
+inline Bbox_3 bounding_box(const std::vector<Indexed_triangle_mesh::Point_3>& points)
 {
-  return Blocked_execution::blocked_sum<Extremes>(
+  return Blocked_execution::blocked_sum<Bbox_3>(
     points.size(), block_of_points, [&points](std::size_t begin, std::size_t end) {
-      Extremes box;
-      for(std::size_t i = begin; i < end; ++i)
-        box.add(points[i], points[i]);
+      Bbox_3 box;
+      for(std::size_t i = begin; i < end; ++i) {
+        const auto& p = points[i];
+        box += Bbox_3(p.x(), p.y(), p.z(), p.x(), p.y(), p.z());
+      }
       return box;
     });
+}
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// Returns the length of the longest side of a box.
+inline double longest_side(const Bbox_3& box)
+{
+  return (std::max)({box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin()});
 }
 
 // The Morton code of each point: ten bits an axis in the bounding cube.
@@ -155,14 +234,14 @@ morton_codes(const std::vector<Indexed_triangle_mesh::Point_3>& points)
   std::vector<std::uint32_t> codes(points.size());
   if(points.empty())
     return codes;
-  const Extremes box = extremes(points);
-  const double extent = box.longest_side();
+  const Bbox_3 box = bounding_box(points);
+  const double extent = longest_side(box);
   const double scale = extent > 0. ? 1023.999 / extent : 0.;
   Blocked_execution::blocked_for(points.size(), block_of_points,
                                  [&](std::size_t begin, std::size_t end) {
     for(std::size_t i = begin; i < end; ++i)
       for(int c = 0; c < 3; ++c)
-        codes[i] |= spread_bits(std::uint32_t((points[i][c] - box.lo[c]) * scale)) << c;
+        codes[i] |= spread_bits(std::uint32_t((points[i][c] - (box.min)(c)) * scale)) << c;
   });
   return codes;
 }
@@ -239,8 +318,8 @@ inline double normalize(Indexed_triangle_mesh& mesh)
 {
   if(mesh.points.empty())
     return 0.;
-  const Extremes box = extremes(mesh.points);
-  const double extent = box.longest_side();
+  const Bbox_3 box = bounding_box(mesh.points);
+  const double extent = longest_side(box);
   if(!(extent > 0.))
     return 0.;
   const auto move = [&mesh](const std::array<double, 3>& origin, double unit) {
@@ -254,8 +333,8 @@ inline double normalize(Indexed_triangle_mesh& mesh)
     });
   };
   // In two steps: squares of lengths may not exist before the first.
-  const auto& [lo, hi] = box;
-  move({0.5 * (lo[0] + hi[0]), 0.5 * (lo[1] + hi[1]), 0.5 * (lo[2] + hi[2])}, extent);
+  move({0.5 * (box.xmin() + box.xmax()), 0.5 * (box.ymin() + box.ymax()),
+        0.5 * (box.zmin() + box.zmax())}, extent);
   const double sum = Blocked_execution::blocked_sum<double>(
     mesh.triangles.size(), block_of_points, [&mesh](std::size_t begin, std::size_t end) {
       double lengths = 0.;

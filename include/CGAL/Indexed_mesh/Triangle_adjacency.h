@@ -4,29 +4,70 @@
 #ifndef CGAL_INDEXED_MESH_TRIANGLE_ADJACENCY_H
 #define CGAL_INDEXED_MESH_TRIANGLE_ADJACENCY_H
 
+#include <CGAL/Blocked_execution/sort_and_select.h>
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace Indexed_mesh {
 
-typedef std::array<Vertex_index, 2> Border_edge;
+/*!
+\ingroup PkgHLSCMIndexedMesh
 
-// The halfedge 3 t + c goes from corner c of triangle t to its next corner.
-inline std::uint32_t next_halfedge(std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
-inline std::uint32_t previous_halfedge(std::uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
+The class `Triangles_at_vertices` has for each vertex the corners that it has in triangles.
 
-// The triangle across each edge of a mesh the edges of which have one or two triangles, of equal
-// orientation.
+Linear time; 4 bytes a vertex and 12 a triangle.
+*/
+class Triangles_at_vertices
+{
+public:
+  /// Finds the corners of vertices 0 to `number_of_vertices - 1`, which are all the triangles have.
+  Triangles_at_vertices(const std::vector<Triangle_indices>& triangles,
+                        std::size_t number_of_vertices)
+  {
+    const auto for_each_corner = [&triangles](const auto& use) {
+      for(std::uint32_t t = 0; t < triangles.size(); ++t)
+        for(std::uint32_t c = 0; c < 3; ++c)
+          use(triangles[t][c], 3 * t + c);
+    };
+    m_begin = Blocked_execution::sort_by_key(
+      number_of_vertices, for_each_corner, [this](std::size_t count) { m_corner.resize(count); },
+      [this](std::uint32_t i, std::uint32_t corner) { m_corner[i] = corner; });
+  }
+
+  /// Returns the number of vertices.
+  std::size_t number_of_vertices() const { return m_begin.size() - 1; }
+  /// Returns the first corner of `v`; those that follow are ascending.
+  const Halfedge* begin(Vertex_index v) const { return m_corner.data() + m_begin[v]; }
+  /// Returns the end of the corners of `v`.
+  const Halfedge* end(Vertex_index v) const { return m_corner.data() + m_begin[v + 1]; }
+  /// Returns the number of corners of `v`.
+  std::uint32_t number(Vertex_index v) const { return m_begin[v + 1] - m_begin[v]; }
+
+private:
+  Blocked_execution::Uninitialized_vector<std::uint32_t> m_begin, m_corner;
+};
+
+/*!
+\ingroup PkgHLSCMIndexedMesh
+
+The class `Triangle_adjacency` has the triangle across each edge of a mesh whose edges have one or
+two triangles, of equal orientation.
+
+Linear time for bounded degrees; 12 bytes a triangle. Build it once and pass it on.
+*/
 class Triangle_adjacency
 {
 public:
+  /// Finds the neighbours.
   explicit Triangle_adjacency(const std::vector<Triangle_indices>& triangles)
-    : m_opposite(3 * triangles.size(), no_vertex)
+    : m_opposite(3 * triangles.size(), no_halfedge)
   {
     // The halfedges by their smaller vertex, which the two of an edge share
     Vertex_index n = 0;
@@ -34,20 +75,20 @@ public:
       for(const Vertex_index v : t)
         n = v < n ? n : v + 1;
     std::vector<std::uint32_t> begin(n + 1, 0), halfedge(m_opposite.size());
-    const auto ends = [&triangles](std::uint32_t h) {
-      const Triangle_indices& t = triangles[h / 3];
-      return std::array<Vertex_index, 2>{t[h % 3], t[(h + 1) % 3]};
+    const auto ends = [&triangles](Halfedge h) {
+      return std::array<Vertex_index, 2>{vertex_of(triangles, h),
+                                         vertex_of(triangles, next_halfedge(h))};
     };
-    const auto smaller = [&ends](std::uint32_t h) {
+    const auto smaller = [&ends](Halfedge h) {
       const auto e = ends(h);
       return e[0] < e[1] ? e[0] : e[1];
     };
-    for(std::uint32_t h = 0; h < m_opposite.size(); ++h)
+    for(Halfedge h = 0; h < m_opposite.size(); ++h)
       ++begin[smaller(h) + 1];
     for(std::size_t v = 0; v < n; ++v)
       begin[v + 1] += begin[v];
     std::vector<std::uint32_t> end(begin.begin(), begin.end() - (n > 0 ? 1 : 0));
-    for(std::uint32_t h = 0; h < m_opposite.size(); ++h) {
+    for(Halfedge h = 0; h < m_opposite.size(); ++h) {
       const Vertex_index v = smaller(h);
       for(std::uint32_t i = begin[v]; i < end[v]; ++i) {
         const auto e = ends(halfedge[i]), f = ends(h);
@@ -60,29 +101,74 @@ public:
     }
   }
 
-  /// The halfedge on the other side of that from corner c of t, or `no_vertex` on the border.
-  std::uint32_t opposite(std::uint32_t t, int c) const { return m_opposite[3 * t + c]; }
-  std::uint32_t opposite(std::uint32_t halfedge) const { return m_opposite[halfedge]; }
+  /// Returns the number of halfedges, three to a triangle.
+  std::size_t number_of_halfedges() const { return m_opposite.size(); }
+  /// Returns the halfedge on the other side of `h`, or `no_halfedge` on the border.
+  Halfedge opposite(Halfedge h) const { return m_opposite[h]; }
+  /// Returns the same for the halfedge from corner `c` of triangle `t`.
+  Halfedge opposite(Triangle_index t, int c) const { return m_opposite[3 * t + c]; }
 
   /// Gives the array of opposite halfedges away.
-  std::vector<std::uint32_t> take() { return std::move(m_opposite); }
+  std::vector<Halfedge> take() { return std::move(m_opposite); }
 
 private:
-  std::vector<std::uint32_t> m_opposite;
+  std::vector<Halfedge> m_opposite;
 };
 
-// The edges of a mesh that have one triangle, in the directions in which it has them.
-inline std::vector<Border_edge>
-border_edges(const std::vector<Triangle_indices>& triangles)
+/// \ingroup PkgHLSCMIndexedMesh
+/// The ends of an edge that has one triangle, in the direction in which this has it.
+typedef std::array<Vertex_index, 2> Border_edge;
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// Returns the edges of a mesh that have one triangle, in the order of their halfedges.
+inline std::vector<Border_edge> border_edges(const std::vector<Triangle_indices>& triangles)
 {
   const Triangle_adjacency adjacency(triangles);
   std::vector<Border_edge> result;
-  for(std::uint32_t t = 0; t < triangles.size(); ++t)
-    for(int c = 0; c < 3; ++c)
-      if(adjacency.opposite(t, c) == no_vertex)
-        result.push_back({triangles[t][c], triangles[t][(c + 1) % 3]});
+  for(Halfedge h = 0; h < adjacency.number_of_halfedges(); ++h)
+    if(adjacency.opposite(h) == no_halfedge)
+      result.push_back({vertex_of(triangles, h), vertex_of(triangles, next_halfedge(h))});
   return result;
 }
+
+/*!
+\ingroup PkgHLSCMIndexedMesh
+
+The class `Disjoint_sets` is a partition of \f$ [0, n) \f$ into sets that grow; each is known by its
+smallest member. Nearly constant time for each call.
+*/
+class Disjoint_sets
+{
+public:
+  /// Makes `n` sets of one member each.
+  explicit Disjoint_sets(std::size_t n) : m_parent(n)
+  {
+    std::iota(m_parent.begin(), m_parent.end(), 0u);
+  }
+
+  /// Takes trees: a smaller or the same member of the set of each, `parent[i] <= i`.
+  explicit Disjoint_sets(std::vector<std::uint32_t> parent) : m_parent(std::move(parent)) {}
+
+  /// Returns the smallest member of the set of `i`.
+  std::uint32_t find(std::uint32_t i)
+  {
+    while(m_parent[i] != i)
+      i = m_parent[i] = m_parent[m_parent[i]];
+    return i;
+  }
+
+  /// Joins the sets of `i` and `j`; returns whether they were different ones.
+  bool join(std::uint32_t i, std::uint32_t j)
+  {
+    i = find(i);
+    j = find(j);
+    m_parent[(std::max)(i, j)] = (std::min)(i, j);
+    return i != j;
+  }
+
+private:
+  std::vector<std::uint32_t> m_parent;
+};
 
 } // namespace Indexed_mesh
 } // namespace CGAL

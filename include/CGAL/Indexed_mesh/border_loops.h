@@ -4,6 +4,7 @@
 #ifndef CGAL_INDEXED_MESH_BORDER_LOOPS_H
 #define CGAL_INDEXED_MESH_BORDER_LOOPS_H
 
+#include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 #include <CGAL/Indexed_mesh/Vertex_rings.h>
 
 #include <algorithm>
@@ -13,7 +14,8 @@
 namespace CGAL {
 namespace Indexed_mesh {
 
-// The border cycles, each with the surface on its left.
+/// \ingroup PkgHLSCMIndexedMesh
+/// Returns the border cycles, each with the surface on its left. Linear time.
 inline std::vector<std::vector<Vertex_index>> border_loops(const Vertex_rings& rings)
 {
   std::vector<std::vector<Vertex_index>> loops;
@@ -30,26 +32,20 @@ inline std::vector<std::vector<Vertex_index>> border_loops(const Vertex_rings& r
   return loops;
 }
 
-// The representative of i, with shorter ways for the next time.
-inline Vertex_index find_root(std::vector<Vertex_index>& parent, Vertex_index i)
-{
-  while(parent[i] != i)
-    i = parent[i] = parent[parent[i]];
-  return i;
-}
-
-// The vertices that can be reached from `seed` along edges, as a flag for each vertex. Every vertex
-// points to its smallest neighbour; few trees result, and only edges between trees are looked at
-// one by one.
+/// \ingroup PkgHLSCMIndexedMesh
+/// Returns for each vertex whether it can be reached from `seed` along edges. Linear time.
 inline std::vector<bool> component_of(const Vertex_rings& rings, Vertex_index seed)
 {
+  // Every vertex points to its smallest neighbour; few trees result, and only edges between trees
+  // are looked at one by one
   constexpr std::size_t block = 16384;
   const std::size_t n = rings.size();
   std::vector<Vertex_index> parent(n);
   Blocked_execution::blocked_for(n, block, [&](std::size_t begin, std::size_t end) {
     for(std::size_t v = begin; v < end; ++v) {
       const Vertex_index* r = rings.ring(Vertex_index(v));
-      parent[v] = (std::min)(Vertex_index(v), *std::min_element(r, r + rings.degree(Vertex_index(v))));
+      const std::uint32_t d = rings.degree(Vertex_index(v));
+      parent[v] = (std::min)(Vertex_index(v), *std::min_element(r, r + d));
     }
   });
   for(std::size_t v = 0; v < n; ++v) // parents are smaller, and settled
@@ -66,13 +62,14 @@ inline std::vector<bool> component_of(const Vertex_rings& rings, Vertex_index se
           found.push_back({parent[v], parent[w]});
       }
   });
+  Disjoint_sets sets(std::move(parent));
   for(const auto& block_links : links)
     for(const auto& [a, b] : block_links)
-      parent[find_root(parent, a)] = find_root(parent, b);
-  const Vertex_index root = find_root(parent, seed);
+      sets.join(a, b);
+  const Vertex_index root = sets.find(seed);
   std::vector<bool> is_reached(n);
   for(std::size_t v = 0; v < n; ++v)
-    is_reached[v] = find_root(parent, Vertex_index(v)) == root;
+    is_reached[v] = sets.find(Vertex_index(v)) == root;
   return is_reached;
 }
 

@@ -16,7 +16,8 @@
 namespace CGAL {
 namespace Indexed_mesh {
 
-// Gives each vertex its position in vertices(mesh); returns their number.
+/// \ingroup PkgHLSCMIndexedMesh
+/// Gives each vertex its position in `vertices(mesh)`; returns their number.
 template <class TriangleMesh, class VertexPositionMap>
 std::size_t number_vertices(const TriangleMesh& mesh, const VertexPositionMap& position)
 {
@@ -26,7 +27,8 @@ std::size_t number_vertices(const TriangleMesh& mesh, const VertexPositionMap& p
   return number;
 }
 
-// The faces in the order of faces(mesh). Precondition: they are triangles.
+/// \ingroup PkgHLSCMIndexedMesh
+/// Returns the faces in the order of `faces(mesh)`. Precondition: they are triangles.
 template <class TriangleMesh, class VertexPositionMap>
 std::vector<Triangle_indices> copy_triangles(const TriangleMesh& mesh,
                                              const VertexPositionMap& position)
@@ -43,7 +45,8 @@ std::vector<Triangle_indices> copy_triangles(const TriangleMesh& mesh,
   return result;
 }
 
-// The positions of the vertices in the order of vertices(mesh), in double precision.
+/// \ingroup PkgHLSCMIndexedMesh
+/// Returns the points of the vertices in the order of `vertices(mesh)`, in double precision.
 template <class TriangleMesh>
 std::vector<Indexed_triangle_mesh::Point_3> copy_points(const TriangleMesh& mesh)
 {

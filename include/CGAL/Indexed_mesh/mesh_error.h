@@ -13,27 +13,80 @@
 namespace CGAL {
 namespace Indexed_mesh {
 
-// The first of these vertices that has no place, as a sentence.
-inline std::string point_error(const std::vector<Indexed_triangle_mesh::Point_3>& points)
+// What can be wrong with a mesh, as one set of sentences for all packages. Each function returns a
+// sentence on the first thing that is wrong, or nothing if all is well. The mesh may have a name,
+// such as "the fine mesh", where several are there.
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// Returns " of " and the name of a mesh, if it has one.
+inline std::string of_mesh(const std::string& name) { return name.empty() ? name : " of " + name; }
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// Says which vertex has a coordinate that is not a finite number.
+inline std::string point_error(const std::vector<Indexed_triangle_mesh::Point_3>& points,
+                               const std::string& name = {})
 {
   for(std::size_t v = 0; v < points.size(); ++v)
     for(int c = 0; c < 3; ++c)
       if(!std::isfinite(points[v][c]))
-        return "vertex " + std::to_string(v) + " has a coordinate that is not a finite number";
+        return "vertex " + std::to_string(v) + of_mesh(name)
+             + " has a coordinate that is not a finite number";
   return {};
 }
 
-// What keeps a mesh from being decimated; empty if nothing does. `source` has for each vertex of
-// the rings its number in the input.
-inline std::string ring_error(const Vertex_rings& rings, const std::vector<Vertex_index>& source)
+/// \ingroup PkgHLSCMIndexedMesh
+/// Says which triangle has a vertex that is none of the first `n`.
+inline std::string index_error(const std::vector<Triangle_indices>& triangles, std::size_t n,
+                               const std::string& name = {})
+{
+  for(std::size_t t = 0; t < triangles.size(); ++t)
+    for(const Vertex_index v : triangles[t])
+      if(v >= n)
+        return "triangle " + std::to_string(t) + of_mesh(name)
+             + " has a vertex that does not exist";
+  return {};
+}
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// Says which triangle has a vertex twice.
+inline std::string repeated_vertex_error(const std::vector<Triangle_indices>& triangles)
+{
+  for(std::size_t t = 0; t < triangles.size(); ++t) {
+    const Triangle_indices& v = triangles[t];
+    if(v[0] == v[1] || v[1] == v[2] || v[2] == v[0])
+      return "triangle " + std::to_string(t) + " has a vertex twice";
+  }
+  return {};
+}
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// Says what is wrong with the arrays of a mesh, which may be `Indexed_triangle_mesh` or one with
+/// texture coordinates: no triangles, an index out of range, a coordinate that is not finite. Linear
+/// time.
+template <class Mesh>
+std::string mesh_error(const Mesh& mesh, const std::string& name = {})
+{
+  if(mesh.triangles.empty())
+    return (name.empty() ? "the mesh" : name) + " has no triangles";
+  const std::string error = index_error(mesh.triangles, mesh.points.size(), name);
+  return error.empty() ? point_error(mesh.points, name) : error;
+}
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// Says which vertex has no single fan of triangles. `source` has for each vertex of the rings its
+/// number in the input; without, they are the same.
+inline std::string ring_error(const Vertex_rings& rings,
+                              const std::vector<Vertex_index>& source = {})
 {
   if(rings.defect() == Ring_defect::NONE)
     return {};
-  const std::string vertex = "vertex " + std::to_string(source[rings.defective_vertex()]);
+  const Vertex_index v = rings.defective_vertex();
+  const std::string vertex = "vertex " + std::to_string(source.empty() ? v : source[v]);
   if(rings.defect() == Ring_defect::ISOLATED)
     return vertex + " has no face; remove it first";
   if(rings.defect() == Ring_defect::REPEATED_HALFEDGE)
-    return vertex + " has two edges to the same vertex; repair the mesh first";
+    return vertex + " has an edge with more than two faces, or with two faces of different "
+                    "orientation; repair the mesh first";
   return "the faces at " + vertex + " do not form one fan; split the vertex first";
 }
 

@@ -6,7 +6,9 @@
 
 #include <CGAL/Multigrid/Hermitian_matrix.h>
 
-#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace CGAL {
 namespace Multigrid {
@@ -14,16 +16,20 @@ namespace Multigrid {
 namespace internal {
 
 // The entry of `l1_inverse_diagonal()` for the row in `slot`.
-template <class Real>
-Real l1_inverse(const Hermitian_matrix<Real>& h, std::size_t slot)
+template <class Value>
+typename Value_traits<Value>::Diagonal l1_inverse(const Self_adjoint_matrix<Value>& h,
+                                                  std::size_t slot)
 {
-  double sum = 0.;
-  h.for_each_entry(slot, [&](std::uint32_t, std::complex<Real> value) {
-    sum += std::sqrt(double(std::norm(value)));
+  typedef typename Value_traits<Value>::Diagonal Diagonal;
+  typedef typename Value_traits<Diagonal>::Double Double;
+  Double sum = Value_traits<Double>::zero();
+  h.for_each_entry(slot, [&](std::uint32_t, const Value& value) {
+    sum += Value_traits<Value>::modulus(value);
   });
-  const Real diagonal = h.diagonal()[h.pattern().row_of_slot[slot]];
-  sum = 0.5 * (double(diagonal) + sum);
-  return diagonal > 0 && sum > 0. ? Real(1. / sum) : Real(0);
+  const Diagonal& diagonal = h.diagonal()[h.pattern().row_of_slot[slot]];
+  sum = 0.5 * (Value_traits<Double>::from(diagonal) + sum);
+  return Value_traits<Diagonal>::is_positive(diagonal) ? Value_traits<Diagonal>::inverse(sum)
+                                                       : Value_traits<Diagonal>::zero();
 }
 
 } // namespace internal
@@ -33,12 +39,14 @@ Real l1_inverse(const Hermitian_matrix<Real>& h, std::size_t slot)
 
 Returns the inverses of \f$ D_i = \frac12 ( H_{ii} + \sum_{j \ne i} |H_{ij}| ) \f$, with which no
 eigenvalue of \f$ D^{-1} H \f$ exceeds 2 whatever the signs of the entries (for a matrix of
-cotangents of acute triangles \f$ D \f$ is the diagonal). Rows of zeros, those of pins, get 0.
+cotangents of acute triangles \f$ D \f$ is the diagonal). Of a block, \f$ |B| = (B B^T)^{1/2} \f$.
+Rows of zeros, those of pins, get 0.
 */
-template <class Real>
-std::vector<Real> l1_inverse_diagonal(const Hermitian_matrix<Real>& h)
+template <class Value>
+std::vector<typename Value_traits<Value>::Diagonal>
+l1_inverse_diagonal(const Self_adjoint_matrix<Value>& h)
 {
-  std::vector<Real> inverse(h.size());
+  std::vector<typename Value_traits<Value>::Diagonal> inverse(h.size());
   for_each_index(h.size(), [&](std::size_t slot) {
     inverse[h.pattern().row_of_slot[slot]] = internal::l1_inverse(h, slot);
   });
@@ -61,11 +69,14 @@ eigenvalue and no order of the unknowns.
 
 Costs `steps` - 1 products with the matrix.
 */
-template <class Real>
-void chebyshev_steps(const Hermitian_matrix<Real>& h, const std::vector<Real>& inverse_diagonal,
-                     unsigned int steps, Complex_vector<Real>& u, Complex_vector<Real>& r,
-                     Complex_vector<Real>& z)
+template <class Value>
+void chebyshev_steps(const Self_adjoint_matrix<Value>& h,
+                     const std::vector<typename Value_traits<Value>::Diagonal>& inverse_diagonal,
+                     unsigned int steps, Value_vector<Value>& u, Value_vector<Value>& r,
+                     Value_vector<Value>& z)
 {
+  typedef typename Value_traits<Value>::Real Real;
+  typedef typename Value_traits<Value>::Vector_value Vector_value;
   const std::size_t n = u.size();
   z.resize(n);
   constexpr Real bound = Real(2);
@@ -75,7 +86,7 @@ void chebyshev_steps(const Hermitian_matrix<Real>& h, const std::vector<Real>& i
     u[i] += z[i];
   });
   for(unsigned int k = 2; k <= steps; ++k) {
-    h.for_each_row_sum(z, [&](std::size_t i, std::complex<Real> s) {
+    h.for_each_row_sum(z, [&](std::size_t i, const Vector_value& s) {
       r[i] -= h.diagonal()[i] * z[i] + s;
     });
     old_weight = Real(2 * k - 3) / Real(2 * k + 1);
@@ -86,6 +97,42 @@ void chebyshev_steps(const Hermitian_matrix<Real>& h, const std::vector<Real>& i
     });
   }
 }
+
+/*!
+\ingroup PkgHLSCMMultigrid
+
+The class `Chebyshev_smoother` smooths by `chebyshev_steps()`.
+
+\cgalModels{MultigridSmoother}
+*/
+template <class Value>
+class Chebyshev_smoother
+{
+public:
+  typedef Self_adjoint_matrix<Value> Matrix; ///< the matrix of a level
+  typedef Value_vector<Value> Vector;        ///< a vector of a level
+
+  /// Prepares it for a matrix. Linear time.
+  void set_matrix(const Matrix& h) { m_inverse_diagonal = l1_inverse_diagonal(h); }
+
+  /// Takes note that row `i` of the matrix has changed.
+  void update_row(const Matrix& h, std::uint32_t i)
+  {
+    m_inverse_diagonal[i] = internal::l1_inverse(h, h.slot_of_row(i));
+  }
+
+  /// Takes the steps.
+  void smooth(const Matrix& h, unsigned int steps, Vector& u, Vector& r, Vector& z) const
+  {
+    chebyshev_steps(h, m_inverse_diagonal, steps, u, r, z);
+  }
+
+  /// Returns the bytes that it takes.
+  std::size_t memory() const { return m_inverse_diagonal.size() * sizeof(m_inverse_diagonal[0]); }
+
+private:
+  std::vector<typename Value_traits<Value>::Diagonal> m_inverse_diagonal;
+};
 
 } // namespace Multigrid
 } // namespace CGAL

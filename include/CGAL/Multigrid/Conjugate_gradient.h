@@ -4,59 +4,43 @@
 #ifndef CGAL_MULTIGRID_CONJUGATE_GRADIENT_H
 #define CGAL_MULTIGRID_CONJUGATE_GRADIENT_H
 
-#include <CGAL/Multigrid/Hermitian_matrix.h>
 #include <CGAL/Multigrid/Iteration_control.h>
+#include <CGAL/Multigrid/vector_operations.h>
 
 #include <cmath>
 #include <complex>
+#include <vector>
 
 namespace CGAL {
 namespace Multigrid {
 
-/*!
-\ingroup PkgHLSCMMultigrid
+namespace internal {
 
-Minimizes the energy \f$ E(x) = \frac12 x^H H x \f$ over the free unknowns by the flexible
-preconditioned conjugate gradient method, from the given `x`. Rows of the fixed unknowns (pins) are
-zero in `h`, their values in `x` are kept.
-
-\param h the matrix
-\param x the unknowns
-\param energy \f$ E(x) \f$ on entry, where the whole energy counts, that of the pins' rows too
-\param precondition `precondition(r, z)` sets z to an approximation of \f$ H^{-1} r \f$; it may
-       change from step to step, but must keep the pins at 0
-\param stop when to stop
-\param observe `observe(part)` is told after each step how far the iteration has come, in [0, 1];
-       returning false stops it
-
-Four vectors beside `x`; one product with the matrix, one preconditioning a step.
-*/
-template <class Real, class Precondition, class Observe>
-Iteration_report minimize_energy(const Hermitian_matrix<Real>& h, Complex_vector<Real>& x,
-                                 double energy, const Precondition& precondition,
-                                 const Energy_stop& stop, const Observe& observe)
+// The steps from x, where the residual is r and the energy `energy`; r is lost.
+template <class Apply, class V, class Precondition, class Observe>
+Iteration_report conjugate_gradients(const Apply& apply, std::vector<V>& x, std::vector<V>& r,
+                                     double energy, const Precondition& precondition,
+                                     const Energy_stop& stop, const Observe& observe)
 {
-  typedef std::complex<Real> Complex;
-  const std::size_t n = x.size();
-  Complex_vector<Real> r, p, q, z;
-  for(Complex_vector<Real>* vector : {&r, &p, &q, &z})
-    Blocked_execution::resize_blocked(*vector, n);
-  h.for_each_row_sum(x, [&](std::size_t i, Complex s) { r[i] = -(h.diagonal()[i] * x[i] + s); });
+  typedef typename Value_traits<V>::Scalar Scalar;
+  std::vector<V> p, q, z;
+  for(std::vector<V>* vector : {&p, &q, &z})
+    Blocked_execution::resize_blocked(*vector, x.size());
   Iteration_control control(stop, energy);
   double curvature = 0.;
   while(control.goes_on()) {
     precondition(r, z);
     if(curvature > 0.) // make the direction H-orthogonal to the last one
-      add_scaled(Complex(-inner_product(q, z) / curvature), p, z);
+      add_scaled(Scalar(-inner_product(q, z) / curvature), p, z);
     p.swap(z);
-    h.multiply(p, q);
-    curvature = inner_product(p, q).real();
-    const std::complex<double> slope = inner_product(p, r);
+    apply(p, q);
+    curvature = std::real(inner_product(p, q));
+    const auto slope = inner_product(p, r);
     if(!(curvature > 0.)) { // r is 0, or no longer above rounding
       control.end(std::norm(slope) == 0. || !(curvature < 0.));
       break;
     }
-    const Complex alpha(slope / curvature);
+    const Scalar alpha(slope / curvature);
     add_scaled(alpha, p, x);
     add_scaled(-alpha, q, r);
     const double decrease = 0.5 * std::norm(slope) / curvature;
@@ -64,6 +48,59 @@ Iteration_report minimize_energy(const Hermitian_matrix<Real>& h, Complex_vector
     control.step(control.report().energy - decrease, decrease, change, observe);
   }
   return control.report();
+}
+
+} // namespace internal
+
+/*!
+\ingroup PkgHLSCMMultigrid
+
+Minimizes the energy \f$ E(x) = \frac12 x^H H x \f$ over the free unknowns by the flexible
+preconditioned conjugate gradient method, from the given `x`. Rows of the fixed unknowns (pins) are
+zero in \f$ H \f$, their values in `x` are kept.
+
+\param apply \f$ H \f$, a model of `MultigridOperator`: `apply(x, y)` sets y, of the same size, to
+       \f$ H x \f$; a `Self_adjoint_matrix` does
+\param x the unknowns, of any type that `Value_traits` knows
+\param energy \f$ E(x) \f$ on entry, where the whole energy counts, that of the pins' rows too
+\param precondition a model of `MultigridPreconditioner`: `precondition(r, z)` sets z to an
+       approximation of \f$ H^{-1} r \f$; it may change from step to step, but must keep the pins at
+       0
+\param stop when to stop
+\param observe `observe(part)` is told after each step how far the iteration has come, in [0, 1];
+       returning false stops it
+
+Four vectors beside `x`; one product with the matrix, one preconditioning a step.
+*/
+template <class Apply, class V, class Precondition, class Observe>
+Iteration_report minimize_energy(const Apply& apply, std::vector<V>& x, double energy,
+                                 const Precondition& precondition, const Energy_stop& stop,
+                                 const Observe& observe)
+{
+  std::vector<V> r;
+  Blocked_execution::resize_blocked(r, x.size());
+  apply(x, r);
+  for_each_index(r.size(), [&r](std::size_t i) { r[i] = -r[i]; });
+  return internal::conjugate_gradients(apply, x, r, energy, precondition, stop, observe);
+}
+
+/*!
+\ingroup PkgHLSCMMultigrid
+
+Minimizes \f$ E(x) = \frac12 x^H H x - \mathrm{Re}\, f^H x \f$ in the same way: solves \f$ H x = f
+\f$. Where rows are zero (pins), `f` must be, too.
+*/
+template <class Apply, class V, class Precondition, class Observe>
+Iteration_report minimize_energy(const Apply& apply, const std::vector<V>& f, std::vector<V>& x,
+                                 const Precondition& precondition, const Energy_stop& stop,
+                                 const Observe& observe)
+{
+  std::vector<V> r;
+  Blocked_execution::resize_blocked(r, x.size());
+  apply(x, r);
+  for_each_index(r.size(), [&](std::size_t i) { r[i] = f[i] - r[i]; });
+  const double energy = -0.5 * std::real(inner_product(x, r) + inner_product(x, f));
+  return internal::conjugate_gradients(apply, x, r, energy, precondition, stop, observe);
 }
 
 } // namespace Multigrid

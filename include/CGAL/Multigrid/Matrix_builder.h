@@ -20,15 +20,17 @@ namespace Multigrid {
 /*!
 \ingroup PkgHLSCMMultigrid
 
-The place of a row in a matrix that is being built, for a row without imaginary parts. Entries that
-are not set become padding.
+The place of a row in a matrix that is being built, for a row without imaginary parts, of real
+numbers or blocks. Entries that are not set become padding.
 */
-template <class Real>
+template <class Stored>
 class Real_row
 {
 public:
+  typedef typename Value_traits<Stored>::Double Double; ///< an entry in double precision
+
   /// Constructs the place whose entry `k` is at `k * Sliced_pattern::slice_rows`.
-  Real_row(std::uint32_t* column, Real* re, Real& diagonal)
+  Real_row(std::uint32_t* column, Stored* re, Stored& diagonal)
     : m_column(column), m_re(re), m_diagonal(diagonal)
   {}
 
@@ -36,12 +38,12 @@ public:
   ///
   /// \param count not more than the announced length of the row
   template <class Index>
-  void set(double diagonal, std::size_t count, const Index* column, const double* re)
+  void set(const Double& diagonal, std::size_t count, const Index* column, const Double* re)
   {
-    m_diagonal = Real(diagonal);
+    m_diagonal = Value_traits<Stored>::from(diagonal);
     for(std::size_t k = 0; k < count; ++k) {
       m_column[k * Sliced_pattern::slice_rows] = std::uint32_t(column[k]);
-      m_re[k * Sliced_pattern::slice_rows] = Real(re[k]);
+      m_re[k * Sliced_pattern::slice_rows] = Value_traits<Stored>::from(re[k]);
     }
     m_count = count;
   }
@@ -51,34 +53,45 @@ public:
 
 private:
   std::uint32_t* m_column;
-  Real* m_re;
-  Real& m_diagonal;
+  Stored* m_re;
+  Stored& m_diagonal;
   std::size_t m_count = 0;
 };
 
 /*!
 \ingroup PkgHLSCMMultigrid
 
-The class `Matrix_builder` makes a `Hermitian_matrix` row by row.
+The class `Matrix_builder` makes a `Self_adjoint_matrix` row by row.
 */
 class Matrix_builder
 {
 public:
   /// Returns the matrix of the given row lengths, whose row i is what `fill(i, row)` leaves in the
-  /// empty `Matrix_row` that it is given. A row may be shorter than announced, not longer. One call
-  /// a row, in any order and possibly at the same time.
-  template <class Real, class Fill>
-  static Hermitian_matrix<Real> build(const std::vector<std::uint32_t>& row_lengths,
-                                      const Fill& fill)
+  /// empty `Self_adjoint_matrix<Value>::Row` that it is given. A row may be shorter than announced,
+  /// not longer. One call a row, in any order and possibly at the same time.
+  template <class Value, class Fill>
+  static Self_adjoint_matrix<Value> build_matrix(const std::vector<std::uint32_t>& row_lengths,
+                                                 const Fill& fill)
   {
-    return build<Real>(row_lengths, [](std::uint32_t, Real_row<Real>&) { return false; }, fill);
+    const auto none = [](std::uint32_t, Real_row<typename Value_traits<Value>::Stored>&) {
+      return false;
+    };
+    return build_matrix<Value>(row_lengths, none, fill);
   }
 
   /// Returns the same matrix, where most rows are real: `fill_real(i, row)` sets the `Real_row` and
   /// returns `true`, or returns `false`, and `fill(i, row)` is called.
-  template <class Real, class Fill_real, class Fill>
+  template <class Value, class Fill_real, class Fill>
+  static Self_adjoint_matrix<Value> build_matrix(const std::vector<std::uint32_t>& row_lengths,
+                                                 const Fill_real& fill_real, const Fill& fill);
+
+  /// Returns `build_matrix()` of complex numbers.
+  template <class Real, class... Fills>
   static Hermitian_matrix<Real> build(const std::vector<std::uint32_t>& row_lengths,
-                                      const Fill_real& fill_real, const Fill& fill);
+                                      const Fills&... fills)
+  {
+    return build_matrix<std::complex<Real>>(row_lengths, fills...);
+  }
 
 private:
   static constexpr std::size_t rows = Sliced_pattern::slice_rows;
@@ -87,15 +100,20 @@ private:
   static void sort_slots(const std::vector<std::uint32_t>& lengths, Sliced_pattern& pattern);
   static void sort_window(const std::vector<std::uint32_t>& lengths, std::size_t begin,
                           std::size_t end, Sliced_pattern& pattern);
-  template <class Real>
-  static void store_row(const Matrix_row& row, std::size_t slot, Sliced_pattern& pattern,
-                        Hermitian_matrix<Real>& matrix, std::vector<Real>& imaginary_of_block);
-  template <class Real>
+  // The imaginary parts of a block of slices, before they are joined.
+  template <class Value>
+  using Imaginary = std::vector<typename Value_traits<Value>::Real>;
+
+  template <class Value>
+  static void store_row(const typename Self_adjoint_matrix<Value>::Row& row, std::size_t slot,
+                        Sliced_pattern& pattern, Self_adjoint_matrix<Value>& matrix,
+                        Imaginary<Value>& imaginary_of_block);
+  template <class Value>
   static void pad_row(std::size_t count, std::size_t slot, Sliced_pattern& pattern,
-                      Hermitian_matrix<Real>& matrix);
-  template <class Real>
-  static void join_imaginary(std::vector<std::vector<Real>>& blocks, Sliced_pattern& pattern,
-                             Hermitian_matrix<Real>& matrix);
+                      Self_adjoint_matrix<Value>& matrix);
+  template <class Value>
+  static void join_imaginary(std::vector<Imaginary<Value>>& blocks, Sliced_pattern& pattern,
+                             Self_adjoint_matrix<Value>& matrix);
 };
 
 // Sorts the rows of a window by length, longest first, stably.
@@ -137,45 +155,52 @@ inline void Matrix_builder::sort_slots(const std::vector<std::uint32_t>& lengths
     pattern.slice_begin[s + 1] += pattern.slice_begin[s];
 }
 
-template <class Real>
-void Matrix_builder::store_row(const Matrix_row& row, std::size_t slot, Sliced_pattern& pattern,
-                               Hermitian_matrix<Real>& matrix,
-                               std::vector<Real>& imaginary_of_block)
+template <class Value>
+void Matrix_builder::store_row(const typename Self_adjoint_matrix<Value>::Row& row,
+                               std::size_t slot, Sliced_pattern& pattern,
+                               Self_adjoint_matrix<Value>& matrix,
+                               Imaginary<Value>& imaginary_of_block)
 {
+  typedef Value_traits<Value> Traits;
+  typedef typename Traits::Real Real;
   const std::size_t s = slot / rows, r = slot % rows;
   const std::size_t width = pattern.slice_begin[s + 1] - pattern.slice_begin[s];
-  matrix.m_diagonal[pattern.row_of_slot[slot]] = Real(row.diagonal);
+  matrix.m_diagonal[pattern.row_of_slot[slot]]
+    = Value_traits<typename Traits::Diagonal>::from(row.diagonal);
   for(std::size_t k = 0; k < row.entries.size(); ++k) {
     const std::size_t at = (pattern.slice_begin[s] + k) * rows + r;
     pattern.column[at] = row.entries[k].column;
-    matrix.m_re[at] = Real(row.entries[k].re);
-    if(row.entries[k].im == 0.)
+    matrix.m_main[at]
+      = Value_traits<typename Traits::Stored>::from(internal::main_part(row.entries[k]));
+    const double im = internal::imaginary_part(row.entries[k]);
+    if(im == 0.)
       continue;
     if(pattern.imaginary[s] == Sliced_pattern::none) { // counted from the begin of the block
       pattern.imaginary[s] = std::uint32_t(imaginary_of_block.size() / rows);
       imaginary_of_block.resize(imaginary_of_block.size() + width * rows, Real(0));
     }
-    imaginary_of_block[(pattern.imaginary[s] + k) * rows + r] = Real(row.entries[k].im);
+    imaginary_of_block[(pattern.imaginary[s] + k) * rows + r] = Real(im);
   }
 }
 
 // Fills what is left of a row of `count` entries. Padding refers to the row itself, which is in the
 // cache.
-template <class Real>
+template <class Value>
 void Matrix_builder::pad_row(std::size_t count, std::size_t slot, Sliced_pattern& pattern,
-                             Hermitian_matrix<Real>& matrix)
+                             Self_adjoint_matrix<Value>& matrix)
 {
   const std::size_t s = slot / rows, end = pattern.slice_begin[s + 1];
   for(std::size_t k = pattern.slice_begin[s] + count; k < end; ++k) {
     pattern.column[k * rows + slot % rows] = pattern.row_of_slot[slot];
-    matrix.m_re[k * rows + slot % rows] = Real(0);
+    matrix.m_main[k * rows + slot % rows]
+      = Value_traits<typename Value_traits<Value>::Stored>::zero();
   }
 }
 
 // Puts the imaginary parts of the blocks one after the other.
-template <class Real>
-void Matrix_builder::join_imaginary(std::vector<std::vector<Real>>& blocks,
-                                    Sliced_pattern& pattern, Hermitian_matrix<Real>& matrix)
+template <class Value>
+void Matrix_builder::join_imaginary(std::vector<Imaginary<Value>>& blocks,
+                                    Sliced_pattern& pattern, Self_adjoint_matrix<Value>& matrix)
 {
   for(std::size_t b = 0; b < blocks.size(); ++b) {
     const std::uint32_t offset = std::uint32_t(matrix.m_im.size() / rows);
@@ -187,47 +212,51 @@ void Matrix_builder::join_imaginary(std::vector<std::vector<Real>>& blocks,
   }
 }
 
-template <class Real, class Fill_real, class Fill>
-Hermitian_matrix<Real> Matrix_builder::build(const std::vector<std::uint32_t>& row_lengths,
-                                             const Fill_real& fill_real, const Fill& fill)
+template <class Value, class Fill_real, class Fill>
+Self_adjoint_matrix<Value>
+Matrix_builder::build_matrix(const std::vector<std::uint32_t>& row_lengths,
+                             const Fill_real& fill_real, const Fill& fill)
 {
+  typedef Value_traits<Value> Traits;
+  typedef Value_traits<typename Traits::Diagonal> Diagonal_traits;
+  typedef typename Self_adjoint_matrix<Value>::Row Row;
   auto pattern = std::make_shared<Sliced_pattern>();
   sort_slots(row_lengths, *pattern);
   const std::size_t slices = pattern->slice_begin.size() - 1;
   const std::size_t size = pattern->slice_begin[slices] * rows;
   pattern->imaginary.assign(slices, Sliced_pattern::none);
   Blocked_execution::resize_blocked(pattern->column, size);
-  Hermitian_matrix<Real> matrix;
-  matrix.m_re.resize(size);
+  Self_adjoint_matrix<Value> matrix;
+  matrix.m_main.resize(size);
   if(slices > 0) // its last slots may have no row
-    std::fill(matrix.m_re.begin() + pattern->slice_begin[slices - 1] * rows, matrix.m_re.end(),
-              Real(0));
-  matrix.m_diagonal.assign(pattern->rows, Real(0));
-  std::vector<std::vector<Real>> imaginary(
+    std::fill(matrix.m_main.begin() + pattern->slice_begin[slices - 1] * rows,
+              matrix.m_main.end(), Value_traits<typename Traits::Stored>::zero());
+  matrix.m_diagonal.assign(pattern->rows, Diagonal_traits::zero());
+  std::vector<Imaginary<Value>> imaginary(
     Blocked_execution::number_of_blocks(slices, block_slices));
   Blocked_execution::blocked_for(pattern->rows, block_slices * rows,
                                  [&](std::size_t begin, std::size_t end) {
-    Matrix_row row;
+    Row row;
     for(std::size_t slot = begin; slot < end; ++slot) {
       const std::uint32_t i = pattern->row_of_slot[slot];
       const std::size_t at // somewhere in the arrays even if the row has no entries
         = (std::min)(pattern->slice_begin[slot / rows] * rows + slot % rows, size);
-      Real_row<Real> place(pattern->column.data() + at, matrix.m_re.data() + at,
-                           matrix.m_diagonal[i]);
+      Real_row<typename Traits::Stored> place(pattern->column.data() + at,
+                                              matrix.m_main.data() + at, matrix.m_diagonal[i]);
       std::size_t count = 0;
       if(fill_real(i, place))
         count = place.count();
       else {
-        row.diagonal = 0.;
+        row.diagonal = Value_traits<typename Row::Diagonal>::zero();
         row.entries.clear();
         fill(i, row);
-        store_row(row, slot, *pattern, matrix, imaginary[begin / (block_slices * rows)]);
+        store_row<Value>(row, slot, *pattern, matrix, imaginary[begin / (block_slices * rows)]);
         count = row.entries.size();
       }
       pad_row(count, slot, *pattern, matrix);
     }
   });
-  join_imaginary(imaginary, *pattern, matrix);
+  join_imaginary<Value>(imaginary, *pattern, matrix);
   matrix.m_pattern = std::move(pattern);
   return matrix;
 }

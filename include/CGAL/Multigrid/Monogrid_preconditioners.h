@@ -6,6 +6,7 @@
 
 #include <CGAL/Multigrid/Hermitian_matrix.h>
 
+#include <complex>
 #include <cstdint>
 #include <vector>
 
@@ -15,23 +16,26 @@ namespace Multigrid {
 /*!
 \ingroup PkgHLSCMMultigrid
 
-The class `Jacobi_preconditioner` divides by the diagonal.
+The class `Diagonal_preconditioner` divides by the diagonal.
 
 \cgalModels{MultigridPreconditioner}
 */
-template <class Real>
-class Jacobi_preconditioner
+template <class Value>
+class Diagonal_preconditioner
 {
 public:
+  typedef Value_vector<Value> Vector; ///< a vector
+
   /// Constructs it for a matrix; rows of zeros, those of pins, get 0.
-  explicit Jacobi_preconditioner(const Hermitian_matrix<Real>& h) : m_inverse(h.size())
+  explicit Diagonal_preconditioner(const Self_adjoint_matrix<Value>& h) : m_inverse(h.size())
   {
+    typedef Value_traits<Diagonal> Traits;
     for(std::size_t i = 0; i < h.size(); ++i)
-      m_inverse[i] = h.diagonal()[i] > 0 ? Real(1) / h.diagonal()[i] : Real(0);
+      m_inverse[i] = Traits::inverse(Value_traits<typename Traits::Double>::from(h.diagonal()[i]));
   }
 
   /// Sets \f$ z = D^{-1} r \f$.
-  void operator()(const Complex_vector<Real>& r, Complex_vector<Real>& z) const
+  void operator()(const Vector& r, Vector& z) const
   {
     z.resize(r.size());
     for(std::size_t i = 0; i < r.size(); ++i)
@@ -39,52 +43,56 @@ public:
   }
 
 private:
-  std::vector<Real> m_inverse;
+  typedef typename Value_traits<Value>::Diagonal Diagonal;
+
+  std::vector<Diagonal> m_inverse;
 };
 
 /*!
 \ingroup PkgHLSCMMultigrid
 
-The class `Symmetric_gauss_seidel_preconditioner` makes a forward and a backward Gauss-Seidel sweep
-in the order of the rows: \f$ z = (D + L)^{-H} D (D + L)^{-1} r \f$. It needs no parameter and
-exists for every matrix with a positive diagonal.
+The class `Gauss_seidel_preconditioner` makes a forward and a backward Gauss-Seidel sweep in the
+order of the rows: \f$ z = (D + L)^{-H} D (D + L)^{-1} r \f$. It needs no parameter and exists for
+every matrix with a positive diagonal.
 
 \cgalModels{MultigridPreconditioner}
 */
-template <class Real>
-class Symmetric_gauss_seidel_preconditioner
+template <class Value>
+class Gauss_seidel_preconditioner
 {
 public:
-  typedef std::complex<Real> Complex; ///< an entry
+  typedef Value_vector<Value> Vector; ///< a vector
 
   /// Constructs it for a matrix, whose entries it copies into rows.
-  explicit Symmetric_gauss_seidel_preconditioner(const Hermitian_matrix<Real>& h);
+  explicit Gauss_seidel_preconditioner(const Self_adjoint_matrix<Value>& h);
 
   /// Sets `z` to the result of the two sweeps on `r`.
-  void operator()(const Complex_vector<Real>& r, Complex_vector<Real>& z) const;
+  void operator()(const Vector& r, Vector& z) const;
 
 private:
+  typedef Value_traits<Value> Traits;
+  typedef Value_traits<typename Traits::Diagonal> Diagonal_traits;
   struct Entry
   {
     std::uint32_t column;
-    Complex value;
+    Value value;
   };
 
-  std::vector<Real> m_diagonal;
+  std::vector<typename Traits::Diagonal> m_diagonal;
   std::vector<std::uint32_t> m_begin, m_middle; // of each row: all entries, those above the diagonal
   std::vector<Entry> m_entries;
 };
 
-template <class Real>
-Symmetric_gauss_seidel_preconditioner<Real>::
-Symmetric_gauss_seidel_preconditioner(const Hermitian_matrix<Real>& h)
+template <class Value>
+Gauss_seidel_preconditioner<Value>::
+Gauss_seidel_preconditioner(const Self_adjoint_matrix<Value>& h)
   : m_diagonal(h.diagonal()), m_begin(1, 0)
 {
   const std::vector<std::uint32_t> slot = h.slot_of_row();
   for(std::uint32_t i = 0; i < h.size(); ++i) {
     for(const bool above : {false, true}) {
-      h.for_each_entry(slot[i], [&](std::uint32_t j, Complex value) {
-        if((j > i) == above && m_diagonal[j] > 0)
+      h.for_each_entry(slot[i], [&](std::uint32_t j, const Value& value) {
+        if((j > i) == above && Diagonal_traits::is_positive(m_diagonal[j]))
           m_entries.push_back({j, value});
       });
       if(!above)
@@ -94,29 +102,39 @@ Symmetric_gauss_seidel_preconditioner(const Hermitian_matrix<Real>& h)
   }
 }
 
-template <class Real>
-void Symmetric_gauss_seidel_preconditioner<Real>::
-operator()(const Complex_vector<Real>& r, Complex_vector<Real>& z) const
+template <class Value>
+void Gauss_seidel_preconditioner<Value>::operator()(const Vector& r, Vector& z) const
 {
+  typedef typename Traits::Vector_value Vector_value;
   const std::size_t n = r.size();
-  z.assign(n, Complex(0));
+  z.assign(n, Value_traits<Vector_value>::zero());
   for(std::size_t i = 0; i < n; ++i) { // (D + L) z = r
-    if(!(m_diagonal[i] > 0))
+    if(!Diagonal_traits::is_positive(m_diagonal[i]))
       continue;
-    Complex sum = r[i];
+    Vector_value sum = r[i];
     for(std::uint32_t e = m_begin[i]; e < m_middle[i]; ++e)
       sum -= m_entries[e].value * z[m_entries[e].column];
-    z[i] = sum / m_diagonal[i];
+    z[i] = Traits::quotient(sum, m_diagonal[i]);
   }
   for(std::size_t i = n; i-- > 0;) { // (D + L^H) z = D z
-    if(!(m_diagonal[i] > 0))
+    if(!Diagonal_traits::is_positive(m_diagonal[i]))
       continue;
-    Complex sum = 0;
+    Vector_value sum = Value_traits<Vector_value>::zero();
     for(std::uint32_t e = m_middle[i]; e < m_begin[i + 1]; ++e)
       sum += m_entries[e].value * z[m_entries[e].column];
-    z[i] -= sum / m_diagonal[i];
+    z[i] -= Traits::quotient(sum, m_diagonal[i]);
   }
 }
+
+/// \ingroup PkgHLSCMMultigrid
+/// `Diagonal_preconditioner` for complex numbers.
+template <class Real>
+using Jacobi_preconditioner = Diagonal_preconditioner<std::complex<Real>>;
+
+/// \ingroup PkgHLSCMMultigrid
+/// `Gauss_seidel_preconditioner` for complex numbers.
+template <class Real>
+using Symmetric_gauss_seidel_preconditioner = Gauss_seidel_preconditioner<std::complex<Real>>;
 
 } // namespace Multigrid
 } // namespace CGAL

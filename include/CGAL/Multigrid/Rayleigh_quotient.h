@@ -7,8 +7,6 @@
 #include <CGAL/Multigrid/Iteration_control.h>
 #include <CGAL/Multigrid/vector_operations.h>
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -47,24 +45,26 @@ public:
   const std::vector<Entry>& entries() const { return m_entries; }
 
   /// Returns \f$ x^H B y \f$.
-  template <class Real>
-  std::complex<double> inner_product(const Complex_vector<Real>& x,
-                                     const Complex_vector<Real>& y) const
+  template <class V>
+  typename Value_traits<V>::Inner inner_product(const std::vector<V>& x,
+                                                const std::vector<V>& y) const
   {
-    std::complex<double> sum = 0.;
+    typedef Value_traits<typename Value_traits<V>::Double> Traits;
+    typename Value_traits<V>::Inner sum = 0.;
     for(const Entry& e : m_entries)
-      sum += e.value * std::conj(std::complex<double>(x[e.row])) * std::complex<double>(y[e.row]);
+      sum += Traits::product(e.value * Traits::from(x[e.row]), Traits::from(y[e.row]));
     return sum;
   }
 
   /// Subtracts a constant from `x` so that \f$ \sum_i b_i x_i = 0 \f$.
-  template <class Real>
-  void remove_mean(Complex_vector<Real>& x) const
+  template <class V>
+  void remove_mean(std::vector<V>& x) const
   {
-    std::complex<double> sum = 0.;
+    typedef Value_traits<typename Value_traits<V>::Double> Traits;
+    typename Value_traits<V>::Double sum = Traits::zero();
     for(const Entry& e : m_entries)
-      sum += e.value * std::complex<double>(x[e.row]);
-    const std::complex<Real> mean(sum / m_total);
+      sum += e.value * Traits::from(x[e.row]);
+    const V mean = Value_traits<V>::from(sum / m_total);
     for_each_index(x.size(), [&](std::size_t i) { x[i] -= mean; });
   }
 
@@ -76,58 +76,139 @@ private:
 namespace internal {
 
 // A vector of the iteration and its product with H.
-template <class Real>
+template <class V>
 struct Vector_and_product
 {
-  Complex_vector<Real> x, hx;
+  typedef typename Value_traits<V>::Inner Inner;
+  typedef typename Value_traits<V>::Scalar Scalar;
+
+  std::vector<V> x, hx;
 
   explicit Vector_and_product(std::size_t n) : x(n), hx(n) {}
 
-  void scale(const std::complex<double>& factor)
+  void scale(const Inner& factor)
   {
-    const std::complex<Real> s(factor);
-    for(Complex_vector<Real>* v : {&x, &hx})
+    const Scalar s(factor);
+    for(std::vector<V>* v : {&x, &hx})
       for_each_index(v->size(), [&](std::size_t i) { (*v)[i] *= s; });
   }
-  void add_scaled(const std::complex<double>& s, const Vector_and_product& other)
+  void add_scaled(const Inner& s, const Vector_and_product& other)
   {
-    Multigrid::add_scaled(std::complex<Real>(s), other.x, x);
-    Multigrid::add_scaled(std::complex<Real>(s), other.hx, hx);
+    Multigrid::add_scaled(Scalar(s), other.x, x);
+    Multigrid::add_scaled(Scalar(s), other.hx, hx);
   }
 };
 
+// A matrix of at most three rows and columns. Eigen's solvers for such small eigenvalue problems would
+// take a fifth of the time in which a program with the parameterizer is compiled.
+template <class Inner>
+using Small_matrix = std::array<std::array<Inner, 3>, 3>;
+
+// Diagonalizes the first n rows and columns of a Hermitian matrix by Jacobi's rotations; returns its
+// eigenvectors as columns.
+template <class Inner>
+Small_matrix<Inner> diagonalize(int n, Small_matrix<Inner>& a)
+{
+  constexpr int most_sweeps = 30; // quadratic convergence makes four or five of it
+  constexpr double negligible = 1e-17;
+  Small_matrix<Inner> v = {};
+  for(int i = 0; i < n; ++i)
+    v[i][i] = 1.;
+  bool is_diagonal = false;
+  for(int sweep = 0; sweep < most_sweeps && !is_diagonal; ++sweep) {
+    is_diagonal = true;
+    for(int p = 0; p < n; ++p)
+      for(int q = p + 1; q < n; ++q) {
+        const double r = std::abs(a[p][q]), app = std::real(a[p][p]), aqq = std::real(a[q][q]);
+        if(!(r > negligible * (std::abs(app) + std::abs(aqq))))
+          continue;
+        is_diagonal = false;
+        // The rotation that makes of the columns x and y: c x - s z y and s x + c z y
+        const Inner z = Value_traits<Inner>::adjoint(a[p][q]) / r;
+        const double theta = (aqq - app) / (2. * r);
+        const double t = (theta < 0. ? -1. : 1.) / (std::abs(theta) + std::hypot(theta, 1.));
+        const double c = 1. / std::hypot(t, 1.), s = t * c;
+        for(Small_matrix<Inner>* m : {&a, &v})
+          for(int i = 0; i < n; ++i) {
+            const Inner x = (*m)[i][p], y = z * (*m)[i][q];
+            (*m)[i][p] = c * x - s * y;
+            (*m)[i][q] = s * x + c * y;
+          }
+        for(int j = 0; j < n; ++j) {
+          const Inner x = a[p][j], y = Value_traits<Inner>::adjoint(z) * a[q][j];
+          a[p][j] = c * x - s * y;
+          a[q][j] = s * x + c * y;
+        }
+        a[p][q] = a[q][p] = 0.;
+      }
+  }
+  return v;
+}
+
+// The coefficients y of least y^H E y / y^H N y with y_0 >= 0, where E is definite and N semidefinite;
+// none if E is nearly singular.
+template <class Inner>
+std::vector<Inner> best_coefficients(int n, Small_matrix<Inner> energy,
+                                     const Small_matrix<Inner>& norm)
+{
+  typedef Value_traits<Inner> Traits;
+  constexpr double nearly_singular = 1e-10;
+  // In units in which each vector has the energy 1
+  std::array<double, 3> unit = {};
+  for(int i = 0; i < n; ++i) {
+    if(!(std::real(energy[i][i]) > 0.))
+      return {};
+    unit[i] = 1. / std::sqrt(std::real(energy[i][i]));
+  }
+  for(int i = 0; i < n; ++i)
+    for(int j = 0; j < n; ++j)
+      energy[i][j] *= unit[i] * unit[j];
+  // W^H E W = 1 for the columns of W, and the largest eigenvalue of W^H N W is what is looked for.
+  Small_matrix<Inner> w = diagonalize(n, energy), reduced = {};
+  for(int j = 0; j < n; ++j) {
+    if(!(std::real(energy[j][j]) > nearly_singular))
+      return {};
+    for(int i = 0; i < n; ++i)
+      w[i][j] *= unit[i] / std::sqrt(std::real(energy[j][j]));
+  }
+  for(int i = 0; i < n; ++i)
+    for(int j = 0; j < n; ++j)
+      for(int k = 0; k < n; ++k)
+        for(int l = 0; l < n; ++l)
+          reduced[i][j] += Traits::adjoint(w[k][i]) * norm[k][l] * w[l][j];
+  const Small_matrix<Inner> u = diagonalize(n, reduced);
+  int best = 0;
+  for(int j = 1; j < n; ++j)
+    if(std::real(reduced[j][j]) > std::real(reduced[best][best]))
+      best = j;
+  std::vector<Inner> y(n, Inner(0.));
+  for(int i = 0; i < n; ++i)
+    for(int k = 0; k < n; ++k)
+      y[i] += w[i][k] * u[k][best];
+  const double size = std::abs(y[0]);
+  const Inner phase = size > 0. ? Inner(Traits::adjoint(y[0]) / size) : Inner(1.);
+  for(Inner& value : y)
+    value *= phase;
+  return y;
+}
+
 // The combination of the first `count` vectors with the smallest quotient, by its coefficients;
 // none if the vectors are linearly dependent.
-template <class Real>
-std::vector<std::complex<double>>
-best_combination(const std::array<const Vector_and_product<Real>*, 3>& vectors, int count,
+template <class V>
+std::vector<typename Value_traits<V>::Inner>
+best_combination(const std::array<const Vector_and_product<V>*, 3>& vectors, int count,
                  const Diagonal_mass& mass)
 {
-  Eigen::MatrixXcd energy(count, count), norm(count, count);
+  typedef typename Value_traits<V>::Inner Inner;
+  Small_matrix<Inner> energy = {}, norm = {};
   for(int i = 0; i < count; ++i)
     for(int j = i; j < count; ++j) {
-      energy(i, j) = inner_product(vectors[i]->x, vectors[j]->hx);
-      norm(i, j) = mass.inner_product(vectors[i]->x, vectors[j]->x);
-      energy(j, i) = std::conj(energy(i, j));
-      norm(j, i) = std::conj(norm(i, j));
+      energy[i][j] = inner_product(vectors[i]->x, vectors[j]->hx);
+      norm[i][j] = mass.inner_product(vectors[i]->x, vectors[j]->x);
+      energy[j][i] = Value_traits<Inner>::adjoint(energy[i][j]);
+      norm[j][i] = Value_traits<Inner>::adjoint(norm[i][j]);
     }
-  // In units in which each vector has the energy 1. The energy is definite, the mass is not: so the
-  // largest mass for a given energy is looked for.
-  Eigen::VectorXd unit(count);
-  for(int i = 0; i < count; ++i) {
-    if(!(energy(i, i).real() > 0.))
-      return {};
-    unit(i) = 1. / std::sqrt(energy(i, i).real());
-  }
-  energy = unit.asDiagonal() * energy * unit.asDiagonal();
-  norm = unit.asDiagonal() * norm * unit.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> condition(energy,
-                                                                  Eigen::EigenvaluesOnly);
-  if(!(condition.eigenvalues()(0) > 1e-10))
-    return {};
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXcd> solver(norm, energy);
-  const Eigen::VectorXcd y = unit.asDiagonal() * solver.eigenvectors().col(count - 1);
-  return std::vector<std::complex<double>>(y.data(), y.data() + count);
+  return best_coefficients(count, energy, norm);
 }
 
 } // namespace internal
@@ -140,7 +221,7 @@ Minimizes the Rayleigh quotient \f$ x^H H x / x^H B x \f$ over the vectors with 
 `x`: each step takes the best combination of the vector, its preconditioned residual and the last
 direction. \f$ H \f$ must be semidefinite with the constants as kernel.
 
-\param apply `apply(x, y)` sets y to \f$ H x \f$
+\param apply \f$ H \f$, a model of `MultigridOperator`: `apply(x, y)` sets y to \f$ H x \f$
 \param mass \f$ B \f$
 \param x the vector; in the end \f$ x^H B x = 1 \f$
 \param precondition `precondition(r, w)` sets w to an approximation of \f$ H^{-1} r \f$ up to a
@@ -151,25 +232,26 @@ direction. \f$ H \f$ must be semidefinite with the constants as kernel.
 
 Seven vectors beside `x`; one product with the matrix, one preconditioning a step.
 */
-template <class Real, class Apply, class Precondition, class Observe>
+template <class V, class Apply, class Precondition, class Observe>
 Iteration_report minimize_rayleigh_quotient(const Apply& apply, const Diagonal_mass& mass,
-                                            Complex_vector<Real>& x,
+                                            std::vector<V>& x,
                                             const Precondition& precondition,
                                             const Energy_stop& stop, const Observe& observe)
 {
-  typedef internal::Vector_and_product<Real> Pair;
+  typedef internal::Vector_and_product<V> Pair;
+  typedef typename Value_traits<V>::Real Real;
   const std::size_t n = x.size();
   Pair current(n), residual(n), direction(n);
-  Complex_vector<Real> r(n);
+  std::vector<V> r(n);
   bool has_direction = false;
   current.x.swap(x);
   mass.remove_mean(current.x);
   apply(current.x, current.hx);
   const auto normalize = [&](Pair& pair) {
-    pair.scale(1. / std::sqrt(mass.inner_product(pair.x, pair.x).real()));
+    pair.scale(1. / std::sqrt(std::real(mass.inner_product(pair.x, pair.x))));
   };
   normalize(current);
-  Iteration_control control(stop, 0.5 * inner_product(current.x, current.hx).real());
+  Iteration_control control(stop, 0.5 * std::real(inner_product(current.x, current.hx)));
   while(control.goes_on()) {
     const double quotient = 2. * control.report().energy;
     r = current.hx;
@@ -178,9 +260,9 @@ Iteration_report minimize_rayleigh_quotient(const Apply& apply, const Diagonal_m
     precondition(r, residual.x);
     mass.remove_mean(residual.x);
     apply(residual.x, residual.hx);
-    std::vector<std::complex<double>> y;
+    std::vector<typename Pair::Inner> y;
     for(int count = has_direction ? 3 : 2; y.empty() && count > 1; --count)
-      y = internal::best_combination<Real>({&current, &residual, &direction}, count, mass);
+      y = internal::best_combination<V>({&current, &residual, &direction}, count, mass);
     if(y.empty()) { // the residual is 0, or no longer above rounding
       control.end(true);
       break;
@@ -197,7 +279,7 @@ Iteration_report minimize_rayleigh_quotient(const Apply& apply, const Diagonal_m
     current.scale(y[0]);
     current.add_scaled(1., direction);
     normalize(current);
-    const double energy = 0.5 * inner_product(current.x, current.hx).real();
+    const double energy = 0.5 * std::real(inner_product(current.x, current.hx));
     const double change = control.watches_changes() ? largest_entry(direction.x) : 0.;
     control.step(energy, (std::max)(0., control.report().energy - energy), change, observe);
   }

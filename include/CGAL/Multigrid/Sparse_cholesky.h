@@ -11,9 +11,14 @@
 #include <Eigen/CholmodSupport>
 #endif
 
+#include <CGAL/assertions.h>
+
 #include <algorithm>
 #include <complex>
+#include <cstddef>
 #include <cstdint>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -22,10 +27,11 @@ namespace Multigrid {
 /*!
 \ingroup PkgHLSCMMultigrid
 
-The class `Sparse_cholesky` solves the system of a `Hermitian_matrix` by a sparse Cholesky
+The class `Sparse_cholesky` solves the system of a `Self_adjoint_matrix` by a sparse Cholesky
 factorization in double precision. Rows of zeros (pins) are left out; their unknowns become 0.
 
-\tparam Factorization a sparse Cholesky class in the manner of Eigen's, on complex matrices
+\tparam Factorization a sparse Cholesky class in the manner of Eigen's, on complex matrices, or for
+        real numbers and blocks on real ones, such as `Real_factorization`
 
 \cgalModels{MultigridCoarsestSolver}
 */
@@ -34,18 +40,31 @@ class Sparse_cholesky
 {
 public:
   /// Factorizes `matrix`; returns whether that succeeded.
-  template <class Real>
-  bool factorize(const Hermitian_matrix<Real>& matrix);
+  template <class Value>
+  bool factorize(const Self_adjoint_matrix<Value>& matrix);
 
-  /// Solves for `x`; `f` and `x` have the size of the matrix.
-  template <class Real>
-  void solve(const Complex_vector<Real>& f, Complex_vector<Real>& x);
+  /// Returns whether the last call of `factorize()` succeeded; `false` before.
+  bool is_factorized() const { return m_is_factorized; }
+
+  /// Solves for `x`; `f` has the size of the matrix.
+  ///
+  /// \pre `is_factorized()`
+  template <class V>
+  void solve(const std::vector<V>& f, std::vector<V>& x);
 
 private:
+  typedef typename Factorization::Scalar Scalar;
+  typedef Eigen::Matrix<Scalar, Eigen::Dynamic, 1> Dense_vector;
+
   Factorization m_factorization;
   std::vector<std::uint32_t> m_free; // the rows that are not pinned
-  Eigen::VectorXcd m_right, m_left;
+  Dense_vector m_right, m_left;
+  bool m_is_factorized = false;
 };
+
+/// \ingroup PkgHLSCMMultigrid
+/// Eigen's factorization of real matrices.
+typedef Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> Real_factorization;
 
 /// \ingroup PkgHLSCMMultigrid
 /// The factorization for large systems: CHOLMOD's supernodal one if the macro
@@ -58,33 +77,45 @@ typedef Eigen::SimplicialLDLT<Eigen::SparseMatrix<std::complex<double>>> Large_f
 
 namespace internal {
 
-// The lower triangle of the free rows as a column-major matrix of Eigen.
-template <class Real>
-Eigen::SparseMatrix<std::complex<double>>
-free_part(const Hermitian_matrix<Real>& matrix, std::vector<std::uint32_t>& free)
+// The lower triangle of the free rows as a column-major matrix of Eigen; a block becomes the numbers
+// that it consists of.
+template <class Scalar, class Value>
+Eigen::SparseMatrix<Scalar> free_part(const Self_adjoint_matrix<Value>& matrix,
+                                      std::vector<std::uint32_t>& free)
 {
+  typedef Value_traits<Value> Traits;
+  typedef typename Traits::Diagonal Diagonal;
+  typedef Value_traits<Diagonal> Diagonal_traits;
+  constexpr int rows = Traits::rows;
   const std::uint32_t pinned = std::uint32_t(-1);
   const std::vector<std::uint32_t> slot = matrix.slot_of_row();
   std::vector<std::uint32_t> rank(matrix.size(), pinned);
   free.clear();
   for(std::uint32_t i = 0; i < matrix.size(); ++i)
-    if(matrix.diagonal()[i] != Real(0)) {
+    if(!Diagonal_traits::is_zero(matrix.diagonal()[i])) {
       rank[i] = std::uint32_t(free.size());
       free.push_back(i);
     }
-  Eigen::SparseMatrix<std::complex<double>> result(free.size(), free.size());
-  std::vector<std::pair<std::uint32_t, std::complex<double>>> column;
+  Eigen::SparseMatrix<Scalar> result(rows * free.size(), rows * free.size());
+  std::vector<std::pair<std::uint32_t, Value>> below;
   for(const std::uint32_t j : free) {
-    column.assign(1, {rank[j], std::complex<double>(matrix.diagonal()[j])});
-    matrix.for_each_entry(slot[j], [&](std::uint32_t i, std::complex<Real> value) {
+    below.clear();
+    matrix.for_each_entry(slot[j], [&](std::uint32_t i, const Value& value) {
       if(rank[i] != pinned && rank[i] > rank[j])
-        column.push_back({rank[i], std::conj(std::complex<double>(value))});
+        below.push_back({rank[i], Traits::adjoint(value)});
     });
-    std::sort(column.begin(), column.end(),
+    std::sort(below.begin(), below.end(),
               [](const auto& a, const auto& b) { return a.first < b.first; });
-    result.startVec(rank[j]);
-    for(const auto& [i, value] : column)
-      result.insertBack(i, rank[j]) = value;
+    for(int c = 0; c < rows; ++c) {
+      const std::uint32_t column = rows * rank[j] + c;
+      result.startVec(column);
+      for(int r = c; r < rows; ++r)
+        result.insertBack(rows * rank[j] + r, column)
+          = Diagonal_traits::coefficient(matrix.diagonal()[j], r, c);
+      for(const auto& [i, value] : below)
+        for(int r = 0; r < rows; ++r)
+          result.insertBack(rows * i + r, column) = Traits::coefficient(value, r, c);
+    }
   }
   result.finalize();
   return result;
@@ -93,29 +124,37 @@ free_part(const Hermitian_matrix<Real>& matrix, std::vector<std::uint32_t>& free
 } // namespace internal
 
 template <class Factorization>
-template <class Real>
-bool Sparse_cholesky<Factorization>::factorize(const Hermitian_matrix<Real>& matrix)
+template <class Value>
+bool Sparse_cholesky<Factorization>::factorize(const Self_adjoint_matrix<Value>& matrix)
 {
-  const auto a = internal::free_part(matrix, m_free);
+  static_assert(std::is_convertible_v<typename Value_traits<Value>::Inner, Scalar>,
+                "A complex matrix needs a factorization of complex matrices");
+  const auto a = internal::free_part<Scalar>(matrix, m_free);
+  m_is_factorized = true;
   if(m_free.empty())
     return true;
   m_factorization.compute(a);
-  m_right.resize(m_free.size());
-  return m_factorization.info() == Eigen::Success;
+  m_right.resize(a.rows());
+  m_is_factorized = m_factorization.info() == Eigen::Success;
+  return m_is_factorized;
 }
 
 template <class Factorization>
-template <class Real>
-void Sparse_cholesky<Factorization>::solve(const Complex_vector<Real>& f, Complex_vector<Real>& x)
+template <class V>
+void Sparse_cholesky<Factorization>::solve(const std::vector<V>& f, std::vector<V>& x)
 {
-  x.assign(f.size(), std::complex<Real>(0));
-  if(m_free.empty())
+  CGAL_precondition(is_factorized());
+  typedef Value_traits<V> Traits;
+  constexpr std::size_t rows = Traits::rows;
+  x.assign(f.size(), Traits::zero());
+  if(m_free.empty() || !m_is_factorized)
     return;
   for(std::size_t i = 0; i < m_free.size(); ++i)
-    m_right[i] = std::complex<double>(f[m_free[i]]);
+    for(std::size_t r = 0; r < rows; ++r)
+      m_right[rows * i + r] = Traits::coefficient(f[m_free[i]], int(r), 0);
   m_left = m_factorization.solve(m_right);
   for(std::size_t i = 0; i < m_free.size(); ++i)
-    x[m_free[i]] = std::complex<Real>(m_left[i]);
+    x[m_free[i]] = Traits::from_coefficients(m_left.data() + rows * i);
 }
 
 } // namespace Multigrid

@@ -11,10 +11,103 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace Multigrid {
+
+/*!
+\ingroup PkgHLSCMMultigrid
+
+The struct `Value_traits` says what the multigrid layer has to know of the entries of matrices and
+vectors. There are specializations for `float`, `double`, `std::complex<float>`,
+`std::complex<double>`, and for small square matrices of Eigen, with vectors of as many numbers, in
+`Block_values.h`.
+
+Members, for an entry \f$ v \f$ of a matrix or vector:
+- `Real`: the numbers that it consists of, `components` of them one after the other in memory
+- `Scalar`: what vectors are multiplied by; `Inner`: inner products, in double precision
+- `Vector_value`: an entry of the vectors that a matrix of `Value` multiplies
+- `Diagonal`: an entry on the diagonal of a self-adjoint matrix; `Stored`: one beside it, where it
+  has no imaginary part
+- `Double`: the same in double precision
+- `from(x)`: \f$ x \f$ of another precision; `zero()`, `is_zero(v)`, `adjoint(v)`
+- `product(v, w)`: \f$ v^H w \f$; `squared_norm(v)`: \f$ \|v\|^2 \f$
+- `modulus(v)`: \f$ (v v^H)^{1/2} \f$ in double precision
+- `is_positive(d)`: whether a diagonal entry is; `inverse(d)`: the inverse of one in double precision, 0 if it is not
+  positive; `quotient(x, d)`: \f$ d^{-1} x \f$ for an entry of a vector
+- `rows`, `coefficient(v, r, c)`: the numbers of an entry as a dense matrix or vector;
+  `from_coefficients(p)`: the entry of a vector with the numbers `p[0]`, `p[1]`...
+*/
+template <class Value>
+struct Value_traits;
+
+namespace internal {
+
+// What real and complex numbers have in common.
+template <class Number, class Real_>
+struct Number_traits
+{
+  typedef Real_ Real;
+  typedef Real_ Stored;
+  typedef Real_ Diagonal;
+  typedef Number Scalar;
+  typedef Number Vector_value;
+  typedef std::conditional_t<std::is_same_v<Number, Real>, double, std::complex<double>> Inner;
+  typedef Inner Double;
+  static constexpr bool is_complex = !std::is_same_v<Number, Real>;
+  static constexpr std::size_t components = is_complex ? 2 : 1;
+  static constexpr int rows = 1;
+
+  template <class Other>
+  static Number from(const Other& x) { return Number(x); }
+  static Number zero() { return Number(0); }
+  static bool is_zero(const Number& v) { return v == Number(0); }
+  static Number quotient(const Number& x, const Real& d) { return x / d; }
+  static Double coefficient(const Number& v, int, int) { return Double(v); }
+  template <class Other>
+  static Number from_coefficients(const Other* p) { return Number(*p); }
+};
+
+template <class Real>
+struct Real_traits
+  : Number_traits<Real, Real>
+{
+  static Real adjoint(Real v) { return v; }
+  static double product(Real v, Real w) { return double(v) * double(w); }
+  static Real squared_norm(Real v) { return v * v; }
+  static double modulus(Real v) { return std::abs(double(v)); }
+  static bool is_positive(Real d) { return d > 0; }
+  static Real inverse(double d) { return d > 0. ? Real(1. / d) : Real(0); }
+};
+
+} // namespace internal
+
+template <>
+struct Value_traits<float> : internal::Real_traits<float> {};
+template <>
+struct Value_traits<double> : internal::Real_traits<double> {};
+
+template <class Real>
+struct Value_traits<std::complex<Real>>
+  : internal::Number_traits<std::complex<Real>, Real>
+{
+  typedef std::complex<Real> Complex;
+  static Complex adjoint(const Complex& v) { return std::conj(v); }
+  static std::complex<double> product(const Complex& v, const Complex& w)
+  {
+    return std::conj(std::complex<double>(v)) * std::complex<double>(w);
+  }
+  static Real squared_norm(const Complex& v) { return std::norm(v); }
+  static double modulus(const Complex& v) { return std::sqrt(double(std::norm(v))); }
+};
+
+/// \ingroup PkgHLSCMMultigrid
+/// The vector that a matrix of `Value` multiplies.
+template <class Value>
+using Value_vector = std::vector<typename Value_traits<Value>::Vector_value>;
 
 /// \ingroup PkgHLSCMMultigrid
 /// A vector of complex numbers.
@@ -54,6 +147,21 @@ inline std::complex<double> sum_in_blocks(std::size_t n, const Pair& pair)
     });
 }
 
+// The numbers that the entries of a vector consist of.
+template <class V>
+const typename Value_traits<V>::Real* numbers(const std::vector<V>& x)
+{
+  typedef typename Value_traits<V>::Real Real;
+  static_assert(sizeof(V) == Value_traits<V>::components * sizeof(Real), "no gaps");
+  return reinterpret_cast<const Real*>(x.data());
+}
+
+template <class V>
+typename Value_traits<V>::Real* numbers(std::vector<V>& x)
+{
+  return const_cast<typename Value_traits<V>::Real*>(numbers(std::as_const(x)));
+}
+
 } // namespace internal
 
 /// \ingroup PkgHLSCMMultigrid
@@ -69,51 +177,63 @@ void for_each_index(std::size_t n, const Body& body)
 
 /// \ingroup PkgHLSCMMultigrid
 /// Makes `x` a vector of `n` zeros.
-template <class Real>
-void set_zero(std::size_t n, Complex_vector<Real>& x)
+template <class V>
+void set_zero(std::size_t n, std::vector<V>& x)
 {
   Blocked_execution::resize_blocked(x, n);
-  for_each_index(n, [&x](std::size_t i) { x[i] = 0; });
+  for_each_index(n, [&x](std::size_t i) { x[i] = Value_traits<V>::zero(); });
 }
 
 /// \ingroup PkgHLSCMMultigrid
-/// Returns \f$ a^H b \f$.
-template <class Real, class Other>
-std::complex<double> inner_product(const Complex_vector<Real>& a, const Complex_vector<Other>& b)
+/// Returns \f$ a^H b \f$, where `b` may be of another precision.
+template <class V, class W>
+typename Value_traits<V>::Inner inner_product(const std::vector<V>& a, const std::vector<W>& b)
 {
-  const Real* p = reinterpret_cast<const Real*>(a.data());
-  const Other* q = reinterpret_cast<const Other*>(b.data());
-  return internal::sum_in_blocks<Real>(a.size(), [p, q](std::size_t i, Real& x, Real& y) {
-    x += p[2 * i] * Real(q[2 * i]) + p[2 * i + 1] * Real(q[2 * i + 1]);
-    y += p[2 * i] * Real(q[2 * i + 1]) - p[2 * i + 1] * Real(q[2 * i]);
-  });
+  typedef typename Value_traits<V>::Real Real;
+  const Real* p = internal::numbers(a);
+  const auto* q = internal::numbers(b);
+  if constexpr(Value_traits<V>::is_complex)
+    return internal::sum_in_blocks<Real>(a.size(), [p, q](std::size_t i, Real& x, Real& y) {
+      x += p[2 * i] * Real(q[2 * i]) + p[2 * i + 1] * Real(q[2 * i + 1]);
+      y += p[2 * i] * Real(q[2 * i + 1]) - p[2 * i + 1] * Real(q[2 * i]);
+    });
+  else
+    return internal::sum_in_blocks<Real>(a.size() * Value_traits<V>::components,
+                                         [p, q](std::size_t i, Real& x, Real&) {
+      x += p[i] * Real(q[i]);
+    }).real();
 }
 
 /// \ingroup PkgHLSCMMultigrid
 /// Returns \f$ \|a\|^2 \f$.
-template <class Real>
-double squared_norm(const Complex_vector<Real>& a)
+template <class V>
+double squared_norm(const std::vector<V>& a)
 {
-  const Real* p = reinterpret_cast<const Real*>(a.data());
-  const std::complex<double> sum
-    = internal::sum_in_blocks<Real>(a.size(), [p](std::size_t i, Real& x, Real& y) {
-        x += p[2 * i] * p[2 * i];
-        y += p[2 * i + 1] * p[2 * i + 1];
-      });
-  return sum.real() + sum.imag();
+  typedef typename Value_traits<V>::Real Real;
+  if constexpr(Value_traits<V>::is_complex) {
+    const Real* p = internal::numbers(a);
+    const std::complex<double> sum
+      = internal::sum_in_blocks<Real>(a.size(), [p](std::size_t i, Real& x, Real& y) {
+          x += p[2 * i] * p[2 * i];
+          y += p[2 * i + 1] * p[2 * i + 1];
+        });
+    return sum.real() + sum.imag();
+  } else
+    return inner_product(a, a);
 }
 
 /// \ingroup PkgHLSCMMultigrid
 /// Returns \f$ \max_i |a_i| \f$.
-template <class Real>
-double largest_entry(const Complex_vector<Real>& a)
+template <class V>
+double largest_entry(const std::vector<V>& a)
 {
+  typedef typename Value_traits<V>::Real Real;
   std::vector<Real> part(Blocked_execution::number_of_blocks(a.size(), internal::block_size), 0);
   Blocked_execution::blocked_for(a.size(), internal::block_size,
                                  [&](std::size_t begin, std::size_t end) {
     Real largest = 0;
     for(std::size_t i = begin; i < end; ++i)
-      largest = (std::max)(largest, std::norm(a[i]));
+      largest = (std::max)(largest, Value_traits<V>::squared_norm(a[i]));
     part[begin / internal::block_size] = largest;
   });
   return part.empty() ? 0. : std::sqrt(double(*std::max_element(part.begin(), part.end())));
@@ -136,17 +256,22 @@ double extent(const Complex_vector<Real>& a)
 
 /// \ingroup PkgHLSCMMultigrid
 /// Adds \f$ s\, x \f$ to `y`.
-template <class Real>
-void add_scaled(std::complex<Real> s, const Complex_vector<Real>& x, Complex_vector<Real>& y)
+template <class V>
+void add_scaled(typename Value_traits<V>::Scalar s, const std::vector<V>& x, std::vector<V>& y)
 {
-  const Real* p = reinterpret_cast<const Real*>(x.data());
-  Real* q = reinterpret_cast<Real*>(y.data());
-  const Real a = s.real(), b = s.imag();
-  for_each_index(x.size(), [=](std::size_t i) {
-    const Real re = p[2 * i], im = p[2 * i + 1];
-    q[2 * i] += a * re - b * im;
-    q[2 * i + 1] += a * im + b * re;
-  });
+  typedef typename Value_traits<V>::Real Real;
+  const Real* p = internal::numbers(x);
+  Real* q = internal::numbers(y);
+  if constexpr(Value_traits<V>::is_complex) {
+    const Real a = s.real(), b = s.imag();
+    for_each_index(x.size(), [=](std::size_t i) {
+      const Real re = p[2 * i], im = p[2 * i + 1];
+      q[2 * i] += a * re - b * im;
+      q[2 * i + 1] += a * im + b * re;
+    });
+  } else
+    for_each_index(x.size() * Value_traits<V>::components,
+                   [=](std::size_t i) { q[i] += s * p[i]; });
 }
 
 } // namespace Multigrid

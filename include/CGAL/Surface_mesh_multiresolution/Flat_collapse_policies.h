@@ -13,6 +13,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_multiresolution {
@@ -26,15 +27,35 @@ enum class Collapse_order
 };
 
 /// \ingroup PkgHLSCMMultiresolution
+/// Why a decimation ended.
+enum class Decimation_status
+{
+  STOPPED,   ///< as asked for: the target was reached, or the stop predicate said so
+  EXHAUSTED, ///< before that, because nothing more could be collapsed
+  CANCELLED, ///< because `progress` said so
+  BAD_INPUT  ///< before it began: a sentence says what is wrong
+};
+
+/// \ingroup PkgHLSCMMultiresolution
 /// The options of `Flat_collapse_engine`.
 struct Flat_collapse_options
 {
-  std::size_t target_vertices = 2000; ///< where to stop
+  std::size_t target_vertices = 0; ///< where to stop; 0: when nothing more can be collapsed
   Collapse_order order = Collapse_order::BATCHED; ///< which collapse comes next
   /// The part of the vertices, the cheapest, that a pass of the batched order may remove.
   double pass_fraction = 0.7;
   /// Told the part done in [0, 1] from time to time; returning false stops early.
   std::function<bool(double)> progress;
+};
+
+/// \ingroup PkgHLSCMMultiresolution
+/// The options of `build_progressive_mesh()` and `progressive_mesh_by_edge_collapse()`.
+struct Progressive_mesh_options
+  : Flat_collapse_options
+{
+  double angular_defect_bound = 70.; ///< a vertex of no smaller defect stays; degrees
+  /// For each vertex, in the order of the mesh, whether it must stay; empty for none.
+  std::vector<bool> is_locked;
 };
 
 /// \ingroup PkgHLSCMMultiresolution

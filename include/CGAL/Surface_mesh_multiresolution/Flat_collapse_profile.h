@@ -9,9 +9,14 @@
 
 #include <CGAL/property_map.h>
 
+#include <boost/graph/graph_traits.hpp>
+#include <boost/iterator/counting_iterator.hpp>
 #include <boost/range/irange.hpp>
 
+#include <algorithm>
+#include <cstddef>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -54,11 +59,21 @@ private:
   std::shared_ptr<std::vector<float>> m_values;
 };
 
+/// \ingroup PkgHLSCMMultiresolution
+/// How many vertices, edges and faces a mesh under decimation has left.
+struct Mesh_counts
+{
+  std::size_t vertices = 0; ///< vertices
+  std::size_t edges = 0;    ///< edges
+  std::size_t faces = 0;    ///< faces
+};
+
 /*!
 \ingroup PkgHLSCMMultiresolution
 
 The class `Flat_surface` is the view of an `Indexed_triangle_mesh` under decimation that collapse
-policies get from a `Flat_collapse_profile`.
+policies get from a `Flat_collapse_profile`. What it tells of numbers of elements is for stop
+predicates, and 0 in the profiles that costs and filters get.
 */
 class Flat_surface
 {
@@ -69,6 +84,19 @@ public:
   Flat_surface(const Indexed_triangle_mesh& mesh, const Indexed_mesh::Vertex_rings& rings)
     : m_mesh(&mesh), m_rings(&rings) {}
 
+  /// Returns the numbers of elements that are left.
+  const Mesh_counts& counts() const { return m_counts; }
+  /// Sets the numbers of elements that are left.
+  void set_counts(const Mesh_counts& counts) { m_counts = counts; }
+  /// Returns the number of faces that are left.
+  friend std::size_t num_faces(const Flat_surface& surface) { return surface.m_counts.faces; }
+  /// Returns a range of as many numbers as there are faces left.
+  friend auto faces(const Flat_surface& surface)
+  {
+    typedef boost::counting_iterator<std::size_t> Iterator;
+    return std::make_pair(Iterator(0), Iterator(surface.m_counts.faces));
+  }
+
   /// Returns the range of all vertices, the removed ones among them.
   friend auto vertices(const Flat_surface& surface)
   {
@@ -78,12 +106,13 @@ public:
   /// Returns the positions.
   const std::vector<Indexed_triangle_mesh::Point_3>& points() const { return m_mesh->points; }
 
-  /// Returns the current connectivity.
+  /// Returns the current connectivity: for each vertex its neighbours, counterclockwise.
   const Indexed_mesh::Vertex_rings& rings() const { return *m_rings; }
 
 private:
   const Indexed_triangle_mesh* m_mesh = nullptr;
   const Indexed_mesh::Vertex_rings* m_rings = nullptr;
+  Mesh_counts m_counts;
 };
 
 /*!
@@ -172,6 +201,8 @@ public:
   const Flat_surface& surface_mesh() const { return m_surface; }
   /// Returns the mesh.
   const Flat_surface& surface() const { return m_surface; }
+  /// Sets what `surface_mesh()` tells a stop predicate of numbers of elements.
+  void set_counts(const Mesh_counts& counts) { m_surface.set_counts(counts); }
   /// Returns the map from vertices to points.
   Vertex_point_map vertex_point_map() const { return Vertex_point_map(m_surface.points().data()); }
   /// Returns the kernel.
@@ -264,5 +295,23 @@ inline Flat_collapse_profile::vertex_descriptor_vector Flat_collapse_profile::li
 
 } // namespace Surface_mesh_multiresolution
 } // namespace CGAL
+
+#ifndef DOXYGEN_RUNNING
+namespace boost {
+
+// What CGAL's stop predicates ask of a mesh.
+template <>
+struct graph_traits<CGAL::Surface_mesh_multiresolution::Flat_surface>
+{
+  typedef CGAL::Indexed_mesh::Vertex_index vertex_descriptor;
+  typedef std::size_t vertices_size_type;
+  typedef std::size_t edges_size_type;
+  typedef std::size_t face_descriptor;
+  typedef std::size_t faces_size_type;
+  typedef boost::counting_iterator<std::size_t> face_iterator;
+};
+
+} // namespace boost
+#endif
 
 #endif // CGAL_SURFACE_MESH_MULTIRESOLUTION_FLAT_COLLAPSE_PROFILE_H

@@ -56,7 +56,7 @@ inline Wedge_mesh textured_level(const Textured_progressive_mesh& mesh, std::siz
   Wedge_mesh level;
   level.points.assign(mesh.points.begin(), mesh.points.begin() + mesh.number_of_vertices_after(k));
   level.vertex.assign(mesh.vertex.begin(), mesh.vertex.begin() + wedges);
-  level.uv.assign(mesh.uv.begin(), mesh.uv.begin() + wedges);
+  level.uv.assign(mesh.uv.begin(), mesh.uv.begin() + (mesh.has_texture() ? wedges : 0));
   level.triangles = internal::level_triangles(mesh, k, internal::wedge_ancestors(mesh, 0, k));
   return level;
 }
@@ -116,7 +116,7 @@ public:
   void extract(std::size_t k, std::vector<Triangle_indices>& result) const;
 
   /// Returns the mesh after `k` collapses: its vertices and wedges are the first ones of the fine
-  /// mesh.
+  /// mesh. Without texture `uv` is empty.
   Textured_triangle_mesh mesh(std::size_t k) const;
 
   /// Returns for each wedge of the level after `fine` collapses the one into which it has collapsed
@@ -184,7 +184,8 @@ inline Textured_triangle_mesh Level_extractor::mesh(std::size_t k) const
   extract(k, result.wedges);
   result.points.assign(m_mesh.points.begin(),
                        m_mesh.points.begin() + m_mesh.number_of_vertices_after(k));
-  result.uv.assign(m_mesh.uv.begin(), m_mesh.uv.begin() + m_mesh.number_of_wedges_after(k));
+  if(m_mesh.has_texture())
+    result.uv.assign(m_mesh.uv.begin(), m_mesh.uv.begin() + m_mesh.number_of_wedges_after(k));
   result.triangles.reserve(result.wedges.size());
   for(const Triangle_indices& t : result.wedges)
     result.triangles.push_back({m_mesh.vertex[t[0]], m_mesh.vertex[t[1]], m_mesh.vertex[t[2]]});

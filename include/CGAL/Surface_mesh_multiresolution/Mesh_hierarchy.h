@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_MESH_HIERARCHY_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_MESH_HIERARCHY_H
 
+#include <CGAL/Blocked_execution/Level_table.h>
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Blocked_execution/sort_and_select.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ostream>
 #include <utility>
 #include <vector>
 
@@ -99,7 +101,31 @@ struct Mesh_level
   {
     return std::lower_bound(vertices.begin(), vertices.end(), v) - vertices.begin();
   }
+
+  /// Returns the bytes that the level takes.
+  std::size_t memory() const
+  {
+    return vertices.size() * sizeof(Vertex_index)
+           + mesh.points.size() * sizeof(mesh.points[0])
+           + mesh.triangles.size() * sizeof(Triangle_indices) + from_coarser.memory()
+           + coarser_triangles.size() * sizeof(std::uint32_t);
+  }
 };
+
+/*!
+\ingroup PkgHLSCMMultiresolution
+
+Prints a hierarchy, coarsest level first in `levels`, as a table: the vertices, triangles and memory
+of each level, the ratio of its vertices to those of the next coarser one, and the sums of all
+levels divided by the finest one's. The finest level comes first.
+*/
+inline std::ostream& operator<<(std::ostream& out, const std::vector<Mesh_level>& levels)
+{
+  Blocked_execution::Level_table table("vertices", "triangles");
+  for(const Mesh_level& level : levels)
+    table.add({level.vertices.size(), level.mesh.triangles.size(), level.memory()});
+  return out << table;
+}
 
 /*!
 \ingroup PkgHLSCMMultiresolution

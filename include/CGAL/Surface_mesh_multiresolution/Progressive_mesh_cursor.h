@@ -82,7 +82,7 @@ public:
     std::vector<std::uint32_t> result;
     if(m_position > 0)
       for(const Vsplit_table::Corner corner : m_table.moved(m_position - 1))
-        result.push_back(corner / 3);
+        result.push_back(triangle_of(corner));
     return result;
   }
 
@@ -90,7 +90,7 @@ private:
   void write(std::size_t i, Vertex_index v)
   {
     for(const Vsplit_table::Corner corner : m_table.moved(i))
-      m_triangles[corner / 3][corner % 3] = v;
+      m_triangles[triangle_of(corner)][corner_of(corner)] = v;
   }
 
   const Progressive_mesh& m_pm;

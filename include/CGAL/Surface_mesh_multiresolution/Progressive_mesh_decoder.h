@@ -66,7 +66,8 @@ public:
   /// Returns the bound on the error of each texture coordinate, but for rounding: 0 if lossless.
   double uv_error() const { return 0.5 * m_header.step[1]; }
 
-  /// Returns the mesh so far, empty if there is none; its `source_vertex` is empty. Linear time.
+  /// Returns the mesh so far, empty if there is none, without texture if the file has none; its
+  /// `source_vertex` is empty. Linear time.
   Textured_progressive_mesh mesh() const&
   {
     return m_has_base ? m_sections.mesh() : Textured_progressive_mesh();
@@ -136,7 +137,8 @@ inline void Progressive_mesh_decoder::check_beginning(const char* data, std::siz
     const auto byte = static_cast<unsigned char>(data[i]);
     if(at < internal::file_magic.size() && byte != internal::file_magic[at])
       refuse(Progressive_mesh_file_status::OTHER_FORMAT);
-    else if((at == 8 && byte != internal::file_version) || (at == 9 && byte != 0))
+    else if((at == 8 && byte != internal::version_with_texture
+             && byte != internal::version_without_texture) || (at == 9 && byte != 0))
       refuse(Progressive_mesh_file_status::UNSUPPORTED_VERSION);
     else if(at > 9)
       return;
@@ -218,7 +220,8 @@ inline std::string Progressive_mesh_decoder::message() const
     return "this is not a progressive mesh file";
   default:
     return "this is a progressive mesh file of another version than "
-         + std::to_string(internal::file_version);
+         + std::to_string(internal::version_with_texture) + " and "
+         + std::to_string(internal::version_without_texture);
   }
 }
 

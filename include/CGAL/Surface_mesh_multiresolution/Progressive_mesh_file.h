@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_PROGRESSIVE_MESH_FILE_H
 
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh_decoder.h>
+#include <CGAL/Surface_mesh_multiresolution/Progressive_surface.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/file/Progressive_mesh_encoder.h>
 
 #include <array>
@@ -80,9 +81,9 @@ inline bool is_float(const Textured_progressive_mesh& mesh)
 inline std::pair<std::array<double, 5>, std::array<double, 2>>
 bounding_boxes(const Textured_progressive_mesh& mesh)
 {
-  std::array<double, 5> lo, hi;
+  std::array<double, 5> lo = {}, hi = {};
   std::array<double, 2> side = {};
-  for(int c = 0; c < 5; ++c) {
+  for(int c = 0; c < (mesh.has_texture() ? 5 : 3); ++c) {
     lo[c] = hi[c] = c < 3 ? mesh.points[0][c] : mesh.uv[0][c - 3];
     const auto extend = [&](double x) {
       lo[c] = (std::min)(lo[c], x);
@@ -105,6 +106,7 @@ inline File_header header_for(const Textured_progressive_mesh& mesh,
 {
   const std::size_t splits = mesh.number_of_collapses();
   File_header header;
+  header.has_texture = mesh.has_texture();
   header.fine = {std::uint32_t(mesh.number_of_wedges()), std::uint32_t(mesh.points.size()),
                  std::uint32_t(mesh.progressive_mesh.triangles.size())};
   header.base = {std::uint32_t(mesh.number_of_wedges_after(splits)),
@@ -130,7 +132,7 @@ Returns `mesh` as a progressive mesh file (extension `.pm`): the coarsest mesh a
 coarse to fine, so that any beginning of the file that has the coarsest mesh is a coarser model.
 
 What is read back has the connectivity of `mesh`, all numberings, the order of triangles and corners
-and `batch_ends` included; `source_vertex` is not written. If lossless, coordinates have the same
+and `batch_ends` included; `source_vertex` is not written. A mesh without texture stays without. If lossless, coordinates have the same
 bits; if quantized, distinct ones may become equal, and tiny triangles may flip.
 
 A mesh that is not what the invariants of `Textured_progressive_mesh` say, has a chart that is not a
@@ -170,6 +172,18 @@ inline std::string write_progressive_mesh(std::ostream& to, const Textured_progr
     return file.error;
   to.write(file.bytes.data(), std::streamsize(file.bytes.size()));
   return to.flush() ? std::string() : "the file cannot be written";
+}
+
+/// \ingroup PkgHLSCMLevelsOfDetail
+/// Writes what `build_progressive_mesh()` returns as a progressive mesh file without texture, of
+/// version 2, which is read back as a `Textured_progressive_mesh` without texture: with the
+/// numbering of `coarse_first()`.
+/// \return what went wrong, in a sentence, or an empty string
+inline std::string write_progressive_mesh(std::ostream& to, const Progressive_surface& surface,
+                                          const Progressive_mesh_write_options& options = {})
+{
+  return surface.error.empty() ? write_progressive_mesh(to, coarse_first(surface), options)
+                               : surface.error;
 }
 
 namespace internal {

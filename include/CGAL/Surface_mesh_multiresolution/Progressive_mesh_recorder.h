@@ -61,7 +61,7 @@ outlive them.
         still exist (`update_before_collapse()`, as `Accumulated_cost` and `Triangle_shape_cost`
         have it); any other type otherwise
 
-\cgalModels{EdgeCollapseSimplificationVisitor}
+\cgalModels{EdgeCollapseSimplificationVisitor of CGAL's Triangulated Surface Mesh Simplification}
 
 \sa `progressive_mesh_by_edge_collapse()`
 */

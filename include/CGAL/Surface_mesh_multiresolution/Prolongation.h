@@ -11,11 +11,28 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <complex>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_multiresolution {
+namespace internal {
+
+// The real numbers that an entry of a vector is multiplied by: the entry's own type, that of its
+// parts if it is complex, `Scalar` of a small vector of Eigen.
+template <class Value, class = void>
+struct Real_of { typedef Value type; };
+template <class Real>
+struct Real_of<std::complex<Real>> { typedef Real type; };
+template <class Value>
+struct Real_of<Value, std::void_t<typename Value::Scalar>> { typedef typename Value::Scalar type; };
+
+template <class Vector>
+using Real_of_entries = typename Real_of<std::decay_t<decltype(std::declval<Vector>()[0])>>::type;
+
+} // namespace internal
 
 /*!
 \ingroup PkgHLSCMMultiresolution
@@ -56,11 +73,19 @@ public:
   /// Returns the number of vertices of the fine level.
   std::size_t number_of_fine_vertices() const { return m_kept.size() + m_stencils.size(); }
 
+  /// Returns the bytes that it takes.
+  std::size_t memory() const
+  {
+    return m_kept.size() * sizeof(Vertex_index) + m_stencils.size() * sizeof(Stencil)
+           + m_begin.size() * sizeof(std::uint32_t) + m_terms.size() * sizeof(Term);
+  }
+
   /// Returns the coarse vertex from which a fine one gets the most, in indices of the coarse level.
   /// Linear time at worst.
   Vertex_index heaviest_source(Vertex_index fine) const;
 
-  /// Sets `fine` to \f$ P \f$ times `coarse`.
+  /// Sets `fine` to \f$ P \f$ times `coarse`, vectors of real or complex numbers or of small
+  /// vectors of Eigen.
   template <class Vector>
   void prolongate(const Vector& coarse, Vector& fine) const;
 
@@ -80,7 +105,7 @@ private:
   template <class Vector>
   static void apply(const Stencil& s, Vector& fine)
   {
-    typedef decltype(fine[0].real()) Real;
+    typedef internal::Real_of_entries<Vector> Real;
     fine[s.vertex] = Real(s.weight[0]) * fine[s.source[0]] + Real(s.weight[1]) * fine[s.source[1]]
                    + Real(s.weight[2]) * fine[s.source[2]];
   }
@@ -162,7 +187,7 @@ void Prolongation::prolongate(const Vector& coarse, Vector& fine) const
 template <class Vector>
 void Prolongation::restrict_in_place(Vector& fine, Vector& coarse) const
 {
-  typedef decltype(fine[0].real()) Real;
+  typedef internal::Real_of_entries<Vector> Real;
   coarse.resize(m_kept.size());
   if(m_is_direct) {
     Blocked_execution::blocked_for(m_kept.size(), block_size,

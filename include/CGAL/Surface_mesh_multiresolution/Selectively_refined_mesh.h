@@ -115,8 +115,8 @@ inline Selectively_refined_mesh::Selectively_refined_mesh(const Textured_progres
       m_first_triangle.push_back(born);
     }
     const auto change = [&](Vsplit_table::Corner corner, Vertex_index wedge, Vertex_index old) {
-      m_changes.push_back({corner, wedge, old, last[corner / 3]});
-      last[corner / 3] = v;
+      m_changes.push_back({corner, wedge, old, last[triangle_of(corner)]});
+      last[triangle_of(corner)] = v;
     };
     for(const Vsplit_table::Corner corner : table.moved(i))
       change(corner, removed, kept);
@@ -135,8 +135,8 @@ inline void Selectively_refined_mesh::split(Vertex_index v)
   for(std::uint32_t c = m_first_change[i]; c < m_first_change[i + 1]; ++c) {
     const Change& change = m_changes[c];
     if(change.wedge != no_vertex)
-      m_triangles[change.corner / 3][change.corner % 3] = change.wedge;
-    m_last[change.corner / 3] = v;
+      m_triangles[triangle_of(change.corner)][corner_of(change.corner)] = change.wedge;
+    m_last[triangle_of(change.corner)] = v;
   }
   for(std::uint32_t t = m_first_triangle[i]; t < m_first_triangle[i + 1]; ++t)
     m_last[t] = v;
@@ -150,8 +150,8 @@ inline void Selectively_refined_mesh::unsplit(Vertex_index v)
   for(std::uint32_t c = m_first_change[i + 1]; c-- > m_first_change[i];) {
     const Change& change = m_changes[c];
     if(change.wedge != no_vertex)
-      m_triangles[change.corner / 3][change.corner % 3] = change.old_wedge;
-    m_last[change.corner / 3] = change.previous;
+      m_triangles[triangle_of(change.corner)][corner_of(change.corner)] = change.old_wedge;
+    m_last[triangle_of(change.corner)] = change.previous;
   }
   for(std::uint32_t t = m_first_triangle[i]; t < m_first_triangle[i + 1]; ++t)
     m_last[t] = dead;
@@ -191,7 +191,7 @@ inline bool Selectively_refined_mesh::coarsen(Vertex_index v)
     return true;
   const std::uint32_t i = index(v);
   for(std::uint32_t c = m_first_change[i]; c < m_first_change[i + 1]; ++c)
-    if(m_last[m_changes[c].corner / 3] != v)
+    if(m_last[triangle_of(m_changes[c].corner)] != v)
       return false;
   for(std::uint32_t t = m_first_triangle[i]; t < m_first_triangle[i + 1]; ++t)
     if(m_last[t] != v)

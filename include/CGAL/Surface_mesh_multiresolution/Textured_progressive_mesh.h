@@ -42,6 +42,7 @@ Invariants
   make them, so that those of each level are the first ones too.
 - `vertex` does not descend from wedge to wedge and takes every value below `points.size()`: the
   vertices of each level are the first ones as well.
+- Without texture `uv` is empty and each vertex has one wedge, with its number.
 - The wedges of a vertex are removed one directly after the other; how many there are is any number
   for a vertex of the coarsest level, one or two for the others.
 - A triangle that a collapse removes has, when it dies, the removed wedge as its first corner; of
@@ -57,10 +58,13 @@ struct Textured_progressive_mesh
 
   Progressive_mesh progressive_mesh; ///< of the wedges
   std::vector<Vertex_index> vertex;  ///< of each wedge
-  std::vector<Point_2> uv;           ///< of each wedge
+  std::vector<Point_2> uv;           ///< of each wedge; empty without texture
   std::vector<Point_3> points;       ///< of each vertex
   /// The number of each vertex in the mesh from which this was built; empty if that is not known.
   std::vector<Vertex_index> source_vertex;
+
+  /// Returns whether there is a texture, or just the surface.
+  bool has_texture() const { return !uv.empty(); }
 
   /// Returns the number of wedges of the fine mesh.
   std::size_t number_of_wedges() const { return progressive_mesh.number_of_vertices; }
@@ -185,7 +189,7 @@ inline Textured_progressive_mesh coarse_first(const Textured_progressive_mesh& m
 
   Textured_progressive_mesh result;
   result.vertex.resize(n);
-  result.uv.resize(n);
+  result.uv.resize(mesh.uv.size());
   result.points.reserve(mesh.points.size());
   result.source_vertex.reserve(mesh.points.size());
   for(Vertex_index w = 0; w < n; ++w) {
@@ -195,7 +199,8 @@ inline Textured_progressive_mesh coarse_first(const Textured_progressive_mesh& m
       result.source_vertex.push_back(mesh.source_vertex.empty() ? v : mesh.source_vertex[v]);
     }
     result.vertex[w] = Vertex_index(result.points.size() - 1);
-    result.uv[w] = mesh.uv[source[w]];
+    if(mesh.has_texture())
+      result.uv[w] = mesh.uv[source[w]];
   }
   Progressive_mesh& fine = result.progressive_mesh;
   fine.number_of_vertices = n;

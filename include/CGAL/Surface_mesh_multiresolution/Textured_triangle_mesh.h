@@ -5,7 +5,8 @@
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_TEXTURED_TRIANGLE_MESH_H
 
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
-#include <CGAL/Indexed_mesh/Triangles_at_vertices.h>
+#include <CGAL/Indexed_mesh/Triangle_adjacency.h>
+#include <CGAL/Indexed_mesh/mesh_error.h>
 
 #include <algorithm>
 #include <cmath>
@@ -34,6 +35,55 @@ struct Textured_triangle_mesh
   std::vector<Point_2> uv;                 ///< texture coordinates, in any number and order
   std::vector<Triangle_indices> wedges;    ///< for each corner of a triangle where in `uv` its own is
 };
+
+/// \ingroup PkgHLSCMLevelsOfDetail
+/// Returns the texture coordinate of a corner.
+inline const Textured_triangle_mesh::Point_2& uv_of(const Textured_triangle_mesh& mesh, Halfedge h)
+{
+  return mesh.uv[vertex_of(mesh.wedges, h)];
+}
+
+/// \ingroup PkgHLSCMLevelsOfDetail
+/// Returns whether the texture goes on across the edge with the halfedges `h` and `opposite`: the
+/// texture coordinates of both its ends are equal on both sides, whatever their indices. This is
+/// what makes wedges, seams and charts of a texture. Equal is meant exactly.
+inline bool is_smooth(const Textured_triangle_mesh& mesh, Halfedge h, Halfedge opposite)
+{
+  return uv_of(mesh, h) == uv_of(mesh, next_halfedge(opposite))
+      && uv_of(mesh, next_halfedge(h)) == uv_of(mesh, opposite);
+}
+
+/// \ingroup PkgHLSCMLevelsOfDetail
+/// Returns a sentence on the first texture coordinate that is not a finite number, or nothing; the
+/// mesh may have a name, as in `Indexed_mesh::mesh_error()`.
+inline std::string uv_error(const std::vector<Textured_triangle_mesh::Point_2>& uv,
+                            const std::string& name = {})
+{
+  for(std::size_t w = 0; w < uv.size(); ++w)
+    if(!std::isfinite(uv[w].x()) || !std::isfinite(uv[w].y()))
+      return "texture coordinate " + std::to_string(w) + of_mesh(name) + " is not a finite number";
+  return {};
+}
+
+/// \ingroup PkgHLSCMLevelsOfDetail
+/// Returns a sentence on what is wrong with the texture of a mesh, or nothing. Linear time.
+inline std::string texture_error(const Textured_triangle_mesh& mesh, const std::string& name = {})
+{
+  if(mesh.wedges.size() != mesh.triangles.size())
+    return (name.empty() ? "the mesh" : name)
+         + " has not as many triangles in the texture as on the surface";
+  for(std::size_t t = 0; t < mesh.wedges.size(); ++t)
+    for(const Vertex_index w : mesh.wedges[t]) {
+      const char* defect = nullptr;
+      if(w >= mesh.uv.size())
+        defect = " has a corner without texture coordinate";
+      else if(!std::isfinite(mesh.uv[w].x()) || !std::isfinite(mesh.uv[w].y()))
+        defect = " has a texture coordinate that is not a finite number";
+      if(defect != nullptr)
+        return "triangle " + std::to_string(t) + of_mesh(name) + defect;
+    }
+  return uv_error(mesh.uv, name); // those without a triangle
+}
 
 namespace internal {
 
@@ -66,18 +116,18 @@ public:
   {
     m_corners.clear();
     for(const std::uint32_t* c = m_triangles.begin(v); c != m_triangles.end(v); ++c)
-      m_corners.push_back(corner(*c / 3, int(*c % 3)));
+      m_corners.push_back(corner(*c));
     for(Corner& c : m_corners)
-      for(const Corner& d : m_corners)
-        if(d.ahead == c.behind && is_smooth(c, d))
+      for(const Corner& d : m_corners) // the edge behind c is the halfedge before it
+        if(d.ahead == c.behind && is_smooth(m_mesh, previous_halfedge(c.corner), d.corner))
           join(c.group, d.group);
     for(const Corner& c : m_corners) {
-      Vertex_index& wedge = wedges[c.triangle][c.place];
+      Vertex_index& wedge = wedges[triangle_of(c.corner)][corner_of(c.corner)];
       for(const Corner& d : m_corners) {
         if(&d == &c)
           break;
         if(d.group == c.group)
-          wedge = wedges[d.triangle][d.place];
+          wedge = vertex_of(wedges, d.corner);
       }
       if(wedge == no_vertex)
         wedge = number++;
@@ -87,28 +137,15 @@ public:
 private:
   struct Corner
   {
-    std::uint32_t triangle;
-    int place;
+    Halfedge corner;
     Vertex_index ahead, behind; // the vertices of the two edges
     std::size_t group;
   };
 
-  Corner corner(std::uint32_t t, int c) const
+  Corner corner(Halfedge h) const
   {
-    const Triangle_indices& vs = m_mesh.triangles[t];
-    return {t, c, vs[(c + 1) % 3], vs[(c + 2) % 3], m_corners.size()};
-  }
-
-  // Whether the texture goes on across the edge behind c, which is the edge ahead of d.
-  bool is_smooth(const Corner& c, const Corner& d) const
-  {
-    return uv(c.triangle, c.place) == uv(d.triangle, d.place)
-        && uv(c.triangle, c.place + 2) == uv(d.triangle, d.place + 1);
-  }
-
-  const Textured_triangle_mesh::Point_2& uv(std::uint32_t t, int place) const
-  {
-    return m_mesh.uv[m_mesh.wedges[t][place % 3]];
+    return {h, vertex_of(m_mesh.triangles, next_halfedge(h)),
+            vertex_of(m_mesh.triangles, previous_halfedge(h)), m_corners.size()};
   }
 
   void join(std::size_t from, std::size_t to)
@@ -148,6 +185,24 @@ inline Textured_triangle_mesh with_wedges(const Textured_triangle_mesh& mesh)
     for(int c = 0; c < 3; ++c)
       result.uv[result.wedges[t][c]] = mesh.uv[mesh.wedges[t][c]];
   return result;
+}
+
+/*!
+\ingroup PkgHLSCMLevelsOfDetail
+
+Returns for each entry of `mesh.uv` its vertex. One that no triangle has is taken for that of the
+vertex with its number, so that isolated vertices of a mesh with one for each vertex are kept; or of
+vertex 0, if there are fewer. Linear time.
+*/
+inline std::vector<Vertex_index> vertices_of_wedges(const Textured_triangle_mesh& mesh)
+{
+  std::vector<Vertex_index> vertex(mesh.uv.size(), 0);
+  for(std::size_t w = 0; w < (std::min)(mesh.uv.size(), mesh.points.size()); ++w)
+    vertex[w] = Vertex_index(w);
+  for(std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for(std::size_t c = 0; c < 3; ++c)
+      vertex[mesh.wedges[t][c]] = mesh.triangles[t][c];
+  return vertex;
 }
 
 } // namespace Surface_mesh_multiresolution

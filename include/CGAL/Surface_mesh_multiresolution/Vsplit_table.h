@@ -100,7 +100,7 @@ public:
     , m_next(3 * pm.triangles.size(), none)
   {
     for(Corner corner = 0; corner < m_next.size(); ++corner)
-      append(pm.triangles[corner / 3][corner % 3], corner);
+      append(vertex_of(pm.triangles, corner), corner);
   }
 
   // Calls use(corner) for the corners of living triangles at v and forgets the list of v.
@@ -110,7 +110,7 @@ public:
     Corner next = none;
     for(Corner corner = m_first[v]; corner != none; corner = next) {
       next = m_next[corner];
-      if(!is_dead(corner / 3))
+      if(!is_dead(triangle_of(corner)))
         use(corner);
     }
     m_first[v] = m_last[v] = none;
@@ -128,7 +128,7 @@ public:
     const Corner corner = m_first[pm.collapses[i + distance / 2].removed];
     if(corner != none) {
       Blocked_execution::prefetch(&m_next[corner]);
-      Blocked_execution::prefetch(&triangles[corner / 3]);
+      Blocked_execution::prefetch(&triangles[triangle_of(corner)]);
     }
   }
 
@@ -170,17 +170,17 @@ inline Vsplit_table::Vsplit_table(const Progressive_mesh& pm)
     descent.take(
       pm.collapses[i].removed, [this](std::uint32_t t) { return m_death[t] != never; },
       [&](Corner corner) {
-        const Triangle_indices& t = m_triangles[corner / 3];
+        const Triangle_indices& t = m_triangles[triangle_of(corner)];
         const bool is_dying = t[0] == kept || t[1] == kept || t[2] == kept;
         (is_dying ? m_corners : moved).push_back(corner);
       });
     m_number_of_dying.push_back(std::uint8_t(m_corners.size() - m_begin.back()));
     for(std::size_t d = m_begin.back(); d < m_corners.size(); ++d)
-      m_death[m_corners[d] / 3] = std::uint32_t(i);
+      m_death[triangle_of(m_corners[d])] = std::uint32_t(i);
     if(moved.empty())
       add_guard(descent, pm, i);
     for(const Corner corner : moved) {
-      m_triangles[corner / 3][corner % 3] = kept;
+      m_triangles[triangle_of(corner)][corner_of(corner)] = kept;
       descent.append(kept, corner);
     }
     m_corners.insert(m_corners.end(), moved.begin(), moved.end());
@@ -196,13 +196,13 @@ inline void Vsplit_table::add_guard(const Descent& descent, const Progressive_me
   for(std::size_t d = m_begin[i]; d < m_corners.size(); ++d) {
     const Corner ear = m_corners[d];
     Vertex_index third = no_vertex;
-    for(const Vertex_index v : m_triangles[ear / 3])
+    for(const Vertex_index v : m_triangles[triangle_of(ear)])
       if(v != removed && v != kept)
         third = v;
     descent.for_each(kept, [&](Corner corner) {
-      const Triangle_indices& t = m_triangles[corner / 3];
-      if(m_death[corner / 3] == never && (t[0] == third || t[1] == third || t[2] == third))
-        m_guards.push_back({std::uint32_t(i), corner / 3});
+      const Triangle_indices& t = m_triangles[triangle_of(corner)];
+      if(m_death[triangle_of(corner)] == never && (t[0] == third || t[1] == third || t[2] == third))
+        m_guards.push_back({std::uint32_t(i), triangle_of(corner)});
     });
   }
 }

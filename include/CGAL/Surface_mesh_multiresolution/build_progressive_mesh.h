@@ -5,12 +5,14 @@
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_BUILD_PROGRESSIVE_MESH_H
 
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
+#include <CGAL/Surface_mesh_multiresolution/Progressive_surface.h>
 #include <CGAL/Indexed_mesh/mesh_arrays.h>
-#include <CGAL/Indexed_mesh/mesh_error.h>
+#include <CGAL/Indexed_mesh/prepare_mesh.h>
 
+#include <CGAL/Named_function_parameters.h>
 #include <CGAL/boost/graph/helpers.h>
+#include <CGAL/boost/graph/named_params_helper.h>
 
-#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,42 +20,17 @@
 namespace CGAL {
 namespace Surface_mesh_multiresolution {
 
-/// \ingroup PkgHLSCMMultiresolution
-/// The options of `build_progressive_mesh()`.
-struct Progressive_mesh_options
-{
-  std::size_t target_vertices = 0; ///< where to stop; 0: when nothing more can be collapsed
-  Collapse_order order = Collapse_order::BATCHED; ///< which collapse comes next
-  double angular_defect_bound = 70.; ///< a vertex of no smaller defect stays; degrees
-  /// For each vertex, in the order of `vertices(mesh)`, whether it must stay; empty for none.
-  std::vector<bool> is_locked;
-  /// Told the part done in [0, 1] from time to time; returning false stops early.
-  std::function<bool(double)> progress;
-};
-
-/*!
-\ingroup PkgHLSCMMultiresolution
-
-The struct `Progressive_surface` is a progressive mesh with its points.
-*/
-struct Progressive_surface
-{
-  /// The collapses. Vertices are numbered as in `vertices(mesh)`, triangles as in `faces(mesh)`.
-  Progressive_mesh progressive_mesh;
-  /// The position of each vertex.
-  std::vector<Indexed_triangle_mesh::Point_3> points;
-  /// Why there are no collapses, as a sentence; empty if all is well.
-  std::string error;
-};
-
 namespace internal {
 
 // The arrays of a mesh without its collapses, or what is wrong with it.
-template <class TriangleMesh>
-Progressive_surface copy_surface(const TriangleMesh& mesh)
+template <class TriangleMesh, class VertexPointMap>
+Progressive_surface copy_surface(const TriangleMesh& mesh, const VertexPointMap& vpm)
 {
   Progressive_surface result;
-  result.points = copy_points(mesh);
+  for(const auto v : vertices(mesh)) {
+    const auto& p = get(vpm, v);
+    result.points.emplace_back(to_double(p[0]), to_double(p[1]), to_double(p[2]));
+  }
   result.error = point_error(result.points);
   result.progressive_mesh.number_of_vertices = result.points.size();
   if(is_triangle_mesh(mesh)) {
@@ -66,30 +43,74 @@ Progressive_surface copy_surface(const TriangleMesh& mesh)
   return result;
 }
 
-// Appends the collapses of `mesh`, which has the vertices of `result` at any place and size.
-template <class Cost, class Filter>
-void decimate(Indexed_triangle_mesh mesh, const Progressive_mesh_options& options,
-              const Cost& cost, const Filter& filter, Progressive_surface& result)
+// The same with the points and faces that named parameters tell.
+template <class TriangleMesh, class NamedParameters>
+Progressive_surface copy_surface_of(const TriangleMesh& mesh, const NamedParameters& np)
 {
-  CGAL_precondition(options.is_locked.empty()
-                    || options.is_locked.size() == result.points.size());
-  const std::vector<Vertex_index> source = sort_spatially(mesh);
-  Vertex_rings rings(mesh);
-  result.error = ring_error(rings, source);
+  using parameters::choose_parameter;
+  using parameters::get_parameter;
+  return copy_surface(mesh, choose_parameter(get_parameter(np, internal_np::vertex_point),
+                                             get_const_property_map(vertex_point, mesh)));
+}
+
+inline Progressive_surface copy_surface(const Indexed_triangle_mesh& mesh)
+{
+  Progressive_surface result;
+  result.points = mesh.points;
+  result.progressive_mesh.number_of_vertices = mesh.points.size();
+  result.progressive_mesh.triangles = mesh.triangles;
+  result.error = mesh_error(mesh);
+  return result;
+}
+
+// Appends the collapses that `run(engine, prepared)` returns, in terms of the input of the mesh that
+// is prepared.
+template <class Cost, class Filter, class Run>
+void decimate(Prepared_mesh prepared, const Progressive_mesh_options& options, const Cost& cost,
+              const Filter& filter, const Run& run, Progressive_surface& result)
+{
+  result.error = prepared.error;
+  if(!options.is_locked.empty() && options.is_locked.size() != result.points.size())
+    result.error = "is_locked does not have an entry for each vertex";
   if(!result.error.empty())
     return;
-  std::vector<bool> is_locked(options.is_locked.size());
-  for(std::size_t v = 0; v < is_locked.size(); ++v)
-    is_locked[v] = options.is_locked[source[v]];
-  Flat_collapse_options flat;
-  flat.target_vertices = options.target_vertices;
-  flat.order = options.order;
-  flat.progress = options.progress;
-  Flat_collapse_engine<Cost, Filter> engine(mesh, std::move(rings), is_locked, cost, filter);
-  Progressive_mesh pm = engine.run(flat);
+  Flat_collapse_engine<Cost, Filter> engine(prepared.mesh, std::move(prepared.rings),
+                                            prepared.flags(options.is_locked), cost, filter);
+  Progressive_mesh pm = run(engine, prepared);
+  result.progressive_mesh.collapses.reserve(pm.collapses.size());
   for(const Halfedge_collapse& c : pm.collapses)
-    result.progressive_mesh.collapses.push_back({source[c.removed], source[c.kept]});
+    result.progressive_mesh.collapses.push_back(
+      {prepared.source[c.removed], prepared.source[c.kept]});
   result.progressive_mesh.batch_ends = std::move(pm.batch_ends);
+}
+
+// With the default policies, which want edges of length 1.
+template <class Run>
+void decimate_normalized(const Progressive_mesh_options& options, const Run& run,
+                         Progressive_surface& result)
+{
+  if(result.error.empty())
+    decimate(prepare_mesh({result.points, result.progressive_mesh.triangles}), options,
+             hierarchy_collapse_cost(), hierarchy_collapse_filter(options.angular_defect_bound),
+             run, result);
+}
+
+// With given policies, which see the coordinates of the mesh.
+template <class Cost, class Filter, class Run>
+void decimate_as_it_is(const Progressive_mesh_options& options, const Cost& cost,
+                       const Filter& filter, const Run& run, Progressive_surface& result)
+{
+  Preparation as_it_is;
+  as_it_is.normalizes = false;
+  if(result.error.empty())
+    decimate(prepare_mesh({result.points, result.progressive_mesh.triangles}, as_it_is), options,
+             cost, filter, run, result);
+}
+
+// What runs an engine to the target of `options`.
+inline auto to_target(const Progressive_mesh_options& options)
+{
+  return [&options](auto& engine, const Prepared_mesh&) { return engine.run(options); };
 }
 
 } // namespace internal
@@ -99,29 +120,39 @@ void decimate(Indexed_triangle_mesh mesh, const Progressive_mesh_options& option
 
 Returns a progressive mesh of `mesh`, made by `Flat_collapse_engine` with its default policies.
 
-\tparam TriangleMesh a model of `FaceListGraph` with a point property
+\tparam TriangleMesh a model of `FaceListGraph`
+\tparam NamedParameters a sequence of named parameters
 \param mesh a triangle mesh of any size and place, which is not changed
 \param options where to stop, and what must stay
+\param np `vertex_point_map`: the points, `get(vertex_point, mesh)` by default
 
 Bad data (faces that are no triangles, vertices without a face or with several fans of faces,
 coordinates that are not finite) give a result with `error` set and no collapses.
 
 Expected linear time; see `Flat_collapse_engine`.
+
+\sa `decimate()`, which changes the mesh
 */
-template <class TriangleMesh>
+template <class TriangleMesh, class NamedParameters = parameters::Default_named_parameters>
 Progressive_surface
 build_progressive_mesh(const TriangleMesh& mesh,
+                       const Progressive_mesh_options& options = Progressive_mesh_options(),
+                       const NamedParameters& np = parameters::default_values())
+{
+  Progressive_surface result = internal::copy_surface_of(mesh, np);
+  internal::decimate_normalized(options, internal::to_target(options), result);
+  return result;
+}
+
+/// \ingroup PkgHLSCMMultiresolution
+/// Returns a progressive mesh of two arrays, as of any mesh. A triangle with a vertex that
+/// does not exist is bad data, too.
+inline Progressive_surface
+build_progressive_mesh(const Indexed_triangle_mesh& mesh,
                        const Progressive_mesh_options& options = Progressive_mesh_options())
 {
   Progressive_surface result = internal::copy_surface(mesh);
-  if(!result.error.empty())
-    return result;
-  Indexed_triangle_mesh copy = {result.points, result.progressive_mesh.triangles};
-  if(normalize(copy) > 0.)
-    internal::decimate(std::move(copy), options, hierarchy_collapse_cost(),
-                       hierarchy_collapse_filter(options.angular_defect_bound), result);
-  else
-    result.error = "all edges are without length";
+  internal::decimate_normalized(options, internal::to_target(options), result);
   return result;
 }
 
@@ -133,8 +164,8 @@ see the coordinates of `mesh` (those of this package want edge lengths of about 
 1e-6 and 1e6) and a `Flat_collapse_profile`. `options.angular_defect_bound` is not used.
 
 \tparam TriangleMesh a model of `FaceListGraph` with a point property
-\tparam Cost a model of `GetCost`
-\tparam Filter a model of `PlacementFilter`
+\tparam Cost a model of CGAL's concept `GetCost`
+\tparam Filter a model of CGAL's concept `PlacementFilter`
 
 Bad data: as above.
 */
@@ -143,10 +174,8 @@ Progressive_surface build_progressive_mesh(const TriangleMesh& mesh,
                                            const Progressive_mesh_options& options,
                                            const Cost& cost, const Filter& filter)
 {
-  Progressive_surface result = internal::copy_surface(mesh);
-  if(result.error.empty())
-    internal::decimate({result.points, result.progressive_mesh.triangles}, options, cost, filter,
-                       result);
+  Progressive_surface result = internal::copy_surface_of(mesh, parameters::default_values());
+  internal::decimate_as_it_is(options, cost, filter, internal::to_target(options), result);
   return result;
 }
 

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_BUILD_TEXTURED_PROGRESSIVE_MESH_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_BUILD_TEXTURED_PROGRESSIVE_MESH_H
 
+#include <CGAL/Indexed_mesh/prepare_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
 #include <CGAL/Surface_mesh_multiresolution/Textured_progressive_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
@@ -12,7 +13,6 @@
 #include <CGAL/Surface_mesh_multiresolution/internal/textured/replay_collapses.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <numeric>
 #include <string>
@@ -25,13 +25,12 @@ namespace Surface_mesh_multiresolution {
 /// \ingroup PkgHLSCMLevelsOfDetail
 /// The options of `build_textured_progressive_mesh()`.
 struct Textured_progressive_mesh_options
+  : Progressive_mesh_options
 {
-  /// Vertices of the coarsest level; 0: as few as topology, shape and texture allow.
-  std::size_t target_vertices = 0;
-  Collapse_order order = Collapse_order::BATCHED; ///< which collapse comes next
-  /// A vertex of no smaller angular defect stays, in degrees; 360 for none. The bound that helps
-  /// hierarchies for maps keeps so many tips that little is left for the rest of a very light model.
-  double angular_defect_bound = 360.;
+  /// No vertex stays for its angular defect alone: the bound that helps hierarchies for maps keeps
+  /// so many tips that little is left for the rest of a very light model.
+  Textured_progressive_mesh_options() { angular_defect_bound = 360.; }
+
   /// How much the texture deviation at the removed vertex (Cohen, Olano, Manocha 1998) counts
   /// beside volume, border and shape, as a length beside lengths; 0 leaves it out.
   double texture_deviation_weight = 0.;
@@ -39,10 +38,6 @@ struct Textured_progressive_mesh_options
   /// collapse takes a border over a corner of a border, across a notch or a gutter. Where charts
   /// touch or overlap in the input, nothing is kept apart.
   bool keep_chart_borders_simple = true;
-  /// For each vertex whether it must stay; empty for none.
-  std::vector<bool> is_locked;
-  /// Told the part done in [0, 1] from time to time; returning false stops early.
-  std::function<bool(double)> progress;
 };
 
 /// \ingroup PkgHLSCMLevelsOfDetail
@@ -54,21 +49,6 @@ struct Textured_progressive_mesh_result
 };
 
 namespace internal {
-
-inline std::string texture_error(const Textured_triangle_mesh& mesh)
-{
-  if(mesh.wedges.size() != mesh.triangles.size())
-    return "there are not as many triangles in the texture as on the surface";
-  for(std::size_t t = 0; t < mesh.wedges.size(); ++t)
-    for(const Vertex_index w : mesh.wedges[t]) {
-      if(w >= mesh.uv.size())
-        return "triangle " + std::to_string(t) + " has a corner without texture coordinate";
-      if(!std::isfinite(mesh.uv[w].x()) || !std::isfinite(mesh.uv[w].y()))
-        return "triangle " + std::to_string(t)
-             + " has a texture coordinate that is not a finite number";
-    }
-  return point_error(mesh.points);
-}
 
 // Collapses of wedges, with the ends of the passes.
 struct Wedge_collapses
@@ -83,33 +63,21 @@ inline Wedge_collapses decimate_textured(const Textured_triangle_mesh& mesh,
                                          const Textured_progressive_mesh_options& options)
 {
   Wedge_collapses result;
-  Indexed_triangle_mesh sorted = {mesh.points, mesh.triangles};
-  if(!(normalize(sorted) > 0.)) {
-    result.error = "all edges are without length";
-    return result;
-  }
-  const std::vector<Vertex_index> source = sort_spatially(sorted);
-  Vertex_rings rings(sorted);
-  result.error = ring_error(rings, source);
+  Prepared_mesh prepared = prepare_mesh({mesh.points, mesh.triangles});
+  result.error = prepared.error;
   if(!result.error.empty())
     return result;
-  std::vector<bool> is_locked(options.is_locked.size());
-  for(std::size_t v = 0; v < is_locked.size(); ++v)
-    is_locked[v] = options.is_locked[source[v]];
-  Texture_layer texture(mesh, sorted, source, rings, options.texture_deviation_weight);
+  Texture_layer texture(mesh, prepared.mesh, prepared.source, prepared.rings,
+                        options.texture_deviation_weight);
   if(options.keep_chart_borders_simple)
     texture.keep_borders_simple(mesh);
   Flat_collapse_engine<Hierarchy_collapse_cost<>, Hierarchy_collapse_filter, Texture_layer> engine(
-    sorted, std::move(rings), is_locked, hierarchy_collapse_cost(),
-    hierarchy_collapse_filter(options.angular_defect_bound), texture);
-  Flat_collapse_options flat;
-  flat.target_vertices = options.target_vertices;
-  flat.order = options.order;
-  flat.progress = options.progress;
-  const Progressive_mesh pm = engine.run(flat);
+    prepared.mesh, std::move(prepared.rings), prepared.flags(options.is_locked),
+    hierarchy_collapse_cost(), hierarchy_collapse_filter(options.angular_defect_bound), texture);
+  const Progressive_mesh pm = engine.run(options);
   auto batch_end = pm.batch_ends.begin();
   for(std::size_t i = 0; i < pm.collapses.size(); ++i) {
-    engine.texture().wedges().for_each_collapse(
+    engine.layer().wedges().for_each_collapse(
       pm.collapses[i].removed, [&result](Vertex_index removed, Vertex_index kept) {
         result.collapses.push_back({removed, kept});
       });
@@ -147,7 +115,9 @@ build_textured_progressive_mesh(const Textured_triangle_mesh& mesh,
 {
   CGAL_precondition(options.is_locked.empty() || options.is_locked.size() == mesh.points.size());
   Textured_progressive_mesh_result result;
-  result.error = internal::texture_error(mesh);
+  result.error = texture_error(mesh);
+  if(result.error.empty())
+    result.error = point_error(mesh.points);
   if(!result.error.empty())
     return result;
   const Textured_triangle_mesh wedged = with_wedges(mesh);
@@ -198,11 +168,9 @@ build_textured_progressive_mesh(const Progressive_mesh& pm,
   fine.progressive_mesh.triangles = pm.triangles;
   fine.vertex.resize(points.size());
   std::iota(fine.vertex.begin(), fine.vertex.end(), Vertex_index(0));
-  result.error = Indexed_mesh::point_error(points);
-  for(std::size_t v = 0; v < uv.size() && result.error.empty(); ++v)
-    if(!std::isfinite(uv[v].x()) || !std::isfinite(uv[v].y()))
-      result.error = "vertex " + std::to_string(v)
-                   + " has a texture coordinate that is not a finite number";
+  result.error = point_error(points);
+  if(result.error.empty())
+    result.error = uv_error(uv);
   internal::Replay replay;
   if(result.error.empty())
     result.error = replay.run(pm, points, uv, options.target_vertices, options.is_locked,

@@ -6,80 +6,47 @@
 
 #include <CGAL/Surface_mesh_multiresolution/Textured_progressive_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
-#include <CGAL/Indexed_mesh/mesh_arrays.h>
+#include <CGAL/Surface_mesh_multiresolution/build_textured_progressive_mesh.h>
 
+#include <CGAL/Named_function_parameters.h>
+#include <CGAL/assertions.h>
 #include <CGAL/boost/graph/Euler_operations.h>
+#include <CGAL/boost/graph/named_params_helper.h>
 
 #include <array>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_multiresolution {
 
-/*!
-\ingroup PkgHLSCMLevelsOfDetail
+namespace internal {
 
-Returns the triangles of `mesh` with the texture coordinates of their corners. Vertices are numbered
-as in `vertices(mesh)`, triangles as in `faces(mesh)`. Linear time.
-
-\tparam TriangleMesh a model of `FaceListGraph` with a point property
-\param mesh a triangle mesh
-\param corner_uv a function that returns for a halfedge of a face the texture coordinate at its
-       target in this face. With a map `m` of vertices that is
-       `[&](auto h) { return get(m, target(h, mesh)); }`. For `mesh` with a `Seam_mesh` of type `S`
-       above it, `seams`, and the map `m` of its vertices that `SMP::parameterize()` fills it is
-       `[&](auto h) { return get(m, target(boost::graph_traits<S>::halfedge_descriptor(h), seams));
-       }`
-
-\pre all faces are triangles
-*/
-template <class TriangleMesh, class CornerUv>
-Textured_triangle_mesh textured_triangle_mesh(const TriangleMesh& mesh, const CornerUv& corner_uv)
+// The texture coordinate of a halfedge by a function or a property map.
+template <class CornerUv, class Halfedge>
+auto uv_at(const CornerUv& corner_uv, const Halfedge h)
 {
-  Textured_triangle_mesh result;
-  const auto position = get(dynamic_vertex_property_t<Vertex_index>(), mesh);
-  Indexed_mesh::number_vertices(mesh, position);
-  result.points = Indexed_mesh::copy_points(mesh);
-  result.triangles = Indexed_mesh::copy_triangles(mesh, position);
-  for(const auto f : faces(mesh)) {
-    auto h = halfedge(f, mesh);
-    Triangle_indices wedges;
-    for(Vertex_index& wedge : wedges) {
-      const auto uv = corner_uv(h);
-      wedge = Vertex_index(result.uv.size());
-      result.uv.emplace_back(to_double(uv[0]), to_double(uv[1]));
-      h = next(h, mesh);
-    }
-    result.wedges.push_back(wedges);
-  }
-  return result;
+  if constexpr(std::is_invocable<const CornerUv&, Halfedge>::value)
+    return corner_uv(h);
+  else
+    return get(corner_uv, h);
 }
 
-/*!
-\ingroup PkgHLSCMLevelsOfDetail
-
-Appends a level to a mesh.
-
-\tparam TriangleMesh a model of `MutableFaceGraph` with a point property
-\param mesh the progressive mesh
-\param triangles triangles of its wedges that make up a whole level, or what a
-       `Selectively_refined_mesh` shows
-\param result where the level goes
-\param corner_uvmap a model of `WritablePropertyMap` with the halfedge descriptor of `result` as key
-       and `Point_2` as value: gets the texture coordinate at the target of each halfedge of a face
-
-Linear time in the number of triangles and of vertices of the fine mesh.
-*/
-template <class TriangleMesh, class HalfedgeUVMap>
-void copy_level(const Textured_progressive_mesh& mesh,
-                const std::vector<Triangle_indices>& triangles, TriangleMesh& result,
-                HalfedgeUVMap corner_uvmap)
+// Appends triangles to a mesh; `use(h, w)` is called for each halfedge with its wedge.
+template <class TriangleMesh, class NamedParameters, class Use>
+void append_level(const Textured_progressive_mesh& mesh,
+                  const std::vector<Triangle_indices>& triangles, TriangleMesh& result,
+                  const NamedParameters& np, const Use& use)
 {
+  using parameters::choose_parameter;
+  using parameters::get_parameter;
   typedef boost::graph_traits<TriangleMesh> Graph_traits;
   typedef typename Graph_traits::vertex_descriptor vertex_descriptor;
-  typedef typename boost::property_traits<HalfedgeUVMap>::value_type Point_2;
-  typedef typename boost::property_map_value<TriangleMesh, vertex_point_t>::type Point_3;
-  const auto vpm = get(vertex_point, result);
+  typedef typename GetVertexPointMap<TriangleMesh, NamedParameters>::type Vertex_point_map;
+  typedef typename boost::property_traits<Vertex_point_map>::value_type Point_3;
+  Vertex_point_map vpm = choose_parameter(get_parameter(np, internal_np::vertex_point),
+                                          get_property_map(vertex_point, result));
   std::vector<vertex_descriptor> copies(mesh.points.size(), Graph_traits::null_vertex());
   for(const Triangle_indices& t : triangles) {
     std::array<vertex_descriptor, 3> face;
@@ -96,10 +63,123 @@ void copy_level(const Textured_progressive_mesh& mesh,
     while(target(h, result) != face[0])
       h = next(h, result);
     for(const Vertex_index w : t) {
-      put(corner_uvmap, h, Point_2(mesh.uv[w].x(), mesh.uv[w].y()));
+      use(h, w);
       h = next(h, result);
     }
   }
+}
+
+} // namespace internal
+
+/*!
+\ingroup PkgHLSCMLevelsOfDetail
+
+Returns the triangles of `mesh` with the texture coordinates of their corners. Vertices are numbered
+as in `vertices(mesh)`, triangles as in `faces(mesh)`. Linear time.
+
+\tparam TriangleMesh a model of `FaceListGraph`
+\tparam NamedParameters a sequence of named parameters
+\param mesh a triangle mesh
+\param corner_uv the texture coordinates at the targets of the halfedges of faces, in these: a model
+       of `ReadablePropertyMap` with the halfedge descriptor as key, or a function of it. With a map
+       `m` of vertices that is `[&](auto h) { return get(m, target(h, mesh)); }`. For `mesh` with a
+       `Seam_mesh` of type `S` above it, `seams`, and the map `m` of its vertices that
+       `SMP::parameterize()` fills it is
+       `[&](auto h) { return get(m, target(boost::graph_traits<S>::halfedge_descriptor(h), seams));
+       }`
+\param np `vertex_point_map`: the points; `get(vertex_point, mesh)` by default
+
+\pre all faces are triangles
+*/
+template <class TriangleMesh, class CornerUv,
+          class NamedParameters = parameters::Default_named_parameters>
+Textured_triangle_mesh
+textured_triangle_mesh(const TriangleMesh& mesh, const CornerUv& corner_uv,
+                       const NamedParameters& np = parameters::default_values())
+{
+  Progressive_surface surface = internal::copy_surface_of(mesh, np);
+  Textured_triangle_mesh result;
+  result.points = std::move(surface.points);
+  result.triangles = std::move(surface.progressive_mesh.triangles);
+  CGAL_precondition(!result.triangles.empty() || faces(mesh).begin() == faces(mesh).end());
+  for(const auto f : faces(mesh)) {
+    auto h = halfedge(f, mesh);
+    Triangle_indices wedges;
+    for(Vertex_index& wedge : wedges) {
+      const auto uv = internal::uv_at(corner_uv, h);
+      wedge = Vertex_index(result.uv.size());
+      result.uv.emplace_back(to_double(uv[0]), to_double(uv[1]));
+      h = next(h, mesh);
+    }
+    result.wedges.push_back(wedges);
+  }
+  return result;
+}
+
+/*!
+\ingroup PkgHLSCMLevelsOfDetail
+
+Returns a progressive mesh of `mesh` all levels of which share its texture coordinates; see
+`build_textured_progressive_mesh()` of a `Textured_triangle_mesh`.
+
+\tparam TriangleMesh a model of `FaceListGraph`
+\param mesh a triangle mesh; faces that are no triangles are an error, too
+\param corner_uv as for `textured_triangle_mesh()`
+\param options where to stop, and what must stay
+\param np `vertex_point_map`: the points; `get(vertex_point, mesh)` by default
+*/
+template <class TriangleMesh, class CornerUv,
+          class NamedParameters = parameters::Default_named_parameters>
+Textured_progressive_mesh_result
+build_textured_progressive_mesh(const TriangleMesh& mesh, const CornerUv& corner_uv,
+                                const Textured_progressive_mesh_options& options,
+                                const NamedParameters& np = parameters::default_values())
+{
+  if(!is_triangle_mesh(mesh))
+    return {{}, "not all faces are triangles; triangulate the mesh first"};
+  return build_textured_progressive_mesh(textured_triangle_mesh(mesh, corner_uv, np), options);
+}
+
+/*!
+\ingroup PkgHLSCMLevelsOfDetail
+
+Appends a level to a mesh.
+
+\tparam TriangleMesh a model of `MutableFaceGraph`
+\tparam NamedParameters a sequence of named parameters
+\param mesh the progressive mesh
+\param triangles triangles of its wedges that make up a whole level, or what a
+       `Selectively_refined_mesh` shows
+\param result where the level goes
+\param corner_uvmap a model of `WritablePropertyMap` with the halfedge descriptor of `result` as key
+       and `Point_2` as value: gets the texture coordinate at the target of each halfedge of a face;
+       nothing if there is no texture
+\param np `vertex_point_map`: where the points go; `get(vertex_point, result)` by default
+
+Linear time in the number of triangles and of vertices of the fine mesh.
+*/
+template <class TriangleMesh, class HalfedgeUVMap,
+          class NamedParameters = parameters::Default_named_parameters>
+void copy_level(const Textured_progressive_mesh& mesh,
+                const std::vector<Triangle_indices>& triangles, TriangleMesh& result,
+                HalfedgeUVMap corner_uvmap,
+                const NamedParameters& np = parameters::default_values())
+{
+  typedef typename boost::property_traits<HalfedgeUVMap>::value_type Point_2;
+  internal::append_level(mesh, triangles, result, np, [&](const auto h, Vertex_index w) {
+    if(mesh.has_texture())
+      put(corner_uvmap, h, Point_2(mesh.uv[w].x(), mesh.uv[w].y()));
+  });
+}
+
+/// \ingroup PkgHLSCMLevelsOfDetail
+/// Appends a level to a mesh that gets no texture coordinates, at `get(vertex_point, result)`.
+template <class TriangleMesh>
+void copy_level(const Textured_progressive_mesh& mesh,
+                const std::vector<Triangle_indices>& triangles, TriangleMesh& result)
+{
+  internal::append_level(mesh, triangles, result, parameters::default_values(),
+                         [](const auto, Vertex_index) {});
 }
 
 } // namespace Surface_mesh_multiresolution

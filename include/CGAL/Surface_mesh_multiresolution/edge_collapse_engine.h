@@ -11,22 +11,11 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
-#include <functional>
 #include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_multiresolution {
-
-/// \ingroup PkgHLSCMMultiresolution
-/// The options of `progressive_mesh_by_edge_collapse()`.
-struct Edge_collapse_options
-{
-  std::size_t target_vertices = 2000; ///< where to stop
-  double angular_defect_bound = 70.;  ///< a vertex of no smaller defect stays; degrees
-  /// Told the part done in [0, 1] from time to time; returning false stops early.
-  std::function<bool(double)> progress;
-};
 
 namespace internal {
 
@@ -39,9 +28,9 @@ class Reporting_recorder
   : public Progressive_mesh_recorder<TriangleMesh, Cost>
 {
 public:
-  Reporting_recorder(const TriangleMesh& mesh, const std::vector<bool>& is_locked,
-                     const Cost& cost, const Edge_collapse_options& options)
-    : Progressive_mesh_recorder<TriangleMesh, Cost>(mesh, is_locked, cost)
+  Reporting_recorder(const TriangleMesh& mesh, const Cost& cost,
+                     const Progressive_mesh_options& options)
+    : Progressive_mesh_recorder<TriangleMesh, Cost>(mesh, options.is_locked, cost)
     , m_options(options)
   {}
 
@@ -68,7 +57,7 @@ public:
 private:
   bool is_time_to_report() const { return m_options.progress && ++m_calls % 2048 == 0; }
 
-  Edge_collapse_options m_options;
+  Progressive_mesh_options m_options;
   mutable std::size_t m_calls = 0;
 };
 
@@ -102,14 +91,14 @@ Returns the progressive mesh that CGAL's `edge_collapse()` makes of `mesh` with 
 Edges without length are collapsed first, whatever the target.
 
 \param mesh a manifold
-\param is_locked for each vertex whether it must stay; empty for none
-\param options where to stop, and what is a feature
+\param options where to stop, what must stay and what is a feature; `order` and `pass_fraction` do
+       not count
 
 Expected O(n log n) time.
 */
-inline Progressive_mesh progressive_mesh_by_edge_collapse(const Indexed_triangle_mesh& mesh,
-                                                          const std::vector<bool>& is_locked,
-                                                          const Edge_collapse_options& options)
+inline Progressive_mesh
+progressive_mesh_by_edge_collapse(const Indexed_triangle_mesh& mesh,
+                                  const Progressive_mesh_options& options)
 {
   namespace SMS = Surface_mesh_simplification;
   typedef Surface_mesh<Indexed_triangle_mesh::Point_3> Mesh;
@@ -119,7 +108,7 @@ inline Progressive_mesh progressive_mesh_by_edge_collapse(const Indexed_triangle
   Mesh surface = internal::surface_mesh_of(mesh);
   const Loss_map losses = surface.add_property_map<Mesh::Vertex_index, double>("v:loss", 0.).first;
   const Cost cost = hierarchy_collapse_cost(losses);
-  const Recorder recorder(surface, is_locked, cost, options);
+  const Recorder recorder(surface, cost, options);
   // The placement applies the filter to both directions, also right before a collapse; to pass it
   // as `filter`, too, would only repeat that.
   typedef typename Recorder::Vertex_is_locked_map Locked_map;

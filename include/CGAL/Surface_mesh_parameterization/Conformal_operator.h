@@ -5,7 +5,7 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_CONFORMAL_OPERATOR_H
 
 #include <CGAL/Multigrid/Matrix_builder.h>
-#include <CGAL/Indexed_mesh/Triangles_at_vertices.h>
+#include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 #include <CGAL/Surface_mesh_parameterization/internal/solver/Half_cotangents.h>
 #include <CGAL/Surface_mesh_parameterization/internal/solver/conformal_rows.h>
 

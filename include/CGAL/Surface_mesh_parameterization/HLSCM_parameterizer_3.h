@@ -64,7 +64,7 @@ own, `repair_flipped_faces.h`.
         parallel, the stages of the hierarchical method use `HLSCM_options::threads` threads of TBB,
         which read the mesh at the same time, with the same result to the bit for any number
 
-\cgalModels{Parameterizer_3}
+\cgalModels{Parameterizer_3 of CGAL's Triangulated Surface Mesh Parameterization}
 
 Memory: about 180 bytes a face beside the mesh.
 

@@ -7,9 +7,6 @@
 #include <CGAL/Surface_mesh_parameterization/Distortion_measures.h>
 #include <CGAL/Surface_mesh_parameterization/self_overlap.h>
 
-#include <CGAL/Box_intersection_d/Box_with_info_d.h>
-#include <CGAL/box_intersection_d.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <utility>
@@ -57,60 +54,6 @@ FaceOutputIterator degenerate_faces(const TriangleMesh& mesh, VertexUVMap uvmap,
   return out;
 }
 
-namespace internal {
-
-// A face with an area in the plane, counterclockwise.
-struct Uv_face
-{
-  std::size_t position; // in faces(mesh)
-  Uv_triangle triangle;
-
-  bool overlaps(const Uv_face& other) const
-  {
-    return !is_separated_by_side(triangle, other.triangle)
-        && !is_separated_by_side(other.triangle, triangle);
-  }
-};
-
-template <class View>
-std::vector<Uv_face> faces_with_area(const View& view)
-{
-  std::vector<Uv_face> result;
-  std::size_t position = 0;
-  for(const auto f : faces(view.mesh())) {
-    Uv_triangle t = view.triangle(f);
-    const Orientation sign = orientation_of(t);
-    if(sign == RIGHT_TURN)
-      std::swap(t[1], t[2]);
-    if(sign != COLLINEAR)
-      result.push_back({position, t});
-    ++position;
-  }
-  return result;
-}
-
-// The pairs of positions of faces whose interiors intersect in the plane, ascending.
-template <class View>
-std::vector<std::pair<std::size_t, std::size_t>> overlapping_pairs(const View& view)
-{
-  typedef Box_intersection_d::Box_with_info_d<double, 2, const Uv_face*> Box;
-  const std::vector<Uv_face> uv_faces = faces_with_area(view);
-  std::vector<Box> boxes;
-  boxes.reserve(uv_faces.size());
-  for(const Uv_face& f : uv_faces)
-    boxes.push_back(
-      Box(f.triangle[0].bbox() + f.triangle[1].bbox() + f.triangle[2].bbox(), &f));
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
-    if(a.info()->overlaps(*b.info()))
-      pairs.push_back(std::minmax(a.info()->position, b.info()->position));
-  });
-  std::sort(pairs.begin(), pairs.end());
-  return pairs;
-}
-
-} // namespace internal
-
 /*!
 \ingroup PkgHLSCMMeasures
 
@@ -133,7 +76,13 @@ PairOutputIterator overlapping_faces(const TriangleMesh& mesh, VertexUVMap uvmap
   typedef typename boost::graph_traits<TriangleMesh>::face_descriptor face_descriptor;
   const std::vector<face_descriptor> all(faces(mesh).begin(), faces(mesh).end());
   const Uv_view<TriangleMesh, VertexUVMap> view(mesh, uvmap);
-  for(const auto& [a, b] : internal::overlapping_pairs(view))
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  visit_overlapping_faces(view, [&pairs](const Uv_face& a, const Uv_face& b) {
+    pairs.push_back(std::minmax(a.position, b.position));
+    return true;
+  });
+  std::sort(pairs.begin(), pairs.end());
+  for(const auto& [a, b] : pairs)
     *out++ = std::pair<face_descriptor, face_descriptor>(all[a], all[b]);
   return out;
 }

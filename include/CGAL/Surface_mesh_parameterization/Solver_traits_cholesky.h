@@ -48,6 +48,7 @@ public:
         rank[i] = std::uint32_t(m_free.size());
         m_free.push_back(i);
       }
+    m_is_factorized = true;
     if(m_free.empty())
       return true;
     const int n = int(m_free.size());
@@ -69,8 +70,12 @@ public:
       });
     }
     NT scale;
-    return m_traits.factor(*m_matrix, scale);
+    m_is_factorized = m_traits.factor(*m_matrix, scale);
+    return m_is_factorized;
   }
+
+  /// Returns whether the last call of `factorize()` succeeded; `false` before.
+  bool is_factorized() const { return m_is_factorized; }
 
   /// Solves for `x`; unknowns of rows of zeros become 0.
   template <class Real>
@@ -95,6 +100,7 @@ private:
   SolverTraits m_traits;
   std::shared_ptr<typename SolverTraits::Matrix> m_matrix; // some factorizations refer to it
   std::vector<std::uint32_t> m_free;
+  bool m_is_factorized = false;
 };
 
 namespace internal {

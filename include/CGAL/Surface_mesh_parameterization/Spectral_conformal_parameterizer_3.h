@@ -34,7 +34,7 @@ look different.
 \tparam SolverTraits a model of `SparseLinearAlgebraWithFactorTraits_d` for the coarsest level
 \tparam ConcurrencyTag `Sequential_tag` (default), `Parallel_tag` or `Parallel_if_available_tag`
 
-\cgalModels{Parameterizer_3}
+\cgalModels{Parameterizer_3 of CGAL's Triangulated Surface Mesh Parameterization}
 */
 template <class TriangleMesh_, class SolverTraits_ = Default, class ConcurrencyTag = Sequential_tag>
 class Spectral_conformal_parameterizer_3

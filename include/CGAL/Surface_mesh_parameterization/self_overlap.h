@@ -39,7 +39,8 @@ bool rounded_segments_meet(const Point& p, const Point& q, const Point& r, const
 }
 
 // Calls visit(e, f) for each two edges that share no vertex and meet in the plane, up to rounding,
-// until it returns false. Found by a sweep.
+// until it returns false. Found by a sweep. For maps that are tried and thrown away, and for hints
+// where to repair; what a map is accepted by is exact (`is_simple_border()`, `certify_map()`).
 template <class Point, class Visitor>
 void visit_crossing_edges(std::vector<std::array<std::uint32_t, 2>> edges,
                           const std::vector<Point>& points, const Visitor& visit)
@@ -123,25 +124,26 @@ inline Orientation orientation_of(const Uv_triangle& t)
   return is_finite(t) ? orientation(t[0], t[1], t[2]) : COLLINEAR;
 }
 
-// Whether test(a, b) holds for one of the pairs of items whose boxes intersect.
-template <class Item, class Test>
-bool any_pair_of_boxes(const std::vector<std::pair<Bbox_2, Item>>& items, const Test& test)
+// Calls visit(a, b) for each two items whose boxes intersect, until it returns false. Returns
+// whether it never did.
+template <class Item, class Visit>
+bool visit_pairs_of_boxes(const std::vector<std::pair<Bbox_2, Item>>& items, const Visit& visit)
 {
   typedef Box_intersection_d::Box_with_info_d<double, 2, const Item*> Box;
-  struct Found {}; // the only way out of box_self_intersection_d()
+  struct Stopped {}; // the only way out of box_self_intersection_d()
   std::vector<Box> boxes;
   boxes.reserve(items.size());
   for(const auto& [box, item] : items)
     boxes.push_back(Box(box, &item));
   try {
     CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
-      if(test(*a.info(), *b.info()))
-        throw Found();
+      if(!visit(*a.info(), *b.info()))
+        throw Stopped();
     });
-  } catch(const Found&) {
-    return true;
+  } catch(const Stopped&) {
+    return false;
   }
-  return false;
+  return true;
 }
 
 // Whether a line along a side of the counterclockwise triangle `a` has `b` on its right side.
@@ -156,24 +158,46 @@ inline bool is_separated_by_side(const Uv_triangle& a, const Uv_triangle& b)
   return false;
 }
 
-// Whether the interiors of two of the triangles intersect: the definition, pair by pair.
-template <class View>
-bool has_overlapping_triangles(const View& view)
+// A face with an area in the plane, counterclockwise.
+struct Uv_face
 {
-  std::vector<std::pair<Bbox_2, Uv_triangle>> items;
+  std::size_t position; // in faces(mesh)
+  Uv_triangle triangle;
+
+  // Whether the interiors intersect.
+  bool overlaps(const Uv_face& other) const
+  {
+    return !is_separated_by_side(triangle, other.triangle)
+        && !is_separated_by_side(other.triangle, triangle);
+  }
+};
+
+// Calls visit(a, b) for each two faces whose images have interiors that intersect, by definition,
+// until it returns false. Returns whether it never did.
+template <class View, class Visit>
+bool visit_overlapping_faces(const View& view, const Visit& visit)
+{
+  std::vector<std::pair<Bbox_2, Uv_face>> items;
   items.reserve(num_faces(view.mesh()));
+  std::size_t position = 0;
   for(const auto f : faces(view.mesh())) {
     Uv_triangle t = view.triangle(f);
     const Orientation sign = orientation_of(t);
-    if(sign == COLLINEAR)
-      continue;
     if(sign == RIGHT_TURN)
       std::swap(t[1], t[2]);
-    items.push_back({t[0].bbox() + t[1].bbox() + t[2].bbox(), t});
+    if(sign != COLLINEAR)
+      items.push_back({t[0].bbox() + t[1].bbox() + t[2].bbox(), {position, t}});
+    ++position;
   }
-  return any_pair_of_boxes(items, [](const Uv_triangle& a, const Uv_triangle& b) {
-    return !is_separated_by_side(a, b) && !is_separated_by_side(b, a);
+  return visit_pairs_of_boxes(items, [&visit](const Uv_face& a, const Uv_face& b) {
+    return !a.overlaps(b) || visit(a, b);
   });
+}
+
+template <class View>
+bool has_overlapping_triangles(const View& view)
+{
+  return !visit_overlapping_faces(view, [](const Uv_face&, const Uv_face&) { return false; });
 }
 
 // Whether a face that lies on its back has a neighbour that does not: they overlap.
@@ -215,19 +239,33 @@ inline bool segments_meet(const Uv_point& a, const Uv_point& b, const Uv_point& 
   return !separates(a, b, c, d) && !separates(c, d, a, b);
 }
 
-// Whether the images of two border halfedges have a point in common, the vertex between two
-// successive ones aside.
-template <class View>
-bool border_halfedges_meet(const View& view, typename View::halfedge_descriptor g,
-                           typename View::halfedge_descriptor h)
+// Whether the images of two border edges, each given by its ends in order, have a point in common,
+// the vertex between two successive ones aside. `point` gives the image of an end.
+template <class Edge, class PointOf>
+bool border_edges_meet(const Edge& e, const Edge& f, const PointOf& point)
 {
-  const auto& mesh = view.mesh();
-  if(next(h, mesh) == g)
-    std::swap(g, h);
-  const Uv_point a = view.point(source(g, mesh)), b = view.point(target(g, mesh)),
-                 d = view.point(target(h, mesh));
-  return next(g, mesh) == h ? successive_segments_meet(a, b, d)
-                            : segments_meet(a, b, view.point(source(h, mesh)), d);
+  if(e[0] == f[1] && e[1] != f[0])
+    return successive_segments_meet(point(f[0]), point(f[1]), point(e[1]));
+  if(e[1] == f[0] && e[0] != f[1])
+    return successive_segments_meet(point(e[0]), point(e[1]), point(f[1]));
+  return segments_meet(point(e[0]), point(e[1]), point(f[0]), point(f[1]));
+}
+
+// Whether the images of no two border edges of a mesh, all of which are given by the indices of
+// their ends, meet. Then a map of a disk whose triangles all have a positive area is one-to-one:
+// see `certify_map()`.
+template <class Point>
+bool is_simple_border(const std::vector<std::array<std::uint32_t, 2>>& border,
+                      const std::vector<Point>& uv)
+{
+  typedef std::array<std::uint32_t, 2> Edge;
+  const auto point = [&uv](std::uint32_t v) { return Uv_point(uv[v].x(), uv[v].y()); };
+  std::vector<std::pair<Bbox_2, Edge>> items;
+  for(const Edge& e : border)
+    items.push_back({point(e[0]).bbox() + point(e[1]).bbox(), e});
+  return visit_pairs_of_boxes(items, [&point](const Edge& e, const Edge& f) {
+    return !border_edges_meet(e, f, point);
+  });
 }
 
 // The orientation of the border cycle of `h`, whose image is simple: that at its leftmost vertex.
@@ -260,10 +298,13 @@ bool is_one_to_one_by_border(const View& view, Orientation sign)
   for(const halfedge_descriptor h : halfedges(mesh))
     if(is_border(h, mesh))
       items.push_back({view.point(source(h, mesh)).bbox() + view.point(target(h, mesh)).bbox(), h});
-  const auto meet = [&view](halfedge_descriptor g, halfedge_descriptor h) {
-    return border_halfedges_meet(view, g, h);
+  const auto ends = [&mesh](halfedge_descriptor h) {
+    return std::array<typename View::vertex_descriptor, 2>{source(h, mesh), target(h, mesh)};
   };
-  if(any_pair_of_boxes(items, meet))
+  const auto point = [&view](typename View::vertex_descriptor v) { return view.point(v); };
+  if(!visit_pairs_of_boxes(items, [&](halfedge_descriptor g, halfedge_descriptor h) {
+       return !border_edges_meet(ends(g), ends(h), point);
+     }))
     return false;
   std::size_t outer_cycles = 0;
   std::set<halfedge_descriptor> visited;

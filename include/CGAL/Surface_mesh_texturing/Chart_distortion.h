@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_TEXTURING_CHART_DISTORTION_H
 
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
+#include <CGAL/Surface_mesh_parameterization/self_overlap.h>
 
 #include <CGAL/assertions.h>
 
@@ -41,7 +42,11 @@ struct Chart_distortion
   double quasi_conformal = 1.;   ///< the ratio of 99 % of the area
   double area = 0.;              ///< on the surface
   double uv_area = 0.;           ///< in the plane, signed
-  std::size_t flipped_faces = 0; ///< triangles whose area in the plane is not positive
+  /// Triangles whose area in the plane is negative, by an exact predicate, as for
+  /// `Surface_mesh_parameterization::Distortion_measures`.
+  std::size_t flipped_faces = 0;
+  /// Triangles whose area in the plane is 0, by the same predicate.
+  std::size_t degenerate_faces = 0;
 
   /// Returns whether the chart is within the bound. Flipped triangles are another matter.
   bool is_within(const Distortion_bound& bound) const
@@ -80,6 +85,7 @@ inline Chart_distortion
 measure_chart_distortion(const Indexed_mesh::Indexed_triangle_mesh& mesh,
                          const std::vector<Simple_cartesian<double>::Point_2>& uv)
 {
+  namespace SMP = Surface_mesh_parameterization;
   CGAL_precondition(uv.size() == mesh.points.size());
   Chart_distortion result;
   std::vector<std::pair<float, float>> scales, ratios;
@@ -91,7 +97,11 @@ measure_chart_distortion(const Indexed_mesh::Indexed_triangle_mesh& mesh,
     const double uv_area = p.x() * q.y() - p.y() * q.x();
     result.uv_area += 0.5 * uv_area;
     result.area += 0.5 * area;
-    result.flipped_faces += uv_area > 0. ? 0 : 1;
+    const Orientation sign = SMP::orientation_of(
+      {SMP::Uv_point(uv[t[0]].x(), uv[t[0]].y()), SMP::Uv_point(uv[t[1]].x(), uv[t[1]].y()),
+       SMP::Uv_point(uv[t[2]].x(), uv[t[2]].y())});
+    result.flipped_faces += sign == RIGHT_TURN ? 1 : 0;
+    result.degenerate_faces += sign == COLLINEAR ? 1 : 0;
     if(!(area > 0.) || !(uv_area > 0.))
       continue;
     // Dirichlet energy: (sigma_1^2 + sigma_2^2) times the area

@@ -9,14 +9,12 @@
 
 #include <CGAL/assertions.h>
 
-#include <algorithm>
-#include <numeric>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_texturing {
-
 
 /*!
 \ingroup PkgHLSCMTexturing
@@ -40,66 +38,72 @@ struct Face_charts
 
   /// Returns whether the edge between corners `c` and `c + 1` of triangle `t` is a seam.
   bool is_seam(std::size_t t, int c) const { return (seams[t] >> c & 1) != 0; }
+  /// Returns whether the edge of halfedge `h` is a seam.
+  bool is_seam(Halfedge h) const { return is_seam(triangle_of(h), int(corner_of(h))); }
 };
 
 namespace internal {
 
-// The smallest member of each set of a partition of [0, n).
-class Disjoint_sets
+// The bit of a halfedge among the seams of its triangle.
+inline bool is_marked(const std::vector<std::uint8_t>& seams, Halfedge h)
 {
-public:
-  explicit Disjoint_sets(std::size_t n) : m_parent(n)
-  {
-    std::iota(m_parent.begin(), m_parent.end(), 0u);
-  }
+  return (seams[triangle_of(h)] >> corner_of(h) & 1) != 0;
+}
 
-  std::uint32_t find(std::uint32_t i)
-  {
-    while(m_parent[i] != i)
-      i = m_parent[i] = m_parent[m_parent[i]];
-    return i;
-  }
+inline void mark(std::vector<std::uint8_t>& seams, Halfedge h)
+{
+  seams[triangle_of(h)] |= std::uint8_t(1u << corner_of(h));
+}
 
-  void join(std::uint32_t i, std::uint32_t j)
-  {
-    i = find(i);
-    j = find(j);
-    m_parent[(std::max)(i, j)] = (std::min)(i, j);
-  }
+inline void unmark(std::vector<std::uint8_t>& seams, Halfedge h)
+{
+  seams[triangle_of(h)] &= std::uint8_t(~(1u << corner_of(h)));
+}
 
-private:
-  std::vector<std::uint32_t> m_parent;
-};
-
-} // namespace internal
-
-namespace internal {
-
-// The same as `charts_between()`, with the neighbours of the triangles: a class with `opposite()`.
+// The charts between `seams`, which are made symmetric. Adjacency has the function `opposite()`.
 template <class Adjacency>
 Face_charts label_charts(const Adjacency& adjacency, std::vector<std::uint8_t> seams)
 {
   const std::uint32_t n = std::uint32_t(seams.size());
   Disjoint_sets sets(n);
-  for(std::uint32_t h = 0; h < 3 * n; ++h) {
-    const std::uint32_t opposite = adjacency.opposite(h);
-    if(opposite == no_vertex)
-      seams[h / 3] |= std::uint8_t(1 << h % 3);
-    else if(seams[h / 3] >> h % 3 & 1)
-      seams[opposite / 3] |= std::uint8_t(1 << opposite % 3);
+  for(Halfedge h = 0; h < 3 * n; ++h) {
+    const Halfedge opposite = adjacency.opposite(h);
+    if(opposite == no_halfedge)
+      mark(seams, h);
+    else if(is_marked(seams, h))
+      mark(seams, opposite);
   }
-  for(std::uint32_t t = 0; t < n; ++t)
-    for(std::uint32_t c = 0; c < 3; ++c)
-      if(!(seams[t] >> c & 1))
-        sets.join(t, adjacency.opposite(3 * t + c) / 3);
+  for(Halfedge h = 0; h < 3 * n; ++h)
+    if(!is_marked(seams, h))
+      sets.join(triangle_of(h), triangle_of(adjacency.opposite(h)));
   Face_charts result;
   result.chart.resize(n);
-  for(std::uint32_t t = 0; t < n; ++t) {
-    const std::uint32_t first = sets.find(t);
+  for(Triangle_index t = 0; t < n; ++t) {
+    const Triangle_index first = sets.find(t);
     result.chart[t] = first == t ? std::uint32_t(result.number_of_charts++) : result.chart[first];
   }
   result.seams = std::move(seams);
   return result;
+}
+
+// For each of n corners, which are halfedges too, the first corner of its wedge: of the corners at
+// the same vertex that are connected across open edges. `across(h)` is the halfedge on the other
+// side of h, or `no_halfedge` if the edge is not open.
+template <class Across>
+std::vector<Halfedge> first_corners_of_wedges(std::size_t n, const Across& across)
+{
+  Disjoint_sets corners(n);
+  for(Halfedge h = 0; h < n; ++h) {
+    const Halfedge opposite = across(h);
+    if(opposite == no_halfedge)
+      continue;
+    corners.join(h, next_halfedge(opposite));
+    corners.join(next_halfedge(h), opposite);
+  }
+  std::vector<Halfedge> first(n);
+  for(Halfedge h = 0; h < n; ++h)
+    first[h] = corners.find(h);
+  return first;
 }
 
 } // namespace internal
@@ -111,28 +115,42 @@ Returns the charts between `seams`, to which the seams that are marked on one si
 the other one, and the border edges of the mesh, whose triangles must have at most one neighbour
 across each edge. Linear time.
 */
+inline Face_charts charts_between(const Indexed_mesh::Triangle_adjacency& adjacency,
+                                  std::vector<std::uint8_t> seams)
+{
+  CGAL_precondition(3 * seams.size() == adjacency.number_of_halfedges());
+  return internal::label_charts(adjacency, std::move(seams));
+}
+
+/// \ingroup PkgHLSCMTexturing
+/// The same without an adjacency at hand.
 inline Face_charts charts_between(const std::vector<Triangle_indices>& triangles,
                                   std::vector<std::uint8_t> seams)
 {
-  CGAL_precondition(seams.size() == triangles.size());
-  return internal::label_charts(Indexed_mesh::Triangle_adjacency(triangles), std::move(seams));
+  return charts_between(Indexed_mesh::Triangle_adjacency(triangles), std::move(seams));
 }
 
 /// \ingroup PkgHLSCMTexturing
 /// Returns the charts whose borders are the edges between triangles of different `label`.
+inline Face_charts charts_of_labels(const Indexed_mesh::Triangle_adjacency& adjacency,
+                                    const std::vector<std::uint32_t>& label)
+{
+  CGAL_precondition(3 * label.size() == adjacency.number_of_halfedges());
+  std::vector<std::uint8_t> seams(label.size(), 0);
+  for(Halfedge h = 0; h < adjacency.number_of_halfedges(); ++h) {
+    const Halfedge opposite = adjacency.opposite(h);
+    if(opposite != no_halfedge && label[triangle_of(h)] != label[triangle_of(opposite)])
+      internal::mark(seams, h);
+  }
+  return charts_between(adjacency, std::move(seams));
+}
+
+/// \ingroup PkgHLSCMTexturing
+/// The same without an adjacency at hand.
 inline Face_charts charts_of_labels(const std::vector<Triangle_indices>& triangles,
                                     const std::vector<std::uint32_t>& label)
 {
-  CGAL_precondition(label.size() == triangles.size());
-  const Indexed_mesh::Triangle_adjacency adjacency(triangles);
-  std::vector<std::uint8_t> seams(triangles.size(), 0);
-  for(std::uint32_t t = 0; t < triangles.size(); ++t)
-    for(int c = 0; c < 3; ++c) {
-      const std::uint32_t opposite = adjacency.opposite(t, c);
-      if(opposite != no_vertex && label[t] != label[opposite / 3])
-        seams[t] |= 1 << c;
-    }
-  return charts_between(triangles, std::move(seams));
+  return charts_of_labels(Indexed_mesh::Triangle_adjacency(triangles), label);
 }
 
 /// \ingroup PkgHLSCMTexturing
@@ -141,31 +159,90 @@ struct Chart_mesh
 {
   Indexed_triangle_mesh mesh;           ///< the chart, in the order of the whole mesh
   std::vector<Vertex_index> vertices;   ///< for each vertex the one of the whole mesh
-  std::vector<std::uint32_t> triangles; ///< for each triangle the one of the whole mesh
+  std::vector<Triangle_index> triangles; ///< for each triangle the one of the whole mesh
+  std::vector<Halfedge> border;         ///< the halfedges of `mesh` on seams, which are its border
+
+  /// Returns the ends of the edges of the border.
+  std::vector<Border_edge> border_edges() const
+  {
+    std::vector<Border_edge> result;
+    result.reserve(border.size());
+    for(const Halfedge h : border)
+      result.push_back({vertex_of(mesh.triangles, h), vertex_of(mesh.triangles, next_halfedge(h))});
+    return result;
+  }
 };
 
 namespace internal {
 
-// For each corner 3 t + c the first corner of its wedge: of the corners at the same vertex that are
-// connected across edges which are no seams.
-inline std::vector<std::uint32_t> first_corners_of_wedges(
-  const std::vector<Triangle_indices>& triangles, const std::vector<std::uint8_t>& seams)
+// Cuts charts out of a mesh, one after the other. Adjacency has the function `opposite()`.
+template <class Adjacency>
+class Chart_cutter
 {
-  const Triangle_adjacency adjacency(triangles);
-  Disjoint_sets corners(3 * triangles.size());
-  for(std::uint32_t t = 0; t < triangles.size(); ++t)
-    for(std::uint32_t c = 0; c < 3; ++c) {
-      const std::uint32_t opposite = adjacency.opposite(t, int(c));
-      if(opposite == no_vertex || seams[t] >> c & 1)
-        continue;
-      // Corner c of t lies at the end of the opposite halfedge, c + 1 at its beginning
-      corners.join(3 * t + c, opposite / 3 * 3 + (opposite + 1 - opposite / 3 * 3) % 3);
-      corners.join(3 * t + (c + 1) % 3, opposite);
+public:
+  Chart_cutter(const Indexed_triangle_mesh& mesh, const Adjacency& adjacency)
+    : m_mesh(mesh), m_adjacency(adjacency), m_position(mesh.triangles.size())
+  {}
+
+  // The chart of the triangles, which are ascending. `is_open(h)`: whether the triangles on both
+  // sides of h are in the chart and stay together there.
+  template <class IsOpen>
+  Chart_mesh operator()(std::vector<Triangle_index> triangles, const IsOpen& is_open);
+
+private:
+  const Indexed_triangle_mesh& m_mesh;
+  const Adjacency& m_adjacency;
+  std::vector<Triangle_index> m_position; // of each triangle in the chart that is being cut out
+};
+
+template <class Adjacency>
+template <class IsOpen>
+Chart_mesh Chart_cutter<Adjacency>::operator()(std::vector<Triangle_index> triangles,
+                                               const IsOpen& is_open)
+{
+  for(Triangle_index i = 0; i < triangles.size(); ++i)
+    m_position[triangles[i]] = i;
+  const auto in_mesh = [&](Halfedge i) { return 3 * triangles[triangle_of(i)] + corner_of(i); };
+  const auto opposite = [&](Halfedge h) {
+    const Halfedge o = m_adjacency.opposite(h);
+    return o == no_halfedge ? o : 3 * m_position[triangle_of(o)] + corner_of(o);
+  };
+  const std::vector<Halfedge> first
+    = first_corners_of_wedges(3 * triangles.size(), [&](Halfedge i) {
+        return is_open(in_mesh(i)) ? opposite(in_mesh(i)) : no_halfedge;
+      });
+  Chart_mesh result;
+  result.mesh.triangles.resize(triangles.size());
+  for(Halfedge i = 0; i < first.size(); ++i) {
+    Vertex_index& vertex = result.mesh.triangles[triangle_of(i)][corner_of(i)];
+    if(first[i] == i) {
+      vertex = Vertex_index(result.vertices.size());
+      result.vertices.push_back(vertex_of(m_mesh.triangles, in_mesh(i)));
+      result.mesh.points.push_back(m_mesh.points[result.vertices.back()]);
+    } else {
+      vertex = vertex_of(result.mesh.triangles, first[i]);
     }
-  std::vector<std::uint32_t> first(3 * triangles.size());
-  for(std::uint32_t i = 0; i < first.size(); ++i)
-    first[i] = corners.find(i);
-  return first;
+  }
+  for(Halfedge i = 0; i < first.size(); ++i)
+    if(m_adjacency.opposite(in_mesh(i)) == no_halfedge || !is_open(in_mesh(i)))
+      result.border.push_back(i);
+  result.triangles = std::move(triangles);
+  return result;
+}
+
+template <class Adjacency>
+std::vector<Chart_mesh> cut_out_charts(const Indexed_triangle_mesh& mesh,
+                                       const Adjacency& adjacency, const Face_charts& charts)
+{
+  CGAL_precondition(charts.chart.size() == mesh.triangles.size());
+  std::vector<std::vector<Triangle_index>> triangles(charts.number_of_charts);
+  for(Triangle_index t = 0; t < mesh.triangles.size(); ++t)
+    triangles[charts.chart[t]].push_back(t);
+  Chart_cutter<Adjacency> cut(mesh, adjacency);
+  std::vector<Chart_mesh> result;
+  for(std::vector<Triangle_index>& chart : triangles)
+    result.push_back(cut(std::move(chart), [&](Halfedge h) { return !charts.is_seam(h); }));
+  return result;
 }
 
 } // namespace internal
@@ -173,32 +250,21 @@ inline std::vector<std::uint32_t> first_corners_of_wedges(
 /*!
 \ingroup PkgHLSCMTexturing
 
-Returns each chart of `mesh` as a mesh of its own. Linear time.
+Returns each chart of `mesh`, whose adjacency is given, as a mesh of its own. Linear time.
 */
+inline std::vector<Chart_mesh> chart_meshes(const Indexed_triangle_mesh& mesh,
+                                            const Indexed_mesh::Triangle_adjacency& adjacency,
+                                            const Face_charts& charts)
+{
+  return internal::cut_out_charts(mesh, adjacency, charts);
+}
+
+/// \ingroup PkgHLSCMTexturing
+/// The same without an adjacency at hand.
 inline std::vector<Chart_mesh> chart_meshes(const Indexed_triangle_mesh& mesh,
                                             const Face_charts& charts)
 {
-  CGAL_precondition(charts.chart.size() == mesh.triangles.size());
-  const std::vector<std::uint32_t> first
-    = internal::first_corners_of_wedges(mesh.triangles, charts.seams);
-  std::vector<Vertex_index> wedge(first.size(), no_vertex);
-  std::vector<Chart_mesh> result(charts.number_of_charts);
-  for(std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    Chart_mesh& chart = result[charts.chart[t]];
-    Triangle_indices triangle;
-    for(std::uint32_t c = 0; c < 3; ++c) {
-      Vertex_index& w = wedge[first[3 * t + c]];
-      if(w == no_vertex) {
-        w = Vertex_index(chart.vertices.size());
-        chart.vertices.push_back(mesh.triangles[t][c]);
-        chart.mesh.points.push_back(mesh.points[mesh.triangles[t][c]]);
-      }
-      triangle[c] = w;
-    }
-    chart.mesh.triangles.push_back(triangle);
-    chart.triangles.push_back(t);
-  }
-  return result;
+  return chart_meshes(mesh, Indexed_mesh::Triangle_adjacency(mesh.triangles), charts);
 }
 
 } // namespace Surface_mesh_texturing

@@ -21,20 +21,7 @@ using Surface_mesh_multiresolution::Textured_triangle_mesh;
 /// A vector in space.
 typedef Simple_cartesian<double>::Vector_3 Vector_3;
 
-/// \ingroup PkgHLSCMTexturing
-/// "No triangle".
-constexpr std::uint32_t no_triangle = std::uint32_t(-1);
-
-/// \ingroup PkgHLSCMTexturing
-/// A point of a triangle mesh: a triangle and the barycentric coordinates in it.
-struct Surface_point
-{
-  std::uint32_t triangle = no_triangle;      ///< or `no_triangle`
-  std::array<double, 3> weights = {0, 0, 0}; ///< of its corners
-
-  /// Returns whether there is a point.
-  bool exists() const { return triangle != no_triangle; }
-};
+using Indexed_mesh::Surface_point;
 
 /// \ingroup PkgHLSCMTexturing
 /// Returns the linear interpolation of the vectors that the corners `corners` of a triangle have.

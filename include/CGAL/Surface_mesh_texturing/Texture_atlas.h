@@ -20,6 +20,7 @@ namespace CGAL {
 namespace Surface_mesh_texturing {
 
 using Surface_mesh_multiresolution::Textured_triangle_mesh;
+using Surface_mesh_multiresolution::vertices_of_wedges;
 
 /// \ingroup PkgHLSCMTexturing
 /// The options of `build_texture_atlas()`. How charts are found, mapped and packed is the matter of

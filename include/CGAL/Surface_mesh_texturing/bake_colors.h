@@ -128,7 +128,7 @@ inline Baked_map bake_image(const Textured_triangle_mesh& fine,
     result.error = internal::size_error(former.wedges.size(), fine.triangles.size(),
                                         "triangles of the former texture");
   if(result.error.empty())
-    result.error = internal::wedge_error(former, "the former texture");
+    result.error = texture_error(former, "the former texture");
   if(!result.error.empty())
     return result;
   return bake(light, Equal_uv(fine, light, options), Image_shader(former, image), options);

@@ -45,28 +45,27 @@ namespace internal {
 
 // Clears the seams both ends of which are inside the same chart and end there: an edge alone cuts
 // nothing open, as both of its sides keep the same two vertices.
-inline std::vector<std::uint8_t>
-without_lonely_seams(const std::vector<Triangle_indices>& triangles,
-                     const Triangle_adjacency& adjacency, std::vector<std::uint8_t> seams)
+inline std::vector<std::uint8_t> without_lonely_seams(const Triangle_adjacency& adjacency,
+                                                      std::vector<std::uint8_t> seams)
 {
   // Whether the seam h is the only one at the vertex it starts from
-  const auto ends_alone = [&](std::uint32_t h) {
-    std::uint32_t g = h;
+  const auto ends_alone = [&](Halfedge h) {
+    Halfedge g = h;
     do { // to the edge before g around the vertex, clockwise
       g = adjacency.opposite(g);
-      if(g == no_vertex)
+      if(g == no_halfedge)
         return false;
-      g = g % 3 == 2 ? g - 2 : g + 1;
-    } while(!(seams[g / 3] >> g % 3 & 1));
+      g = next_halfedge(g);
+    } while(!is_marked(seams, g));
     return g == h;
   };
-  for(std::uint32_t h = 0; h < 3 * triangles.size(); ++h) {
-    const std::uint32_t opposite = adjacency.opposite(h);
-    if(!(seams[h / 3] >> h % 3 & 1) || opposite == no_vertex || opposite < h)
+  for(Halfedge h = 0; h < adjacency.number_of_halfedges(); ++h) {
+    const Halfedge opposite = adjacency.opposite(h);
+    if(!is_marked(seams, h) || opposite == no_halfedge || opposite < h)
       continue;
     if(ends_alone(h) && ends_alone(opposite)) {
-      seams[h / 3] &= std::uint8_t(~(1u << h % 3));
-      seams[opposite / 3] &= std::uint8_t(~(1u << opposite % 3));
+      unmark(seams, h);
+      unmark(seams, opposite);
     }
   }
   return seams;
@@ -77,39 +76,46 @@ without_lonely_seams(const std::vector<Triangle_indices>& triangles,
 /*!
 \ingroup PkgHLSCMTexturing
 
-Returns the topology of each chart of a mesh with these triangles. A seam that is a single edge with
+Returns the topology of each chart of a mesh with this adjacency. A seam that is a single edge with
 both ends inside a chart does not cut and is not counted. Linear time.
 */
-inline std::vector<Chart_topology> chart_topologies(const std::vector<Triangle_indices>& triangles,
-                                                    const Face_charts& charts)
+inline std::vector<Chart_topology>
+chart_topologies(const Indexed_mesh::Triangle_adjacency& adjacency, const Face_charts& charts)
 {
-  CGAL_precondition(charts.seams.size() == triangles.size());
-  const Indexed_mesh::Triangle_adjacency adjacency(triangles);
-  const std::vector<std::uint8_t> seams
-    = internal::without_lonely_seams(triangles, adjacency, charts.seams);
-  const std::vector<std::uint32_t> first = internal::first_corners_of_wedges(triangles, seams);
-  const auto is_seam = [&](std::uint32_t h) { return (seams[h / 3] >> h % 3 & 1) != 0; };
-  const auto next = [](std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; };
+  CGAL_precondition(3 * charts.seams.size() == adjacency.number_of_halfedges());
+  const std::vector<std::uint8_t> seams = internal::without_lonely_seams(adjacency, charts.seams);
+  const auto is_seam = [&](Halfedge h) { return internal::is_marked(seams, h); };
+  const std::vector<Halfedge> first = internal::first_corners_of_wedges(
+    adjacency.number_of_halfedges(),
+    [&](Halfedge h) { return is_seam(h) ? no_halfedge : adjacency.opposite(h); });
   std::vector<Chart_topology> result(charts.number_of_charts);
-  for(std::uint32_t h = 0; h < first.size(); ++h) {
-    Chart_topology& topology = result[charts.chart[h / 3]];
+  for(Halfedge h = 0; h < first.size(); ++h) {
+    Chart_topology& topology = result[charts.chart[triangle_of(h)]];
     topology.vertices += first[h] == h ? 1 : 0;
-    topology.faces += h % 3 == 0 ? 1 : 0;
+    topology.faces += corner_of(h) == 0 ? 1 : 0;
     topology.border_edges += is_seam(h) ? 1 : 0;
   }
   // A wedge is one fan: behind each border edge comes exactly one
   std::vector<bool> is_done(first.size(), false);
-  for(std::uint32_t h = 0; h < first.size(); ++h) {
+  for(Halfedge h = 0; h < first.size(); ++h) {
     if(!is_seam(h) || is_done[h])
       continue;
-    ++result[charts.chart[h / 3]].borders;
-    for(std::uint32_t g = h; !is_done[g];) {
+    ++result[charts.chart[triangle_of(h)]].borders;
+    for(Halfedge g = h; !is_done[g];) {
       is_done[g] = true;
-      for(g = next(g); !is_seam(g);)
-        g = next(adjacency.opposite(g));
+      for(g = next_halfedge(g); !is_seam(g);)
+        g = next_halfedge(adjacency.opposite(g));
     }
   }
   return result;
+}
+
+/// \ingroup PkgHLSCMTexturing
+/// The same without an adjacency at hand.
+inline std::vector<Chart_topology> chart_topologies(const std::vector<Triangle_indices>& triangles,
+                                                    const Face_charts& charts)
+{
+  return chart_topologies(Indexed_mesh::Triangle_adjacency(triangles), charts);
 }
 
 /*!

@@ -26,14 +26,10 @@ inline Face_charts charts_of_texture(const Textured_triangle_mesh& mesh)
 {
   const Indexed_mesh::Triangle_adjacency adjacency(mesh.triangles);
   std::vector<std::uint8_t> seams(mesh.triangles.size(), 0);
-  const auto uv = [&mesh](std::uint32_t h) { return mesh.uv[mesh.wedges[h / 3][h % 3]]; };
-  const auto next = [](std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; };
-  for(std::uint32_t h = 0; h < 3 * mesh.triangles.size(); ++h) {
-    const std::uint32_t opposite = adjacency.opposite(h);
-    if(opposite != no_vertex && (uv(h) != uv(next(opposite)) || uv(next(h)) != uv(opposite)))
-      seams[h / 3] |= std::uint8_t(1 << h % 3);
-  }
-  return internal::label_charts(adjacency, std::move(seams));
+  for(Halfedge h = 0; h < adjacency.number_of_halfedges(); ++h)
+    if(adjacency.opposite(h) != no_halfedge && !is_smooth(mesh, h, adjacency.opposite(h)))
+      internal::mark(seams, h);
+  return charts_between(adjacency, std::move(seams));
 }
 
 } // namespace Surface_mesh_texturing

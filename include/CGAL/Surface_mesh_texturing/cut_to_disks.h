@@ -16,20 +16,6 @@
 namespace CGAL {
 namespace Surface_mesh_texturing {
 
-/// \ingroup PkgHLSCMTexturing
-/// The options of `cut_to_disks()`.
-struct Disk_cut_options
-{
-  /// The number of extremities, vertices far from each other, that the cut of a closed chart goes
-  /// to at most: the tips of limbs, which would be tiny in the plane otherwise.
-  std::size_t extremities = 8;
-  /// The distance of an extremity from the cut, as a part of that of the first, below which no more
-  /// are added.
-  double least_distance = 0.3;
-  /// What is taken to be short.
-  Crease_weights creases;
-};
-
 /*!
 \ingroup PkgHLSCMTexturing
 
@@ -45,18 +31,15 @@ inline Face_charts cut_to_disks(const Indexed_triangle_mesh& mesh, Face_charts c
 {
   CGAL_precondition(charts.seams.size() == mesh.triangles.size());
   const Indexed_mesh::Triangle_adjacency adjacency(mesh.triangles);
-  charts.seams
-    = internal::without_lonely_seams(mesh.triangles, adjacency, std::move(charts.seams));
-  const std::vector<Chart_topology> topologies = chart_topologies(mesh.triangles, charts);
+  charts.seams = internal::without_lonely_seams(adjacency, std::move(charts.seams));
+  const std::vector<Chart_topology> topologies = chart_topologies(adjacency, charts);
   if(error_of_charts(topologies).empty())
     return charts;
-  const internal::Disk_cut cut
-    = {options.extremities, options.least_distance, options.creases};
-  const std::vector<Chart_mesh> meshes = chart_meshes(mesh, charts);
+  const std::vector<Chart_mesh> meshes = chart_meshes(mesh, adjacency, charts);
   for(std::size_t c = 0; c < meshes.size(); ++c) {
     if(topologies[c].is_disk())
       continue;
-    const std::vector<std::uint8_t> seams = internal::Disk_cutter(meshes[c].mesh, cut).cut();
+    const std::vector<std::uint8_t> seams = internal::Disk_cutter(meshes[c].mesh, options).cut();
     for(std::size_t t = 0; t < seams.size(); ++t)
       charts.seams[meshes[c].triangles[t]] |= seams[t];
   }

@@ -68,9 +68,7 @@ namespace internal {
 inline std::string growth_error(const Indexed_triangle_mesh& mesh,
                                 const Chart_growth_options& options)
 {
-  if(mesh.triangles.empty())
-    return "the mesh has no triangles";
-  const std::string error = Indexed_mesh::point_error(mesh.points);
+  const std::string error = mesh_error(mesh);
   if(!error.empty())
     return error;
   if(!(options.bound.area_scale > 1.) || !(options.bound.quasi_conformal > 1.))
@@ -94,15 +92,11 @@ inline Chart_growth_result growth_result(const Indexed_triangle_mesh& mesh,
                                          const Seam_graph& graph, const Distortion_bound& bound)
 {
   Chart_growth_result result;
-  std::vector<std::uint8_t> seams(mesh.triangles.size(), 0);
-  for(std::uint32_t h = 0; h < 3 * seams.size(); ++h)
-    if(graph.is_seam(h))
-      seams[h / 3] |= 1 << h % 3;
-  result.charts = charts_between(mesh.triangles, std::move(seams));
-  const std::vector<Chart_mesh> charts = chart_meshes(mesh, result.charts);
+  result.charts = label_charts(graph.mesh(), graph.seams());
+  const std::vector<Chart_mesh> charts = cut_out_charts(mesh, graph.mesh(), result.charts);
   std::vector<Trial_map> trial(charts.size());
   Blocked_execution::blocked_for(charts.size(), 1, [&](std::size_t c, std::size_t) {
-    trial[c] = try_map(charts[c].mesh, border_edges(charts[c].mesh.triangles));
+    trial[c] = try_map(charts[c]);
   });
   for(const Trial_map& map : trial) {
     const bool is_bad = !map.is_one_to_one || !map.distortion.is_within(bound);

@@ -22,7 +22,7 @@ namespace internal {
 
 // Collapses as far as k; returns the halfedge of each collapse.
 inline std::vector<Halfedge> collapse_all(const Progressive_mesh& pm, std::size_t k,
-                                          Linked_triangles& mesh)
+                                          Halfedge_triangles& mesh)
 {
   std::vector<Halfedge> edges(k);
   for(std::size_t i = 0; i < k; ++i)
@@ -32,16 +32,16 @@ inline std::vector<Halfedge> collapse_all(const Progressive_mesh& pm, std::size_
 
 // The seams of the coarse triangles at the fine ones that survive.
 inline std::vector<std::uint8_t> seams_of_survivors(const Progressive_mesh& pm,
-                                                    const Linked_triangles& mesh,
+                                                    const Halfedge_triangles& mesh,
                                                     const std::vector<Halfedge>& edges,
                                                     const Face_charts& coarse)
 {
   std::vector<std::uint8_t> seams(pm.triangles.size(), 1);
   for(const Halfedge e : edges)
     if(e != no_halfedge) {
-      seams[e / 3] = 0;
+      seams[triangle_of(e)] = 0;
       if(mesh.opposite(e) != no_halfedge)
-        seams[mesh.opposite(e) / 3] = 0;
+        seams[triangle_of(mesh.opposite(e))] = 0;
     }
   CGAL_precondition(std::size_t(std::count(seams.begin(), seams.end(), 1)) == coarse.seams.size());
   std::size_t i = 0;
@@ -79,16 +79,17 @@ inline Face_charts refine_charts(const Progressive_mesh& pm,
                                  const Straightening_options& options = Straightening_options())
 {
   CGAL_precondition(k <= pm.collapses.size() && points.size() == pm.number_of_vertices);
-  internal::Seam_net graph(pm.triangles, points, options.creases);
-  const std::vector<internal::Halfedge> edges = internal::collapse_all(pm, k, graph.mesh());
-  graph.set_seams(internal::seams_of_survivors(pm, graph.mesh(), edges, coarse));
+  internal::Halfedge_triangles mesh(pm.triangles, points.size());
+  internal::Refinable_seam_graph graph(mesh, points, options.creases);
+  const std::vector<Halfedge> edges = internal::collapse_all(pm, k, mesh);
+  graph.set_seams(internal::seams_of_survivors(pm, mesh, edges, coarse));
   graph.pin_curved(options.pinned_defect);
   internal::Seam_straightener straightener(graph);
   // Not at once: on the coarse mesh a move by one edge would be a far one
   int level = 0;
   std::size_t next_level = 4 * pm.number_of_vertices_after(k);
   for(std::size_t i = k; i-- > 0;) {
-    if(edges[i] != internal::no_halfedge)
+    if(edges[i] != no_halfedge)
       graph.split(edges[i], pm.collapses[i].removed, pm.collapses[i].kept);
     if(options.rounds > 0 && i > 0 && pm.number_of_vertices_after(i) >= next_level) {
       straightener.run({options.rings + (std::min)(level, 2), options.window, level, level + 1});
@@ -99,7 +100,7 @@ inline Face_charts refine_charts(const Progressive_mesh& pm,
   internal::Straightening_reach last = internal::reach_of(options);
   last.rings += (std::min)(level, 2); // edges are short by now
   straightener.run(last);
-  return internal::label_charts(graph.mesh(), graph.seams());
+  return internal::label_charts(mesh, graph.seams());
 }
 
 } // namespace Surface_mesh_texturing

@@ -66,11 +66,11 @@ inline std::string rendering_input_error(const Textured_triangle_mesh& original,
 {
   std::string error = size == 0 ? "the pictures have no pixels" : std::string();
   if(error.empty())
-    error = surface_error(original, "the original");
+    error = mesh_error(original, "the original");
   if(error.empty())
-    error = surface_error(light, "the light model");
+    error = mesh_error(light, "the light model");
   if(error.empty())
-    error = wedge_error(light, "the light model");
+    error = texture_error(light, "the light model");
   if(error.empty())
     error = frame_error(frames, light);
   if(error.empty())

@@ -4,11 +4,11 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_SEGMENT_COARSE_TO_FINE_H
 #define CGAL_SURFACE_MESH_TEXTURING_SEGMENT_COARSE_TO_FINE_H
 
+#include <CGAL/Indexed_mesh/prepare_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
 #include <CGAL/Surface_mesh_multiresolution/build_progressive_mesh.h>
 #include <CGAL/Blocked_execution/Progress.h>
 #include <CGAL/Surface_mesh_texturing/cut_to_disks.h>
-#include <CGAL/Surface_mesh_texturing/internal/charts/Sorted_mesh.h>
 #include <CGAL/Surface_mesh_texturing/refine_charts.h>
 
 #include <functional>
@@ -56,18 +56,10 @@ std::string error_of(const Result& result) { return result.error; }
 template <class Result>
 const Face_charts& charts_of(const Result& result) { return result.charts; }
 
-inline std::string error_of_arrays(const Indexed_triangle_mesh& mesh)
+inline std::string segmentation_error(const Indexed_triangle_mesh& mesh)
 {
-  if(mesh.triangles.empty())
-    return "the mesh has no triangles";
-  for(std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Triangle_indices& v = mesh.triangles[t];
-    if((std::max)({v[0], v[1], v[2]}) >= mesh.points.size())
-      return "triangle " + std::to_string(t) + " has a vertex that does not exist";
-    if(v[0] == v[1] || v[1] == v[2] || v[2] == v[0])
-      return "triangle " + std::to_string(t) + " has a vertex twice";
-  }
-  return Indexed_mesh::point_error(mesh.points);
+  const std::string error = mesh_error(mesh);
+  return error.empty() ? repeated_vertex_error(mesh.triangles) : error;
 }
 
 // The mesh after the collapses, with the vertices that are left.
@@ -88,6 +80,56 @@ inline Indexed_triangle_mesh coarse_mesh(const Indexed_triangle_mesh& mesh,
   return result;
 }
 
+// For each corner of the first one of a triangle of `original` that corner of the mesh that is
+// prepared: triangles are sorted there by their smallest vertex, their first one, and otherwise keep
+// their order.
+inline std::vector<Halfedge> prepared_corners(const std::vector<Triangle_indices>& original,
+                                              const Prepared_mesh& prepared)
+{
+  const std::size_t n = prepared.source.size();
+  std::vector<Vertex_index> rank(n);
+  for(Vertex_index v = 0; v < n; ++v)
+    rank[prepared.source[v]] = v;
+  std::vector<Triangle_index> begin(n, 0);
+  for(std::size_t t = prepared.mesh.triangles.size(); t-- > 0;)
+    begin[prepared.mesh.triangles[t][0]] = Triangle_index(t);
+  std::vector<Halfedge> result(original.size());
+  for(std::size_t t = 0; t < original.size(); ++t) {
+    std::uint32_t first = 0;
+    for(std::uint32_t c = 1; c < 3; ++c)
+      if(rank[original[t][c]] < rank[original[t][first]])
+        first = c;
+    // Corner c is (c - first) modulo 3 there
+    result[t] = 3 * begin[rank[original[t][first]]]++ + (3 - first) % 3;
+  }
+  return result;
+}
+
+// The charts of the original that are those of the mesh that is prepared.
+inline Face_charts charts_of_original(const std::vector<Triangle_indices>& original,
+                                      const Prepared_mesh& prepared, const Face_charts& charts)
+{
+  const std::vector<Halfedge> corners = prepared_corners(original, prepared);
+  constexpr std::uint32_t no_number = std::uint32_t(-1);
+  std::vector<std::uint32_t> number(charts.number_of_charts, no_number);
+  std::uint32_t numbers = 0;
+  Face_charts result;
+  result.number_of_charts = charts.number_of_charts;
+  result.seams.resize(original.size());
+  result.chart.resize(original.size());
+  for(Triangle_index t = 0; t < original.size(); ++t) {
+    Halfedge h = corners[t];
+    for(Halfedge g = 3 * t; g < 3 * t + 3; ++g, h = next_halfedge(h))
+      if(charts.is_seam(h))
+        mark(result.seams, g);
+    std::uint32_t& chart = number[charts.chart[triangle_of(h)]];
+    if(chart == no_number)
+      chart = numbers++;
+    result.chart[t] = chart;
+  }
+  return result;
+}
+
 // The stages of the segmentation of one mesh.
 template <class SegmentCoarse>
 class Chart_segmentation
@@ -100,16 +142,15 @@ public:
 
   Segmentation_result run()
   {
-    m_result.error = error_of_arrays(m_original);
+    m_result.error = segmentation_error(m_original);
     if(!m_result.error.empty())
       return m_result;
-    const Sorted_mesh sorted(m_original);
-    const Indexed_triangle_mesh& mesh = sorted.mesh();
-    if(!sorted.has_extent())
-      m_result.error = "all edges are without length";
+    Prepared_mesh prepared = prepare_mesh(m_original);
+    const Indexed_triangle_mesh& mesh = prepared.mesh;
+    m_result.error = prepared.error;
     if(!m_result.error.empty())
       return m_result;
-    const Progressive_mesh pm = decimate(sorted);
+    const Progressive_mesh pm = decimate(mesh, std::move(prepared.rings));
     m_result.decimation_seconds = m_watch.lap();
     if(!m_result.error.empty() || is_cancelled(0.5))
       return m_result;
@@ -117,7 +158,8 @@ public:
     m_result.coarse_seconds = m_watch.lap();
     if(!m_result.error.empty() || is_cancelled(0.7))
       return m_result;
-    m_result.charts = sorted.charts_of_original(
+    m_result.charts = charts_of_original(
+      m_original.triangles, prepared,
       refine_charts(pm, mesh.points, pm.collapses.size(), coarse, m_options.straightening));
     m_result.refinement_seconds = m_watch.lap();
     return m_result;
@@ -132,14 +174,11 @@ private:
     return true;
   }
 
-  Progressive_mesh decimate(const Sorted_mesh& sorted)
+  Progressive_mesh decimate(const Indexed_triangle_mesh& mesh, Indexed_mesh::Vertex_rings rings)
   {
     using namespace Surface_mesh_multiresolution;
-    const Indexed_triangle_mesh& mesh = sorted.mesh();
     Progressive_mesh pm = trivial_progressive_mesh(mesh.points.size());
-    Indexed_mesh::Vertex_rings rings(mesh);
-    m_result.error = Indexed_mesh::ring_error(rings, sorted.source());
-    if(m_result.error.empty() && mesh.triangles.size() > m_options.coarse_faces) {
+    if(mesh.triangles.size() > m_options.coarse_faces) {
       Flat_collapse_options flat;
       // A closed mesh of genus 0; others stop at a few triangles more or less
       flat.target_vertices = m_options.coarse_faces / 2;

@@ -23,13 +23,8 @@ namespace internal {
 // What keeps a mesh from having charts that are disks, as a sentence.
 inline std::string manifold_error(const Indexed_triangle_mesh& mesh)
 {
-  const std::string error = error_of_arrays(mesh);
-  if(!error.empty())
-    return error;
-  std::vector<Vertex_index> source(mesh.points.size());
-  for(Vertex_index v = 0; v < source.size(); ++v)
-    source[v] = v;
-  return Indexed_mesh::ring_error(Indexed_mesh::Vertex_rings(mesh), source);
+  const std::string error = segmentation_error(mesh);
+  return error.empty() ? ring_error(Indexed_mesh::Vertex_rings(mesh)) : error;
 }
 
 // What is wrong with charts that somebody else found, as a sentence.

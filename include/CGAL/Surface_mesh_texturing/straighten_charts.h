@@ -52,17 +52,17 @@ struct Seam_length
 inline Seam_length measure_seams(const Indexed_triangle_mesh& mesh, const Face_charts& charts,
                                  const Crease_weights& creases = Crease_weights())
 {
-  internal::Seam_net graph(mesh.triangles, mesh.points, creases);
+  internal::Halfedge_triangles halfedges(mesh.triangles, mesh.points.size());
+  internal::Refinable_seam_graph graph(halfedges, mesh.points, creases);
   graph.set_seams(charts.seams);
   Seam_length result;
-  for(internal::Halfedge h = 0; h < 3 * mesh.triangles.size(); ++h) {
-    if(!graph.is_seam(h) || graph.mesh().opposite(h) == internal::no_halfedge
-       || graph.mesh().opposite(h) < h)
+  for(Halfedge h = 0; h < 3 * mesh.triangles.size(); ++h) {
+    if(!graph.is_seam(h) || graph.is_border(h) || graph.opposite(h) < h)
       continue;
     ++result.edges;
     result.weighted += graph.metric().to_length(graph.length(h));
-    result.length += std::sqrt(squared_distance(mesh.points[graph.mesh().source(h)],
-                                                mesh.points[graph.mesh().target(h)]));
+    result.length += std::sqrt(squared_distance(mesh.points[graph.source(h)],
+                                                mesh.points[graph.target(h)]));
   }
   return result;
 }
@@ -84,11 +84,12 @@ inline Face_charts straighten_charts(const Indexed_triangle_mesh& mesh, const Fa
                                        = Straightening_options())
 {
   CGAL_precondition(charts.seams.size() == mesh.triangles.size());
-  internal::Seam_net graph(mesh.triangles, mesh.points, options.creases);
+  internal::Halfedge_triangles halfedges(mesh.triangles, mesh.points.size());
+  internal::Refinable_seam_graph graph(halfedges, mesh.points, options.creases);
   graph.set_seams(charts.seams);
   graph.pin_curved(options.pinned_defect);
   internal::Seam_straightener(graph).run(internal::reach_of(options));
-  return internal::label_charts(graph.mesh(), graph.seams());
+  return internal::label_charts(halfedges, graph.seams());
 }
 
 } // namespace Surface_mesh_texturing

@@ -71,8 +71,8 @@ inline Tangent_frames tangent_frames(const Textured_triangle_mesh& mesh,
      || !internal::indices_are_below(mesh.wedges, mesh.uv.size()))
     return {};
   const internal::Corner_tangents tangents(mesh, normals);
-  const std::vector<std::uint32_t> first
-    = internal::first_corners_of_wedges(mesh.triangles, tangents.breaks());
+  const std::vector<Halfedge> first = internal::first_corners_of_wedges(
+    3 * mesh.triangles.size(), [&tangents](Halfedge h) { return tangents.across(h); });
   Tangent_frames result;
   result.corners.resize(mesh.triangles.size());
   for(std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
@@ -83,7 +83,7 @@ inline Tangent_frames tangent_frames(const Textured_triangle_mesh& mesh,
         result.frames.push_back({mesh.triangles[t][c], mesh.wedges[t][c], Vector_3(0., 0., 0.),
                                  tangents.is_mirrored(t) ? -1. : 1.});
       }
-      result.corners[t][c] = result.corners[f / 3][f % 3];
+      result.corners[t][c] = vertex_of(result.corners, f);
       Vector_3& sum = result.frames[result.corners[t][c]].tangent;
       sum = sum + tangents.weighted_tangent(t, int(c));
     }

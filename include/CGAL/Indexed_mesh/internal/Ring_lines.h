@@ -63,7 +63,6 @@ public:
   void set_ring(Vertex_index v, const std::vector<Vertex_index>& ring, bool is_border);
 
   void erase(Vertex_index v, std::uint32_t at);
-  void insert(Vertex_index v, std::uint32_t at, Vertex_index neighbor);
   void replace(Vertex_index v, Vertex_index old_neighbor, Vertex_index new_neighbor)
   {
     mutable_ring(v)[position(v, old_neighbor)] = new_neighbor;
@@ -156,13 +155,6 @@ inline void Ring_lines::splice(Vertex_index v, std::uint32_t at, const Vertex_in
   std::copy(first, first + count, r + at);
   line.degree = (line.degree & ~degree_mask) | e;
   note_degree(v);
-}
-
-inline void Ring_lines::insert(Vertex_index v, std::uint32_t at, Vertex_index neighbor)
-{
-  std::vector<Vertex_index> changed(ring(v), ring(v) + degree(v));
-  changed.insert(changed.begin() + at, neighbor);
-  set_ring(v, changed, is_border(v));
 }
 
 } // namespace internal

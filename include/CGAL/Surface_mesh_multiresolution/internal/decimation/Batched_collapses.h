@@ -8,6 +8,7 @@
 #include <CGAL/Blocked_execution/sort_and_select.h>
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/decimation/Collapse_worker.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/decimation/stop_conditions.h>
 
 #include <algorithm>
 #include <array>
@@ -74,17 +75,17 @@ float nth_cost(const std::vector<Vertex_index>& members, const std::vector<float
 // Passes go over blocks of equal numbers of living vertices; a vertex whose ring leaves its block
 // waits for the next pass, whose blocks are shifted by half their size. Blocks do not depend on the
 // number of threads.
-template <class Surface>
+template <class Surface, class Stop>
 class Batched_collapses
 {
 public:
-  // The surface and the options must outlive this.
-  Batched_collapses(Surface& surface, const Flat_collapse_options& options)
-    : m_surface(surface), m_options(options), m_progress(options, surface.number_of_vertices())
+  // All of these must outlive this.
+  Batched_collapses(Surface& surface, const Flat_collapse_options& options, Stop& stop)
+    : m_surface(surface), m_options(options), m_stop(stop), m_progress(options.progress)
   {}
 
   // Appends the collapses and the ends of the passes.
-  void run(Progressive_mesh& pm);
+  Decimation_status run(Progressive_mesh& pm);
 
 private:
   typedef Collapse_worker<Surface> Worker;
@@ -112,14 +113,15 @@ private:
 
   Surface& m_surface;
   const Flat_collapse_options& m_options;
+  Stop& m_stop;
   Collapse_progress m_progress;
   std::vector<Vertex_index> m_alive; // ascending
 };
 
 // Brings all costs up to date. Costs fall, too, where long thin triangles give way to better ones:
 // vertices that would be passed over would spoil the levels.
-template <class Surface>
-void Batched_collapses<Surface>::evaluate_stale(const Progressive_mesh& pm)
+template <class Surface, class Stop>
+void Batched_collapses<Surface, Stop>::evaluate_stale(const Progressive_mesh& pm)
 {
   constexpr std::size_t size = block_size / 8, stretch = block_size * blocks_between_reports;
   for(std::size_t first = 0; first < m_alive.size() && m_progress(pm); first += stretch) {
@@ -136,8 +138,8 @@ void Batched_collapses<Surface>::evaluate_stale(const Progressive_mesh& pm)
 }
 
 // The cost that the cheapest part of the vertices, but not many more than `wanted`, have.
-template <class Surface>
-float Batched_collapses<Surface>::pass_threshold(std::size_t wanted) const
+template <class Surface, class Stop>
+float Batched_collapses<Surface, Stop>::pass_threshold(std::size_t wanted) const
 {
   return nth_cost(m_alive, m_surface.best_cost, [&](std::size_t number_of_costs) {
     // About three in five of those below the threshold are collapsed: the others become dearer.
@@ -148,9 +150,9 @@ float Batched_collapses<Surface>::pass_threshold(std::size_t wanted) const
 }
 
 // One block if there are few vertices; blocks of equal numbers of living vertices otherwise.
-template <class Surface>
-std::vector<typename Batched_collapses<Surface>::Block>
-Batched_collapses<Surface>::cut_into_blocks(std::size_t wanted, bool is_shifted) const
+template <class Surface, class Stop>
+std::vector<typename Batched_collapses<Surface, Stop>::Block>
+Batched_collapses<Surface, Stop>::cut_into_blocks(std::size_t wanted, bool is_shifted) const
 {
   const Vertex_index end = Vertex_index(m_surface.number_of_vertices());
   const std::size_t n = m_alive.size();
@@ -171,8 +173,8 @@ Batched_collapses<Surface>::cut_into_blocks(std::size_t wanted, bool is_shifted)
 // Vertices whose cost was not above the threshold when the pass began are removed if the same
 // collapse still costs no more. The others wait for the next pass, where all their targets are
 // compared again.
-template <class Surface>
-void Batched_collapses<Surface>::run_block(float threshold, Block& block)
+template <class Surface, class Stop>
+void Batched_collapses<Surface, Stop>::run_block(float threshold, Block& block)
 {
   Worker worker(m_surface, block.low, block.high);
   for(std::size_t i = block.begin; i < block.end && block.collapses.size() < block.wanted; ++i) {
@@ -188,8 +190,8 @@ void Batched_collapses<Surface>::run_block(float threshold, Block& block)
   }
 }
 
-template <class Surface>
-void Batched_collapses<Surface>::run_pass(float threshold, std::size_t wanted,
+template <class Surface, class Stop>
+void Batched_collapses<Surface, Stop>::run_pass(float threshold, std::size_t wanted,
                                           Progressive_mesh& pm)
 {
   std::vector<Block> blocks = cut_into_blocks(wanted, pm.batch_ends.size() % 2 == 1);
@@ -210,8 +212,8 @@ void Batched_collapses<Surface>::run_pass(float threshold, std::size_t wanted,
 }
 
 // Takes out the vertices that are gone.
-template <class Surface>
-void Batched_collapses<Surface>::remove_dead()
+template <class Surface, class Stop>
+void Batched_collapses<Surface, Stop>::remove_dead()
 {
   const std::vector<std::uint32_t> places = Blocked_execution::select(
     m_alive.size(), [&](std::uint32_t i) { return m_surface.state[m_alive[i]].is_gone == 0; });
@@ -220,27 +222,44 @@ void Batched_collapses<Surface>::remove_dead()
   m_alive.resize(places.size());
 }
 
-template <class Surface>
-void Batched_collapses<Surface>::run(Progressive_mesh& pm)
+template <class Surface, class Stop>
+Decimation_status Batched_collapses<Surface, Stop>::run(Progressive_mesh& pm)
 {
-  const std::size_t n = m_surface.number_of_vertices(), target = m_options.target_vertices;
-  pm.collapses.reserve(n > target ? n - target : 0);
+  const std::size_t n = m_surface.number_of_vertices();
+  if constexpr(!Stop::asks_for_costs) {
+    pm.collapses.reserve(m_stop.left(pm));
+    m_progress.expect(m_stop.left(pm));
+  }
   m_alive.resize(n);
   for(Vertex_index v = 0; v < n; ++v)
     m_alive[v] = v;
-  while(m_alive.size() > target && !m_progress.is_cancelled()) {
+  bool is_exhausted = false;
+  int empty_passes = 0;
+  while(!is_exhausted && !m_stop.is_over(pm) && !m_progress.is_cancelled()) {
     evaluate_stale(pm);
-    const std::size_t wanted = m_alive.size() - target;
-    const float threshold = pass_threshold(wanted);
-    if(threshold == no_cost)
+    const std::size_t wanted = m_stop.wanted(m_surface, m_alive, pm);
+    if(wanted == 0)
       break;
+    if constexpr(Stop::asks_for_costs)
+      m_progress.expect(pm.collapses.size() + wanted);
+    const float threshold = pass_threshold(wanted);
+    if(threshold == no_cost) {
+      is_exhausted = true;
+      break;
+    }
     const std::size_t before = m_alive.size();
-    run_pass(threshold, wanted, pm);
+    run_pass(m_stop.limit(m_surface, m_alive, threshold), wanted, pm);
     remove_dead();
     const std::size_t done = before - m_alive.size();
-    if(2 * done < wanted && 500 * done < before) // what is left cannot be removed
-      break;
+    empty_passes = done == 0 ? empty_passes + 1 : 0;
+    // What is left cannot be removed; a pass with few candidates may have found no way for these
+    is_exhausted = m_stop.is_limited() ? empty_passes == 4
+                                       : 2 * done < wanted && 500 * done < before;
   }
+  if(m_progress.is_cancelled())
+    return Decimation_status::CANCELLED;
+  return is_exhausted && !m_stop.is_over(pm) ? Decimation_status::EXHAUSTED
+                                             : Decimation_status::STOPPED;
 }
 
 } // namespace internal

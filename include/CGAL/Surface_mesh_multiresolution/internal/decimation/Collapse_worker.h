@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -24,20 +23,14 @@ namespace CGAL {
 namespace Surface_mesh_multiresolution {
 namespace internal {
 
-// What the flat engine knows of the texture if there is none.
-struct No_texture_layer
-{
-  static constexpr bool is_textured = false;
-};
-
 // A mesh that collapses change, with the policies of the collapses, and of each vertex the cheapest
 // collapse, as far as it is known. Several threads use it at the same time, for vertices that have
 // no neighbour in common.
-template <class Cost_, class Filter_, class Texture_>
+template <class Cost_, class Filter_, class Layer_>
 struct Decimated_surface
 {
   typedef Cost_ Cost;
-  typedef Texture_ Texture;
+  typedef Layer_ Layer;
   typedef Surface_mesh_simplification::Vertex_star Vertex_star;
 
   static constexpr float no_cost = (std::numeric_limits<float>::infinity)();
@@ -52,7 +45,7 @@ struct Decimated_surface
   // `is_locked`: for each vertex whether it must stay; empty for none
   Decimated_surface(const Indexed_triangle_mesh& mesh, Vertex_rings mesh_rings,
                     const std::vector<bool>& is_locked, const Cost_& cost, const Filter_& filter,
-                    const Texture_& texture);
+                    const Layer_& layer);
 
   std::size_t number_of_vertices() const { return mesh.points.size(); }
   Flat_surface view() const { return Flat_surface(mesh, rings); }
@@ -60,8 +53,8 @@ struct Decimated_surface
   // To be called before each pass, by one thread.
   void begin_pass()
   {
-    if constexpr(Texture::is_textured)
-      texture.begin_pass();
+    if constexpr(Layer::is_active)
+      layer.begin_pass();
   }
 
   // Asks for what the vertices between alive[i] and alive[end] will need.
@@ -71,29 +64,29 @@ struct Decimated_surface
   Vertex_rings rings;
   Cost_ cost;
   Filter_ filter;
-  Texture_ texture;
+  Layer_ layer;
   std::vector<float> best_cost;          // of each vertex; `no_cost` if it stays
   std::vector<Vertex_index> best_target; // any vertex if it stays
   std::vector<State> state;
   std::atomic<std::size_t> evaluations{0}; // of costs, one a vertex and its ring
 };
 
-template <class Cost, class Filter, class Texture>
-Decimated_surface<Cost, Filter, Texture>::
+template <class Cost, class Filter, class Layer>
+Decimated_surface<Cost, Filter, Layer>::
 Decimated_surface(const Indexed_triangle_mesh& m, Vertex_rings mesh_rings,
                   const std::vector<bool>& is_locked, const Cost& c, const Filter& f,
-                  const Texture& t)
-  : mesh(m), rings(std::move(mesh_rings)), cost(c), filter(f), texture(t)
+                  const Layer& l)
+  : mesh(m), rings(std::move(mesh_rings)), cost(c), filter(f), layer(l)
   , best_cost(m.points.size(), no_cost)
   , best_target(m.points.size(), no_vertex)
   , state(m.points.size())
 {
   for(std::size_t v = 0; v < state.size(); ++v)
     state[v] = {0, std::uint8_t(!is_locked.empty() && is_locked[v]), 1};
-  if constexpr(Texture::is_textured) {
-    texture.set_rings(rings);
+  if constexpr(Layer::is_active) {
+    layer.set_rings(rings);
     for(Vertex_index v = 0; v < state.size(); ++v)
-      state[v].is_locked |= std::uint8_t(texture.is_fixed(v));
+      state[v].is_locked |= std::uint8_t(layer.is_fixed(v));
   }
   if constexpr(needs_update) {
     const Flat_collapse_profile profile(view());
@@ -103,8 +96,8 @@ Decimated_surface(const Indexed_triangle_mesh& m, Vertex_rings mesh_rings,
 
 // Their lines first and, when these are there, the points of their rings and the lines that a
 // collapse changes. Beyond `end` another thread may be changing the rings.
-template <class Cost, class Filter, class Texture>
-void Decimated_surface<Cost, Filter, Texture>::prefetch(const std::vector<Vertex_index>& alive,
+template <class Cost, class Filter, class Layer>
+void Decimated_surface<Cost, Filter, Layer>::prefetch(const std::vector<Vertex_index>& alive,
                                                         std::size_t i, std::size_t end) const
 {
   constexpr std::size_t distance = 4; // vertices ahead of use: about the latency of the memory
@@ -126,30 +119,6 @@ void Decimated_surface<Cost, Filter, Texture>::prefetch(const std::vector<Vertex
     rings.prefetch(r[k]);
   }
 }
-
-// Asks the user's function whether the decimation of n vertices is to go on.
-class Collapse_progress
-{
-public:
-  Collapse_progress(const Flat_collapse_options& options, std::size_t n)
-    : m_function(options.progress)
-    , m_whole(n > options.target_vertices ? double(n - options.target_vertices) : 1.)
-  {}
-
-  bool operator()(const Progressive_mesh& pm)
-  {
-    if(m_function && !m_is_cancelled)
-      m_is_cancelled = !m_function((std::min)(1., double(pm.collapses.size()) / m_whole));
-    return !m_is_cancelled;
-  }
-
-  bool is_cancelled() const { return m_is_cancelled; }
-
-private:
-  const std::function<bool(double)>& m_function;
-  double m_whole;
-  bool m_is_cancelled = false;
-};
 
 // What one thread does to one vertex after the other of a `Decimated_surface`: looks for the
 // cheapest collapse, and makes it.
@@ -177,7 +146,7 @@ public:
   bool try_collapse(Vertex_index v, float limit, Collapses& collapses);
 
 private:
-  typedef typename Surface::Texture Texture;
+  typedef typename Surface::Layer Layer;
   typedef typename Surface::Vertex_star Vertex_star;
   static constexpr float no_cost = Surface::no_cost;
 
@@ -193,8 +162,8 @@ private:
     const Vertex_rings& rings = m_surface.rings;
     if(!rings.is_collapse_valid(v, k) || rings.needs_new_spill(v, k))
       return false;
-    if constexpr(Texture::is_textured)
-      return m_surface.texture.is_possible(v, k, m_low, m_high);
+    if constexpr(Layer::is_active)
+      return m_surface.layer.is_possible(v, k, m_low, m_high);
     return true;
   }
 
@@ -270,14 +239,14 @@ inline float Collapse_worker<Surface>::cost_of_profile() const
 template <class Surface>
 inline float Collapse_worker<Surface>::cost_of(Vertex_index v, std::uint32_t k)
 {
-  if constexpr(Texture::is_textured)
-    if(!m_surface.texture.is_target(v, m_surface.rings.ring(v)[k]))
+  if constexpr(Layer::is_active)
+    if(!m_surface.layer.is_target(v, m_surface.rings.ring(v)[k]))
       return no_cost;
   set_profile(v, k);
   float cost = cost_of_profile();
-  if constexpr(Texture::is_textured)
+  if constexpr(Layer::is_active)
     if(cost < no_cost)
-      cost += m_surface.texture.cost(v, k);
+      cost += m_surface.layer.cost(v, k);
   return cost;
 }
 
@@ -342,8 +311,8 @@ bool Collapse_worker<Surface>::try_collapse(Vertex_index v, float limit, Collaps
   if constexpr(Surface::needs_update)
     m_surface.cost.update_before_collapse(m_profile, m_profile.placement());
   collapses.push_back({v, r[k]});
-  if constexpr(Texture::is_textured)
-    m_surface.texture.collapse(v, k);
+  if constexpr(Layer::is_active)
+    m_surface.layer.collapse(v, k);
   rings.collapse(v, k);
   m_surface.state[v].is_gone = 1;
   for(std::uint32_t i = 0; i < d; ++i)

@@ -78,7 +78,7 @@ public:
   {
     double sum = 0.;
     for(const std::uint32_t* at = m_view.at().begin(w); at != m_view.at().end(w); ++at)
-      sum += m_area[*at / 3];
+      sum += m_area[triangle_of(*at)];
     return sum / 3.;
   }
 
@@ -91,15 +91,15 @@ public:
   {
     edges.clear();
     for(const std::uint32_t* at = m_view.at().begin(w); at != m_view.at().end(w); ++at)
-      for(const Vertex_index v : m_view.triangles()[*at / 3]) {
+      for(const Vertex_index v : m_view.triangles()[triangle_of(*at)]) {
         if(v <= w)
           continue;
         const auto is_same = [v](const std::pair<Vertex_index, double>& e) { return e.first == v; };
         const auto found = std::find_if(edges.begin(), edges.end(), is_same);
         if(found == edges.end())
-          edges.push_back({v, m_area[*at / 3] / 3.});
+          edges.push_back({v, m_area[triangle_of(*at)] / 3.});
         else
-          found->second += m_area[*at / 3] / 3.;
+          found->second += m_area[triangle_of(*at)] / 3.;
       }
     for(const auto& [v, share] : edges)
       use(v, share);
@@ -247,7 +247,7 @@ private:
   struct Image
   {
     Real_vector<3> difference = {0., 0., 0.}; // from the point of equal uv
-    Triangle_number triangle = 0;             // that has this point, or the nearest one
+    Triangle_index triangle = 0;             // that has this point, or the nearest one
     float gap = 0.f;                          // from there in the texture
   };
 
@@ -282,10 +282,10 @@ private:
     return image;
   }
 
-  Image locate(Vertex_index w, Triangle_number start) const
+  Image locate(Vertex_index w, Triangle_index start) const
   {
-    const Surface_point found = m_walk.locate(m_view.uv(w), start);
-    return {minus(m_view.point(w), m_coarse.point(found.triangle, found.weight)), found.triangle,
+    const Nearest_surface_point found = m_walk.locate(m_view.uv(w), start);
+    return {minus(m_view.point(w), m_coarse.point(found.triangle, found.weights)), found.triangle,
             float(std::sqrt(found.squared_distance))};
   }
 
@@ -294,7 +294,7 @@ private:
   {
     Image best = m_image[w];
     for(const std::uint32_t* at = m_view.at().begin(w); at != m_view.at().end(w); ++at)
-      for(const Vertex_index v : m_view.triangles()[*at / 3]) {
+      for(const Vertex_index v : m_view.triangles()[triangle_of(*at)]) {
         if(!(m_image[v].gap < best.gap) || m_image[v].triangle == best.triangle)
           continue;
         const Image image = locate(w, m_image[v].triangle);
@@ -311,14 +311,14 @@ private:
     if(m_start.is_kept(w))
       return Nearest_sums();
     const Real_vector<3> p = m_view.point(w);
-    const Triangle_number start = m_start.start(w);
-    Surface_point found = descend_to_nearest(m_coarse, image.triangle, p);
+    const Triangle_index start = m_start.start(w);
+    Nearest_surface_point found = descend_to_nearest(m_coarse, image.triangle, p);
     if(image.triangle != start && (m_is_relocated.empty() || !m_is_relocated[w])) {
-      const Surface_point other = descend_to_nearest(m_coarse, start, p);
+      const Nearest_surface_point other = descend_to_nearest(m_coarse, start, p);
       if(other.squared_distance <= found.squared_distance)
         found = other;
     }
-    const double change = norm(minus(m_coarse.uv(found.triangle, found.weight), m_view.uv(w)));
+    const double change = norm(minus(m_coarse.uv(found.triangle, found.weights), m_view.uv(w)));
     const double distance = std::sqrt(m_start.squared_distance(w, found)), share = m_fine.share(w);
     return {{change, share * change, 0., 0.}, {distance, share * distance, 0., 0.}};
   }
@@ -358,7 +358,7 @@ private:
       const Real_vector<3> p = m_view.point(v), q = m_view.point(w);
       const Way way = m_walk.follow(
         m_view.uv(v), m_view.uv(w), begin.triangle, is_outside(end) ? no_triangle : end.triangle,
-        [&](Triangle_number t, const Weights& weight, double at) {
+        [&](Triangle_index t, const Weights& weight, double at) {
           const Real_vector<3> here = minus(between(p, q, at), m_coarse.point(t, weight));
           add_piece(at - s, before, here, sum);
           before = here;

@@ -5,11 +5,13 @@
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_DEVIATION_TEXTURED_VIEW_H
 
 #include <CGAL/Surface_mesh_multiresolution/Level_extractor.h>
-#include <CGAL/Indexed_mesh/Triangles_at_vertices.h>
+#include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace CGAL {
@@ -53,9 +55,6 @@ double norm(const Real_vector<N>& a)
   return std::sqrt(product(a, a));
 }
 
-typedef std::uint32_t Triangle_number;
-constexpr Triangle_number no_triangle = Triangle_number(-1);
-
 typedef std::array<double, 3> Weights; // barycentric, with the sum 1
 
 // Textured triangles whose arrays are somebody else's, with the triangles at each wedge.
@@ -89,32 +88,32 @@ public:
 
   Real_vector<2> uv(Vertex_index w) const { return {m_uv[w].x(), m_uv[w].y()}; }
 
-  Real_vector<3> point(Triangle_number t, const Weights& w) const
+  Real_vector<3> point(Triangle_index t, const Weights& w) const
   {
     const Triangle_indices& abc = m_triangles[t];
     return combined(point(abc[0]), point(abc[1]), point(abc[2]), w);
   }
 
-  Real_vector<2> uv(Triangle_number t, const Weights& w) const
+  Real_vector<2> uv(Triangle_index t, const Weights& w) const
   {
     const Triangle_indices& abc = m_triangles[t];
     return combined(uv(abc[0]), uv(abc[1]), uv(abc[2]), w);
   }
 
   // Some triangle at a wedge; 0 if the wedge has none.
-  Triangle_number triangle_at(Vertex_index w) const
+  Triangle_index triangle_at(Vertex_index w) const
   {
-    return m_at.number(w) == 0 ? 0 : *m_at.begin(w) / 3;
+    return m_at.number(w) == 0 ? 0 : triangle_of(*m_at.begin(w));
   }
 
   // The triangle beyond the side of t that is opposite to its corner c.
-  Triangle_number neighbor(Triangle_number t, int c) const
+  Triangle_index neighbor(Triangle_index t, int c) const
   {
     const Vertex_index p = m_triangles[t][(c + 1) % 3], q = m_triangles[t][(c + 2) % 3];
     for(const std::uint32_t* corner = m_at.begin(p); corner != m_at.end(p); ++corner) {
-      const Triangle_indices& s = m_triangles[*corner / 3];
-      if(*corner / 3 != t && (s[0] == q || s[1] == q || s[2] == q))
-        return *corner / 3;
+      const Triangle_indices& s = m_triangles[triangle_of(*corner)];
+      if(triangle_of(*corner) != t && (s[0] == q || s[1] == q || s[2] == q))
+        return triangle_of(*corner);
     }
     return no_triangle;
   }
@@ -137,6 +136,105 @@ private:
   Triangles_at_vertices m_at;
   bool m_is_identity = true; // `vertex`: saves a read from far away
 };
+
+// A point of a triangle. A weight is 0 just if the point lies on the side opposite to its corner.
+struct Nearest_surface_point
+  : Surface_point
+{
+  double squared_distance = (std::numeric_limits<double>::infinity)(); // from what it is nearest to
+};
+
+// The point nearest to the origin of the triangle abc in the plane or in space: the foot of the
+// perpendicular, or the best point of the sides. (`nearest_in_triangle()` of the levels does this in
+// float, with one division: what it weighs are prolongations; this one measures.)
+template <std::size_t N>
+Nearest_surface_point nearest_to_origin(const std::array<Real_vector<N>, 3>& abc)
+{
+  const Real_vector<N> u = minus(abc[1], abc[0]), v = minus(abc[2], abc[0]);
+  const double uu = product(u, u), uv = product(u, v), vv = product(v, v);
+  const double au = -product(abc[0], u), av = -product(abc[0], v);
+  const double area = uu * vv - uv * uv, wb = vv * au - uv * av, wc = uu * av - uv * au;
+  const auto at = [&abc](const Weights& w) {
+    Real_vector<N> p;
+    for(std::size_t i = 0; i < N; ++i)
+      p[i] = w[0] * abc[0][i] + w[1] * abc[1][i] + w[2] * abc[2][i];
+    return Nearest_surface_point{{no_triangle, w}, product(p, p)};
+  };
+  // Below 1e-24 of its squared sides, a doubled squared area is rounding.
+  if(area > 1e-24 * uu * vv && wb > 0. && wc > 0. && wb + wc < area)
+    return at({1. - (wb + wc) / area, wb / area, wc / area});
+  Nearest_surface_point best;
+  best.weights = {1., 0., 0.};
+  for(int c = 0; c < 3; ++c) {
+    const Real_vector<N>&a = abc[c], e = minus(abc[(c + 1) % 3], a);
+    const double length = product(e, e);
+    const double s = length > 0. ? -product(a, e) / length : 0.;
+    Weights w = {0., 0., 0.};
+    w[(c + 1) % 3] = (std::min)(1., (std::max)(0., s));
+    w[c] = 1. - w[(c + 1) % 3];
+    const Nearest_surface_point candidate = at(w);
+    if(candidate.squared_distance < best.squared_distance)
+      best = candidate;
+  }
+  return best;
+}
+
+// The point of triangle t that is nearest to p, in space.
+inline Nearest_surface_point nearest_in(const Textured_view& surface, Triangle_index t,
+                                const Real_vector<3>& p)
+{
+  const Triangle_indices& abc = surface.triangles()[t];
+  Nearest_surface_point result = nearest_to_origin<3>({minus(surface.point(abc[0]), p),
+                                               minus(surface.point(abc[1]), p),
+                                               minus(surface.point(abc[2]), p)});
+  result.triangle = t;
+  return result;
+}
+
+// The same in the texture.
+inline Nearest_surface_point nearest_in(const Textured_view& surface, Triangle_index t,
+                                const Real_vector<2>& p)
+{
+  const Triangle_indices& abc = surface.triangles()[t];
+  Nearest_surface_point result = nearest_to_origin<2>({minus(surface.uv(abc[0]), p),
+                                               minus(surface.uv(abc[1]), p),
+                                               minus(surface.uv(abc[2]), p)});
+  result.triangle = t;
+  return result;
+}
+
+// A local minimum of the distance from p along the surface, which is no farther than any point of
+// the triangle `start`: from a nearest point on a side, or at a corner, the descent goes on in the
+// triangles beyond.
+inline Nearest_surface_point descend_to_nearest(const Textured_view& surface, Triangle_index start,
+                                        const Real_vector<3>& p)
+{
+  Nearest_surface_point best = nearest_in(surface, start, p);
+  const auto improves = [&](Triangle_index t) {
+    const Nearest_surface_point candidate = nearest_in(surface, t, p);
+    const bool is_better = candidate.squared_distance < best.squared_distance;
+    if(is_better)
+      best = candidate;
+    return is_better;
+  };
+  for(bool goes_on = true; goes_on;) {
+    goes_on = false;
+    const Weights w = best.weights;
+    const Triangle_index t = best.triangle;
+    const auto zeros = std::count(w.begin(), w.end(), 0.);
+    if(zeros == 1) {
+      const int c = int(std::find(w.begin(), w.end(), 0.) - w.begin());
+      const Triangle_index next = surface.neighbor(t, c);
+      goes_on = next != no_triangle && improves(next);
+    } else if(zeros == 2) {
+      const auto corner = std::max_element(w.begin(), w.end()) - w.begin();
+      const Vertex_index v = surface.triangles()[t][std::size_t(corner)];
+      for(const std::uint32_t* at = surface.at().begin(v); at != surface.at().end(v); ++at)
+        goes_on = (triangle_of(*at) != t && improves(triangle_of(*at))) || goes_on;
+    }
+  }
+  return best;
+}
 
 } // namespace internal
 } // namespace Surface_mesh_multiresolution

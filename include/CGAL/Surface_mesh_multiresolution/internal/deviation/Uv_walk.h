@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_DEVIATION_UV_WALK_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_DEVIATION_UV_WALK_H
 
-#include <CGAL/Surface_mesh_multiresolution/internal/deviation/nearest_on_surface.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/deviation/Textured_view.h>
 
 #include <algorithm>
 #include <array>
@@ -33,18 +33,18 @@ public:
 
   // The point of the chart that has the texture coordinate p, or, if a search around the end of the
   // walk finds none, the nearest one.
-  Surface_point locate(const Real_vector<2>& p, Triangle_number start) const;
+  Nearest_surface_point locate(const Real_vector<2>& p, Triangle_index start) const;
 
   // Calls cross(t, w, s) where the segment (a, b) leaves a triangle t: there its point a + s (b -
   // a) has the weights w. Starts at `start`, which has a, or in its star if a is a corner of it,
   // and stops in `end`, or in another triangle that has b; `end` is no triangle if none has b. A
   // way that leaves the chart although `end` is one may come back, which is not followed.
   template <class Cross>
-  Way follow(const Real_vector<2>& a, const Real_vector<2>& b, Triangle_number start,
-             Triangle_number end, const Cross& cross) const;
+  Way follow(const Real_vector<2>& a, const Real_vector<2>& b, Triangle_index start,
+             Triangle_index end, const Cross& cross) const;
 
   // The barycentric coordinates of p; not finite for a triangle without area.
-  Weights weights(Triangle_number t, const Real_vector<2>& p) const
+  Weights weights(Triangle_index t, const Real_vector<2>& p) const
   {
     const Triangle_indices& abc = m_surface.triangles()[t];
     const Real_vector<2> a = minus(m_surface.uv(abc[0]), p), b = minus(m_surface.uv(abc[1]), p),
@@ -59,27 +59,27 @@ private:
   // as high at 1e-3 of the size of the map.
   static constexpr double rounding = 1e-8;
 
-  Surface_point search(const Real_vector<2>& p, Triangle_number start) const;
+  Nearest_surface_point search(const Real_vector<2>& p, Triangle_index start) const;
 
-  Triangle_number towards(const Real_vector<2>& a, const Real_vector<2>& b,
-                          Triangle_number start) const;
+  Triangle_index towards(const Real_vector<2>& a, const Real_vector<2>& b,
+                          Triangle_index start) const;
 
   const Textured_view& m_surface;
 };
 
-inline Surface_point Uv_walk::locate(const Real_vector<2>& p, Triangle_number start) const
+inline Nearest_surface_point Uv_walk::locate(const Real_vector<2>& p, Triangle_index start) const
 {
   constexpr int longest_walk = 200;
-  Triangle_number t = start, from = no_triangle;
+  Triangle_index t = start, from = no_triangle;
   for(int step = 0; step < longest_walk; ++step) {
     const Weights w = weights(t, p);
     if(!std::isfinite(w[0] + w[1] + w[2]))
       break;
     if(w[0] >= 0. && w[1] >= 0. && w[2] >= 0.)
-      return {t, w, 0.};
+      return {{t, w}, 0.};
     std::array<int, 3> order = {0, 1, 2};
     std::sort(order.begin(), order.end(), [&w](int i, int j) { return w[i] < w[j]; });
-    Triangle_number next = no_triangle;
+    Triangle_index next = no_triangle;
     for(const int c : order)
       if(w[c] < 0. && next == no_triangle) {
         next = m_surface.neighbor(t, c);
@@ -94,25 +94,25 @@ inline Surface_point Uv_walk::locate(const Real_vector<2>& p, Triangle_number st
 }
 
 // Visits the triangles around `start`, those nearest to p first, as long as they come nearer.
-inline Surface_point Uv_walk::search(const Real_vector<2>& p, Triangle_number start) const
+inline Nearest_surface_point Uv_walk::search(const Real_vector<2>& p, Triangle_index start) const
 {
   constexpr int patience = 32; // visits without success
-  const auto farther = [](const Surface_point& a, const Surface_point& b) {
+  const auto farther = [](const Nearest_surface_point& a, const Nearest_surface_point& b) {
     return a.squared_distance > b.squared_distance
            || (a.squared_distance == b.squared_distance && a.triangle > b.triangle);
   };
-  std::vector<Triangle_number> seen(1, start);
-  std::vector<Surface_point> front(1, nearest_in(m_surface, start, p)); // a heap
-  Surface_point best;
+  std::vector<Triangle_index> seen(1, start);
+  std::vector<Nearest_surface_point> front(1, nearest_in(m_surface, start, p)); // a heap
+  Nearest_surface_point best;
   for(int failures = 0; !front.empty() && failures < patience && best.squared_distance > 0.;) {
     std::pop_heap(front.begin(), front.end(), farther);
-    const Surface_point here = front.back();
+    const Nearest_surface_point here = front.back();
     front.pop_back();
     failures = here.squared_distance < best.squared_distance ? 0 : failures + 1;
     if(failures == 0)
       best = here;
     for(int c = 0; c < 3; ++c) {
-      const Triangle_number next = m_surface.neighbor(here.triangle, c);
+      const Triangle_index next = m_surface.neighbor(here.triangle, c);
       if(next == no_triangle || std::find(seen.begin(), seen.end(), next) != seen.end())
         continue;
       seen.push_back(next);
@@ -125,35 +125,35 @@ inline Surface_point Uv_walk::search(const Real_vector<2>& p, Triangle_number st
 
 // The triangle where the segment (a, b) starts: `start`, or, if a is a corner of it, that triangle
 // of its star between whose sides at the corner b is seen.
-inline Triangle_number Uv_walk::towards(const Real_vector<2>& a, const Real_vector<2>& b,
-                                        Triangle_number start) const
+inline Triangle_index Uv_walk::towards(const Real_vector<2>& a, const Real_vector<2>& b,
+                                        Triangle_index start) const
 {
   const Weights w = weights(start, a);
   const auto heaviest = std::max_element(w.begin(), w.end());
   if(!(*heaviest > 1. - rounding))
     return start;
   const Vertex_index v = m_surface.triangles()[start][std::size_t(heaviest - w.begin())];
-  Triangle_number best = start;
+  Triangle_index best = start;
   double most = -(std::numeric_limits<double>::infinity)();
   for(const std::uint32_t* at = m_surface.at().begin(v); at != m_surface.at().end(v); ++at) {
-    const int corner = int(*at % 3);
-    const Weights seen = weights(*at / 3, b);
+    const int corner = int(corner_of(*at));
+    const Weights seen = weights(triangle_of(*at), b);
     const double l = seen[std::size_t((corner + 1) % 3)], r = seen[std::size_t((corner + 2) % 3)];
     const double least = (std::min)(l, r) / (std::abs(l) + std::abs(r));
     if(least > most) {
       most = least;
-      best = *at / 3;
+      best = triangle_of(*at);
     }
   }
   return best;
 }
 
 template <class Cross>
-Way Uv_walk::follow(const Real_vector<2>& a, const Real_vector<2>& b, Triangle_number start,
-                    Triangle_number end, const Cross& cross) const
+Way Uv_walk::follow(const Real_vector<2>& a, const Real_vector<2>& b, Triangle_index start,
+                    Triangle_index end, const Cross& cross) const
 {
   constexpr int longest_way = 100000; // triangles; only rounding could send a way around in circles
-  Triangle_number t = towards(a, b, start), from = no_triangle;
+  Triangle_index t = towards(a, b, start), from = no_triangle;
   double s = 0.;
   for(int step = 0; step < longest_way; ++step) {
     const Weights wa = weights(t, a), wb = weights(t, b);
@@ -164,11 +164,11 @@ Way Uv_walk::follow(const Real_vector<2>& a, const Real_vector<2>& b, Triangle_n
     // The first of the sides that the segment crosses outwards
     const auto parameter = [&](int c) { return wa[c] / (wa[c] - wb[c]); };
     int side = -1;
-    Triangle_number beyond = no_triangle;
+    Triangle_index beyond = no_triangle;
     for(int c = 0; c < 3; ++c) {
       if(!(wb[c] < 0. && wb[c] < wa[c]) || (side >= 0 && parameter(c) >= parameter(side)))
         continue;
-      const Triangle_number next = m_surface.neighbor(t, c);
+      const Triangle_index next = m_surface.neighbor(t, c);
       const bool grazes = next == no_triangle && end != no_triangle && wb[c] >= -rounding;
       if(grazes || (next != no_triangle && next == from))
         continue;

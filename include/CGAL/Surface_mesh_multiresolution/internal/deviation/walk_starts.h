@@ -5,7 +5,7 @@
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_DEVIATION_WALK_STARTS_H
 
 #include <CGAL/Indexed_mesh/aabb_tree.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/deviation/nearest_on_surface.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/deviation/Textured_view.h>
 
 #include <algorithm>
 #include <memory>
@@ -28,7 +28,7 @@ public:
   // `from` has the wedges, `to` is the surface, with at least one triangle that has an area.
   Nearest_start(const Textured_view& from, const Textured_view& to) : m_from(from), m_to(to)
   {
-    for(Triangle_number t = 0; t < to.triangles().size(); ++t) {
+    for(Triangle_index t = 0; t < to.triangles().size(); ++t) {
       const Triangle_indices& abc = to.triangles()[t];
       const Kernel::Triangle_3 triangle(point(to.point(abc[0])), point(to.point(abc[1])),
                                         point(to.point(abc[2])));
@@ -49,15 +49,15 @@ public:
   bool is_common_edge(Vertex_index, Vertex_index) const { return false; }
 
   // Nearest to a place within the triangles of w, lest the walk start beyond a seam.
-  Triangle_number start(Vertex_index w) const
+  Triangle_index start(Vertex_index w) const
   {
     constexpr double inwards = 1. / 3.;
     return nearest_triangle(between(m_from.point(w), middle_of_star(w), inwards));
   }
 
-  double squared_distance(Vertex_index w, const Surface_point& nearest) const
+  double squared_distance(Vertex_index w, const Nearest_surface_point& nearest) const
   {
-    const Triangle_number t = nearest_triangle(m_from.point(w));
+    const Triangle_index t = nearest_triangle(m_from.point(w));
     return (std::min)(nearest_in(m_to, t, m_from.point(w)).squared_distance,
                       nearest.squared_distance);
   }
@@ -68,7 +68,7 @@ private:
     return Kernel::Point_3(p[0], p[1], p[2]);
   }
 
-  Triangle_number nearest_triangle(const Real_vector<3>& p) const
+  Triangle_index nearest_triangle(const Real_vector<3>& p) const
   {
     const auto found = m_tree.closest_point_and_primitive(point(p)).second;
     return m_number[std::size_t(found - m_triangles.cbegin())];
@@ -79,7 +79,7 @@ private:
     Real_vector<3> sum = {0., 0., 0.};
     const double number = 3. * m_from.at().number(w);
     for(const std::uint32_t* at = m_from.at().begin(w); at != m_from.at().end(w); ++at)
-      for(const Vertex_index v : m_from.triangles()[*at / 3])
+      for(const Vertex_index v : m_from.triangles()[triangle_of(*at)])
         for(std::size_t c = 0; c < 3; ++c)
           sum[c] += m_from.point(v)[c] / number;
     return number > 0. ? sum : m_from.point(w);
@@ -87,7 +87,7 @@ private:
 
   const Textured_view &m_from, &m_to;
   Triangles m_triangles;
-  std::vector<Triangle_number> m_number; // of each of them
+  std::vector<Triangle_index> m_number; // of each of them
   Tree m_tree;
 };
 
@@ -116,17 +116,17 @@ public:
     if(!is_kept(v) || !is_kept(w))
       return false;
     for(const std::uint32_t* at = m_view.at().begin(v); at != m_view.at().end(v); ++at) {
-      const Triangle_indices& t = m_triangles[*at / 3];
+      const Triangle_indices& t = m_triangles[triangle_of(*at)];
       if(t[0] == w || t[1] == w || t[2] == w)
         return true;
     }
     return false;
   }
 
-  Triangle_number start(Vertex_index w) const { return m_view.triangle_at(m_ancestor[w]); }
+  Triangle_index start(Vertex_index w) const { return m_view.triangle_at(m_ancestor[w]); }
 
   // Beyond a seam, the descent goes on in other charts.
-  double squared_distance(Vertex_index w, const Surface_point& nearest) const
+  double squared_distance(Vertex_index w, const Nearest_surface_point& nearest) const
   {
     return m_joined ? descend_to_nearest(*m_joined, nearest.triangle, m_view.point(w))
                         .squared_distance

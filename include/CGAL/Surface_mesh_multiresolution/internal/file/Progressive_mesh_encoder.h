@@ -30,8 +30,10 @@ inline std::string error_in_numbers(const Textured_progressive_mesh& mesh)
     return "the mesh has no triangles";
   if(n >= (1u << 30) || pm.triangles.size() >= (1u << 29))
     return "the mesh has more than 2^29 triangles";
-  if(mesh.vertex.size() != n || mesh.uv.size() != n || splits >= n)
+  if(mesh.vertex.size() != n || (mesh.has_texture() && mesh.uv.size() != n) || splits >= n)
     return "the arrays of the mesh differ in size";
+  if(!mesh.has_texture() && mesh.points.size() != n)
+    return "without texture each vertex has one wedge";
   for(const Triangle_indices& t : pm.triangles)
     if(t[0] >= n || t[1] >= n || t[2] >= n)
       return "a triangle has a wedge that does not exist";
@@ -64,7 +66,7 @@ inline std::string error_in_numbers(const Textured_progressive_mesh& mesh)
   const std::string error = point_error(mesh.points);
   if(!error.empty())
     return error;
-  for(std::size_t w = 0; w < n; ++w)
+  for(std::size_t w = 0; w < mesh.uv.size(); ++w)
     if(!std::isfinite(mesh.uv[w].x()) || !std::isfinite(mesh.uv[w].y()))
       return "wedge " + std::to_string(w) + " has a texture coordinate that is not a finite number";
   return {};
@@ -136,7 +138,7 @@ inline void Progressive_mesh_encoder::set_values()
   m_values.assign(n, Wedge_values());
   m_low_values.resize(m_codec.has_low() ? n : 0);
   for(std::size_t w = 0; w < n; ++w)
-    for(int c = 0; c < 5; ++c) {
+    for(int c = 0; c < m_header.number_of_values(); ++c) {
       const double x = c < 3 ? m_mesh.points[m_mesh.vertex[w]][c] : m_mesh.uv[w][c - 3];
       const Value_codec::Code code = m_codec.code_of(x, c);
       m_values[w][c] = code.high;
@@ -148,7 +150,7 @@ inline void Progressive_mesh_encoder::set_values()
 // Residuals are the shorter way round if values have fewer than 32 bits.
 inline void Progressive_mesh_encoder::put_values(Vertex_index w, const Wedge_values& predicted)
 {
-  for(int c = is_second(w) ? 3 : 0; c < 5; ++c) {
+  for(int c = is_second(w) ? 3 : 0; c < m_header.number_of_values(); ++c) {
     const std::uint32_t mask = m_codec.mask(c), sign = (mask >> 1) + 1;
     const std::uint32_t residual = (m_values[w][c] - predicted[c]) & mask;
     m_columns.high[c].push_back(zigzag((residual ^ sign) - sign));
@@ -168,11 +170,11 @@ inline void Progressive_mesh_encoder::append_section(std::uint32_t splits, const
 
 inline void Progressive_mesh_encoder::append_values(std::string& bytes) const
 {
-  for(const Column& column : m_columns.high)
-    append_column<Column_code::RICE>(bytes, column);
-  if(m_codec.has_low())
-    for(const Column& column : m_columns.low)
-      append_column<Column_code::RICE>(bytes, column);
+  const int count = m_header.number_of_values();
+  for(int c = 0; c < count; ++c)
+    append_column<Column_code::RICE>(bytes, m_columns.high[c]);
+  for(int c = 0; c < (m_codec.has_low() ? count : 0); ++c)
+    append_column<Column_code::RICE>(bytes, m_columns.low[c]);
 }
 
 inline std::string Progressive_mesh_encoder::put_base()

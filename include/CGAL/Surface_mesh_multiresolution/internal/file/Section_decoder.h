@@ -77,6 +77,7 @@ public:
   explicit Section_decoder(const File_header& header)
     : m_header(header), m_codec(header)
     , m_rows(header.is_quantized() && header.position_bits <= 16 && header.uv_bits <= 16)
+    , m_numbers(header.has_texture)
   {
     for(int c = 0; c < 5; ++c)
       m_masks[c] = m_codec.mask(c);
@@ -130,16 +131,17 @@ private:
 
 inline void Section_decoder::reserve(std::size_t bytes)
 {
-  // A split takes six bits at least, in ranges, deltas, skipped, moved, u and v.
+  // A split takes six bits at least, in ranges, deltas, skipped, moved, u and v; or x, y and z
+  const std::size_t splits = bytes * 4 / 3;
   const std::size_t wedges = (std::min)(std::size_t(m_header.fine.wedges),
-                                        m_header.base.wedges + bytes * 4 / 3);
+                                        m_header.base.wedges + splits);
   const std::size_t triangles = (std::min)(std::size_t(m_header.fine.triangles),
-                                           m_header.base.triangles + bytes * 8 / 3);
+                                           m_header.base.triangles + 2 * splits);
   m_rings.reserve(wedges, triangles);
   m_rows.reserve(wedges);
   m_parents.reserve(wedges);
   m_mesh.vertex.reserve(wedges);
-  m_mesh.uv.reserve(wedges);
+  m_mesh.uv.reserve(m_header.has_texture ? wedges : 0);
   m_mesh.points.reserve((std::min)(wedges, std::size_t(m_header.fine.vertices)));
 }
 
@@ -257,19 +259,20 @@ template <Value_format format, class Row>
 bool Section_decoder::append_points_of(std::size_t from)
 {
   const std::size_t wedges = number_of_wedges() - from;
-  m_mesh.uv.resize(from + wedges);
+  m_mesh.uv.resize(m_header.has_texture ? from + wedges : 0);
   m_mesh.points.resize(m_mesh.vertex.back() + 1);
   bool is_finite = true;
   for(std::size_t i = 0; i < wedges; ++i) {
     const Row& row = m_rows.rows<Row>()[from + i];
     std::array<double, 5> x;
-    for(int c = 0; c < 5; ++c) {
+    for(int c = 0; c < m_header.number_of_values(); ++c) {
       x[c] = m_codec.value_of<format>(
         {row[c], format == Value_format::FLOAT64 ? m_numbers.low[i][c] : 0}, c);
       if(format != Value_format::QUANTIZED) // which a sound header makes finite
         is_finite &= std::isfinite(x[c]);
     }
-    m_mesh.uv[from + i] = Textured_progressive_mesh::Point_2(x[3], x[4]);
+    if(m_header.has_texture)
+      m_mesh.uv[from + i] = Textured_progressive_mesh::Point_2(x[3], x[4]);
     if(m_numbers.is_second[i] == 0)
       m_mesh.points[m_mesh.vertex[from + i]] = Textured_progressive_mesh::Point_3(x[0], x[1], x[2]);
   }
@@ -316,7 +319,7 @@ inline void Section_decoder::go_back(std::size_t wedges, std::size_t triangles)
   m_parents.resize(wedges - base);
   m_rows.resize(wedges);
   m_mesh.vertex.resize(wedges);
-  m_mesh.uv.resize(wedges);
+  m_mesh.uv.resize(m_header.has_texture ? wedges : 0);
   m_mesh.points.resize(m_mesh.vertex.back() + 1);
 }
 

@@ -25,6 +25,8 @@ struct Section_numbers
   // How reading keeps within the bytes: by a look at each number, or by what can be read behind.
   enum class Bounds { LOOK, SLACK };
 
+  explicit Section_numbers(bool has_uv_columns = true) : has_uv(has_uv_columns) {}
+
   // Read the next columns: pairs first, which say how many wedges there are. Splits lack their
   // kinds; the first makes the given wedge. Low words are there if values have more than 32 bits.
   bool read_pairs(std::size_t count, const char*& from, const char* end);
@@ -33,6 +35,7 @@ struct Section_numbers
   template <Bounds bounds>
   bool read_values(bool has_low, const char*& from, const char* end);
 
+  bool has_uv;                                   // or no texture, and no pairs
   std::vector<std::uint8_t> is_second;           // of two wedges of a vertex
   std::vector<Ring_split> splits;
   Uninitialized_vector<Wedge_values> residuals;  // of predictions
@@ -59,7 +62,7 @@ inline bool Section_numbers::read_pairs(std::size_t count, const char*& from, co
       flag = std::uint8_t(code);
       all |= code;
     }
-  return pairs.is_sound() && all <= 1 && is_second[0] == 0;
+  return pairs.is_sound() && all <= (has_uv ? 1u : 0u) && is_second[0] == 0;
 }
 
 inline bool Section_numbers::read_splits(Vertex_index wedge, Parent_prediction& prediction,
@@ -91,7 +94,7 @@ inline bool Section_numbers::open(Value_columns& columns, const char*& from, con
   const std::size_t wedges = is_second.size();
   const std::size_t seconds = std::size_t(std::count(is_second.begin(), is_second.end(), 1));
   bool is_sound = true;
-  for(int c = 0; c < 5; ++c) {
+  for(int c = 0; c < (has_uv ? 5 : 3); ++c) {
     columns[c] = Column_reader(from, end, c < 3 ? wedges - seconds : wedges);
     is_sound = is_sound && columns[c].is_sound();
   }
@@ -116,8 +119,8 @@ void Section_numbers::read_residuals(Value_columns& columns)
       row[2] = next(z);
     }
   for(Wedge_values& row : residuals) {
-    row[3] = next(u);
-    row[4] = next(v);
+    row[3] = has_uv ? next(u) : 0;
+    row[4] = has_uv ? next(v) : 0;
   }
   columns = {x, y, z, u, v};
 }
@@ -125,8 +128,9 @@ void Section_numbers::read_residuals(Value_columns& columns)
 template <Section_numbers::Bounds bounds>
 bool Section_numbers::read_values(bool has_low, const char*& from, const char* end)
 {
-  const auto are_sound = [](const Value_columns& columns) {
-    return std::all_of(columns.begin(), columns.end(),
+  const int count = has_uv ? 5 : 3;
+  const auto are_sound = [count](const Value_columns& columns) {
+    return std::all_of(columns.begin(), columns.begin() + count,
                        [](const Column_reader& c) { return c.is_sound(); });
   };
   Value_columns high, rest;
@@ -138,7 +142,7 @@ bool Section_numbers::read_values(bool has_low, const char*& from, const char* e
     return are_sound(high);
   low.resize(is_second.size());
   for(std::size_t i = 0; i < low.size(); ++i)
-    for(int c = is_second[i] == 0 ? 0 : 3; c < 5; ++c)
+    for(int c = is_second[i] == 0 ? 0 : 3; c < count; ++c)
       low[i][c] = rest[c].next<Column_code::RICE>();
   return are_sound(high) && are_sound(rest);
 }

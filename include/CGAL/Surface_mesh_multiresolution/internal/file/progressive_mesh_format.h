@@ -14,34 +14,20 @@
 #include <string>
 
 // The layout of a file, all numbers in little endian:
-
-//
-
 //   header     104 bytes: see `File_header`
-
 //   sections   the base, then the splits, coarse to fine, up to 4097 a section
-
 // A section is the number of its splits (4 bytes, 0 for the base), that of its bytes (4), their
-
 // CRC-32 (4), and the bytes: columns of numbers, see Code_column.h. The CRC is that of the two
-
 // numbers and the bytes, continued from the section before, so that a section that is lost is
-
 // noticed. Each section leads from one whole mesh to another: it never cuts the pair of splits of
-
 // one vertex.
-
 //   base       ends of batches (differences), corners of triangles (differences to the triangle
-
 //              before), pairs, values
-
 //   splits     pairs, kinds, ranges and deltas of parents, corners skipped, corners moved, values
-
 // Pairs: whether a wedge shares its vertex with the one before. Kinds: of splits of border wedges.
-
 // Values: residuals of x, y, z of each vertex and u, v of each wedge; for float64 five columns more
-
-// with the lower halves.
+// with the lower halves. A file of version 2 has no texture: u and v are left out, and no wedge
+// shares its vertex with another.
 
 namespace CGAL {
 namespace Surface_mesh_multiresolution {
@@ -90,7 +76,8 @@ inline std::uint32_t crc32(const char* data, std::size_t size, std::uint32_t bef
 // PNG's idea: bytes that no text has, and that a transfer as text changes.
 constexpr std::array<unsigned char, 8> file_magic = {0x89, 'P', 'M', 'S', '\r', '\n', 0x1A, '\n'};
 
-constexpr std::uint32_t file_version = 1;
+constexpr std::uint32_t version_with_texture = 1;
+constexpr std::uint32_t version_without_texture = 2;
 constexpr std::size_t file_header_size = 104;
 constexpr std::size_t section_header_size = 12;
 constexpr std::uint32_t splits_per_section = 4096;
@@ -111,6 +98,7 @@ struct File_counts
 
 struct File_header
 {
+  bool has_texture = true;
   Value_format format = Value_format::QUANTIZED;
   int position_bits = 0, uv_bits = 0;  // if quantized
   File_counts fine = {}, base = {};
@@ -118,6 +106,7 @@ struct File_header
   std::array<double, 2> step = {};     // the steps of positions and uv, if quantized
 
   std::uint32_t number_of_splits() const { return fine.wedges - base.wedges; }
+  int number_of_values() const { return has_texture ? 5 : 3; } // of a wedge
   bool is_quantized() const { return format == Value_format::QUANTIZED; }
   int bits(int c) const { return c < 3 ? position_bits : uv_bits; }
 
@@ -141,7 +130,8 @@ To bit_cast(const From& from)
 inline std::string bytes_of(const File_header& header)
 {
   std::string bytes(file_magic.begin(), file_magic.end());
-  append_little_endian(bytes, file_version, 2);
+  append_little_endian(bytes, header.has_texture ? version_with_texture : version_without_texture,
+                       2);
   append_little_endian(bytes, std::uint64_t(header.format), 2);
   append_little_endian(bytes, std::uint64_t(header.position_bits), 2);
   append_little_endian(bytes, std::uint64_t(header.uv_bits), 2);
@@ -167,6 +157,8 @@ inline bool is_sound(const File_header& h)
      || h.fine.triangles < h.base.triangles + splits
      || h.fine.triangles > h.base.triangles + 2 * splits || h.fine.triangles >= (1u << 29))
     return false;
+  if(!h.has_texture && (h.base.vertices != h.base.wedges || h.fine.vertices != h.fine.wedges))
+    return false;
   if(!h.is_quantized())
     return true;
   for(int c = 0; c < 5; ++c) {
@@ -187,6 +179,7 @@ inline File_header header_of(const char* bytes)
   File_header h;
   if(number(10, 2) > std::uint64_t(Value_format::FLOAT64) || number(96, 4) != 0)
     return h;
+  h.has_texture = number(8, 2) == version_with_texture;
   h.format = Value_format(number(10, 2));
   h.position_bits = int(number(12, 2));
   h.uv_bits = int(number(14, 2));

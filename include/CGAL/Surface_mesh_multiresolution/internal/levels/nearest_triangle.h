@@ -6,7 +6,7 @@
 
 #include <CGAL/Blocked_execution/sort_and_select.h>
 #include <CGAL/Surface_mesh_multiresolution/Prolongation.h>
-#include <CGAL/Indexed_mesh/Triangles_at_vertices.h>
+#include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 
 #include <algorithm>
 #include <limits>
@@ -129,10 +129,10 @@ inline Nearest_triangle triangle_below(const Triangles_at_vertices& at,
   const float near = 0.1f * dot(to_centre, to_centre);
   Nearest_triangle best;
   for(const std::uint32_t* corner = at.begin(star); corner != at.end(star); ++corner) {
-    const Triangle_indices& t = mesh.triangles[*corner / 3];
+    const Triangle_indices& t = mesh.triangles[triangle_of(*corner)];
     const Nearest_point candidate = foot_of_origin(triangle_around(mesh.points, t, p));
     if(candidate.squared_distance < best.point.squared_distance) {
-      best = {candidate, *corner / 3};
+      best = {candidate, triangle_of(*corner)};
       if(candidate.squared_distance < near)
         break;
     }
@@ -154,10 +154,10 @@ inline Nearest_triangle walk_to_nearest(const Triangles_at_vertices& at,
       return inside.point.squared_distance <= best.point.squared_distance ? inside : best;
     const float before = best.point.squared_distance;
     for(const std::uint32_t* corner = at.begin(star); corner != at.end(star); ++corner) {
-      const Triangle_indices& t = mesh.triangles[*corner / 3];
+      const Triangle_indices& t = mesh.triangles[triangle_of(*corner)];
       const Nearest_point candidate = nearest_on_sides(triangle_around(mesh.points, t, p));
       if(candidate.squared_distance < best.point.squared_distance)
-        best = {candidate, *corner / 3};
+        best = {candidate, triangle_of(*corner)};
     }
     const auto heaviest = std::max_element(best.point.weight.begin(), best.point.weight.end());
     const Vertex_index next = mesh.triangles[best.triangle][heaviest - best.point.weight.begin()];

@@ -5,7 +5,7 @@
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_TEXTURED_COLLAPSING_WEDGES_H
 
 #include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
-#include <CGAL/Indexed_mesh/Triangles_at_vertices.h>
+#include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 #include <CGAL/Indexed_mesh/Vertex_rings.h>
 
 #include <algorithm>
@@ -126,8 +126,8 @@ inline void Collapsing_wedges::find_wedges(const Textured_triangle_mesh& texture
   const Triangles_at_vertices corners(texture.triangles, texture.points.size());
   const auto wedge_behind = [&](Vertex_index v, Vertex_index neighbor) {
     for(const std::uint32_t* c = corners.begin(source[v]); c != corners.end(source[v]); ++c)
-      if(texture.triangles[*c / 3][(*c + 1) % 3] == source[neighbor])
-        return texture.wedges[*c / 3][*c % 3];
+      if(vertex_of(texture.triangles, next_halfedge(*c)) == source[neighbor])
+        return vertex_of(texture.wedges, *c);
     return no_vertex;
   };
   // Seams as seen from the ends where the wedges differ
@@ -135,9 +135,9 @@ inline void Collapsing_wedges::find_wedges(const Textured_triangle_mesh& texture
   std::vector<Edge> seams;
   for(Vertex_index v = 0; v < source.size(); ++v) {
     const std::uint32_t* first = corners.begin(source[v]);
-    m_wedge[v] = texture.wedges[*first / 3][*first % 3];
+    m_wedge[v] = vertex_of(texture.wedges, *first);
     if(std::all_of(first, corners.end(source[v]), [&](std::uint32_t c) {
-         return texture.wedges[c / 3][c % 3] == m_wedge[v];
+         return vertex_of(texture.wedges, c) == m_wedge[v];
        }))
       continue;
     const std::uint32_t d = m_rings->degree(v);

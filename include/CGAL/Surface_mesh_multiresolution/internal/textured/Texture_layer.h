@@ -22,7 +22,7 @@ namespace internal {
 class Texture_layer
 {
 public:
-  static constexpr bool is_textured = true;
+  static constexpr bool is_active = true;
 
   typedef Textured_triangle_mesh::Point_2 Point_2;
   typedef Textured_triangle_mesh::Point_3 Point_3;

@@ -11,7 +11,6 @@
 #include <CGAL/Indexed_mesh/Vertex_rings.h>
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,9 +39,7 @@ public:
                   bool keep_borders_simple)
   {
     m_rings = Vertex_rings({points, pm.triangles});
-    std::vector<Vertex_index> all(points.size());
-    std::iota(all.begin(), all.end(), Vertex_index(0));
-    const std::string error = ring_error(m_rings, all);
+    const std::string error = ring_error(m_rings);
     if(!error.empty())
       return error;
     std::vector<bool> is_gone(points.size(), false);

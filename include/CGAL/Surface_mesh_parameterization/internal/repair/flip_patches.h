@@ -5,10 +5,12 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_REPAIR_FLIP_PATCHES_H
 
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
-#include <CGAL/Indexed_mesh/Triangles_at_vertices.h>
+#include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <vector>
 
 namespace CGAL {
@@ -21,6 +23,36 @@ struct Flip_patch
   std::vector<std::uint32_t> vertices; // ascending
   std::vector<std::uint32_t> faces;    // ascending
 };
+
+// The vertices within `rings` edges of the corners of the faces, ascending.
+// `for_each_neighbor(v, use)` calls use(w) for the neighbours w of v, and maybe for v.
+template <class ForEachNeighbor>
+std::vector<std::uint32_t> vertices_around(const std::vector<Indexed_mesh::Triangle_indices>& triangles,
+                                           const std::vector<std::uint32_t>& faces, int rings,
+                                           const ForEachNeighbor& for_each_neighbor)
+{
+  std::vector<std::uint32_t> result, last, next; // all, those of the last ring, those of the next
+  const auto unite = [&] {
+    std::sort(next.begin(), next.end());
+    next.erase(std::unique(next.begin(), next.end()), next.end());
+    last.clear();
+    std::set_difference(next.begin(), next.end(), result.begin(), result.end(),
+                        std::back_inserter(last));
+    const std::size_t old = result.size();
+    result.insert(result.end(), last.begin(), last.end());
+    std::inplace_merge(result.begin(), result.begin() + std::ptrdiff_t(old), result.end());
+    next.clear();
+  };
+  for(const std::uint32_t t : faces)
+    next.insert(next.end(), triangles[t].begin(), triangles[t].end());
+  unite();
+  for(int ring = 0; ring < rings; ++ring) {
+    for(const std::uint32_t v : last)
+      for_each_neighbor(v, [&next](std::uint32_t w) { next.push_back(w); });
+    unite();
+  }
+  return result;
+}
 
 // Finds patches around faces. No face has free vertices of two patches, so that patches can be
 // worked on in any order, and at the same time.
@@ -43,11 +75,10 @@ private:
   void for_each_neighbor(std::uint32_t v, const Use& use) const
   {
     for(const std::uint32_t* corner = m_at.begin(v); corner != m_at.end(v); ++corner)
-      for(const std::uint32_t w : m_triangles[*corner / 3])
+      for(const std::uint32_t w : m_triangles[Indexed_mesh::triangle_of(*corner)])
         use(w);
   }
 
-  std::vector<std::uint32_t> vertices_around(const std::vector<std::uint32_t>& faces, int rings);
   Flip_patch take_component(std::uint32_t seed);
 
   const Triangles& m_triangles;
@@ -55,33 +86,6 @@ private:
   const Indexed_mesh::Triangles_at_vertices m_at;
   std::vector<bool> m_is_inside; // of each vertex; all `false` between calls
 };
-
-inline std::vector<std::uint32_t>
-Flip_patch_finder::vertices_around(const std::vector<std::uint32_t>& faces, int rings)
-{
-  std::vector<std::uint32_t> found;
-  const auto add = [&](std::uint32_t v) {
-    if(!m_is_inside[v])
-      found.push_back(v);
-    m_is_inside[v] = true;
-  };
-  for(const std::uint32_t t : faces)
-    if(std::any_of(m_triangles[t].begin(), m_triangles[t].end(),
-                   [this](std::uint32_t v) { return !m_is_fixed[v]; }))
-      std::for_each(m_triangles[t].begin(), m_triangles[t].end(), add);
-  for(std::size_t ring = 0, begin = 0; ring < std::size_t(rings); ++ring) {
-    const std::size_t end = found.size();
-    for(; begin < end; ++begin)
-      for_each_neighbor(found[begin], add);
-  }
-  for(const std::uint32_t v : found)
-    if(m_is_fixed[v])
-      m_is_inside[v] = false;
-  found.erase(std::remove_if(found.begin(), found.end(),
-                             [this](std::uint32_t v) { return m_is_fixed[v]; }), found.end());
-  std::sort(found.begin(), found.end());
-  return found;
-}
 
 // The patch of the vertices that are connected with `seed`; they are no longer inside.
 inline Flip_patch Flip_patch_finder::take_component(std::uint32_t seed)
@@ -97,7 +101,7 @@ inline Flip_patch Flip_patch_finder::take_component(std::uint32_t seed)
       m_is_inside[w] = false;
     });
     for(const std::uint32_t* corner = m_at.begin(v); corner != m_at.end(v); ++corner)
-      patch.faces.push_back(*corner / 3);
+      patch.faces.push_back(Indexed_mesh::triangle_of(*corner));
   }
   std::sort(patch.vertices.begin(), patch.vertices.end());
   std::sort(patch.faces.begin(), patch.faces.end());
@@ -108,8 +112,19 @@ inline Flip_patch Flip_patch_finder::take_component(std::uint32_t seed)
 inline std::vector<Flip_patch>
 Flip_patch_finder::patches_around(const std::vector<std::uint32_t>& faces, int rings)
 {
+  std::vector<std::uint32_t> movable;
+  for(const std::uint32_t t : faces)
+    if(std::any_of(m_triangles[t].begin(), m_triangles[t].end(),
+                   [this](std::uint32_t v) { return !m_is_fixed[v]; }))
+      movable.push_back(t);
+  const std::vector<std::uint32_t> vertices
+    = vertices_around(m_triangles, movable, rings, [this](std::uint32_t v, const auto& use) {
+        for_each_neighbor(v, use);
+      });
+  for(const std::uint32_t v : vertices)
+    m_is_inside[v] = !m_is_fixed[v];
   std::vector<Flip_patch> patches;
-  for(const std::uint32_t v : vertices_around(faces, rings))
+  for(const std::uint32_t v : vertices)
     if(m_is_inside[v])
       patches.push_back(take_component(v));
   return patches;

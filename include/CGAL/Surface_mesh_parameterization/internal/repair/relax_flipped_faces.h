@@ -8,7 +8,7 @@
 #include <CGAL/Multigrid/Hermitian_matrix.h>
 #include <CGAL/Multigrid/Matrix_builder.h>
 #include <CGAL/Multigrid/Sparse_cholesky.h>
-#include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
+#include <CGAL/Surface_mesh_parameterization/internal/repair/flip_patches.h>
 
 #include <algorithm>
 #include <complex>
@@ -44,26 +44,15 @@ faces_without_positive_area(
 
 // The free vertices within `rings` edges of the faces, ascending.
 inline std::vector<std::uint32_t>
-vertices_around(const Multigrid::Hermitian_matrix<double>& h,
-                const std::vector<Indexed_mesh::Triangle_indices>& triangles,
-                const std::vector<std::uint32_t>& faces, int rings)
+free_vertices_around(const Multigrid::Hermitian_matrix<double>& h,
+                     const std::vector<Indexed_mesh::Triangle_indices>& triangles,
+                     const std::vector<std::uint32_t>& faces, int rings)
 {
-  std::vector<std::uint32_t> result;
-  const auto unite = [&result] {
-    std::sort(result.begin(), result.end());
-    result.erase(std::unique(result.begin(), result.end()), result.end());
-  };
-  for(const std::uint32_t t : faces)
-    result.insert(result.end(), triangles[t].begin(), triangles[t].end());
-  unite();
-  for(int ring = 0; ring < rings; ++ring) {
-    const std::vector<std::uint32_t> inner = result;
-    for(const std::uint32_t v : inner)
-      h.for_each_entry(h.slot_of_row(v), [&result](std::uint32_t w, std::complex<double>) {
-        result.push_back(w);
+  std::vector<std::uint32_t> result
+    = vertices_around(triangles, faces, rings, [&h](std::uint32_t v, const auto& use) {
+        h.for_each_entry(h.slot_of_row(v),
+                         [&use](std::uint32_t w, std::complex<double>) { use(w); });
       });
-    unite();
-  }
   result.erase(std::remove_if(result.begin(), result.end(),
                               [&h](std::uint32_t v) { return !(h.diagonal()[v] > 0.); }),
                result.end());
@@ -121,7 +110,7 @@ inline void relax_flipped_faces(
     const std::vector<std::uint32_t> flipped = faces_without_positive_area(triangles, z);
     if(flipped.empty())
       return;
-    const std::vector<std::uint32_t> patch = vertices_around(h, triangles, flipped, rings);
+    const std::vector<std::uint32_t> patch = free_vertices_around(h, triangles, flipped, rings);
     if(patch.size() > largest)
       return;
     minimize_on_patch(h, patch, z);

@@ -42,11 +42,12 @@ decimate(Chart& chart, const std::vector<Pin>& pins, const HLSCM_options& option
     is_locked[pin.vertex] = true;
   const std::size_t target = (std::max)(options.coarsest_size, std::size_t(3));
   if(options.engine == Decimation_engine::CGAL) {
-    SMM::Edge_collapse_options decimation;
+    SMM::Progressive_mesh_options decimation;
+    decimation.is_locked = std::move(is_locked);
     decimation.target_vertices = target;
     decimation.angular_defect_bound = options.angular_defect_bound;
     decimation.progress = progress;
-    return SMM::progressive_mesh_by_edge_collapse(chart.mesh, is_locked, decimation);
+    return SMM::progressive_mesh_by_edge_collapse(chart.mesh, decimation);
   }
   SMM::Flat_collapse_options decimation;
   decimation.target_vertices = target;

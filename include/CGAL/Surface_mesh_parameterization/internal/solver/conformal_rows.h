@@ -6,7 +6,7 @@
 
 #include <CGAL/Blocked_execution/sort_and_select.h>
 #include <CGAL/Multigrid/Matrix_builder.h>
-#include <CGAL/Indexed_mesh/Triangles_at_vertices.h>
+#include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 #include <CGAL/Surface_mesh_parameterization/internal/solver/Half_cotangents.h>
 
 #include <algorithm>

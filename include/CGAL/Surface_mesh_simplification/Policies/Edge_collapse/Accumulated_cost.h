@@ -21,11 +21,11 @@ collapses have left on the removed vertex, so that collapses spread over the sur
 2003, section 4, "Accumulated loss of quality on merged vertices"). After a collapse the kept vertex
 carries the larger of its own loss and the whole cost of the collapse.
 
-\tparam BaseCost a model of `GetCost`
+\tparam BaseCost a model of CGAL's `GetCost`
 \tparam VertexCostMap a model of `ReadWritePropertyMap` with the vertex descriptor as key and a
         number as value; copies refer to the same values
 
-\cgalModels{GetCost}
+\cgalModels{GetCost of CGAL's Triangulated Surface Mesh Simplification}
 */
 template <class BaseCost, class VertexCostMap>
 class Accumulated_cost
@@ -92,7 +92,7 @@ private:
 The class `Accumulated_cost_visitor` makes a cost with `update_before_collapse()` work in
 `edge_collapse()`, whose own updates come only after the collapse.
 
-\cgalModels{EdgeCollapseSimplificationVisitor}
+\cgalModels{EdgeCollapseSimplificationVisitor of CGAL's Triangulated Surface Mesh Simplification}
 */
 template <class TriangleMesh, class Cost>
 class Accumulated_cost_visitor

@@ -15,14 +15,15 @@ namespace Surface_mesh_simplification {
 
 namespace internal {
 
-// The filter that lets every placement through.
-struct Accept_all_filter
+// Whether the angular defect of a removed vertex inside the surface is below a bound.
+struct Angular_defect_test
 {
-  template <class Profile, class OptionalPoint>
-  OptionalPoint operator()(const Profile&, const OptionalPoint& placement) const
+  bool operator()(const Measured_collapse& collapse) const
   {
-    return placement;
+    return collapse.is_border || std::abs(float(2. * CGAL_PI) - collapse.angle_sum) < bound;
   }
+
+  float bound; // radians
 };
 
 } // namespace internal
@@ -36,40 +37,31 @@ bound. Coarse levels then keep the geometry that a conformal map depends on (Ray
 section 4, "Validity of hcoll", where the bound is 70 degrees; figure 1). The shape of the border
 does not influence a conformal map in this way, so that border vertices pass.
 
-\tparam BaseFilter a model of `PlacementFilter`, applied first
+\tparam BaseFilter a model of CGAL's `PlacementFilter`, applied first
 
-\cgalModels{PlacementFilter}
+\cgalModels{PlacementFilter of CGAL's Triangulated Surface Mesh Simplification}
 
 \sa `Collapse_shape_filter`
 */
 template <class BaseFilter = internal::Accept_all_filter>
 class Angular_defect_filter
+#ifndef DOXYGEN_RUNNING
+  : public internal::Measured_filter<internal::Angular_defect_test, BaseFilter>
+#endif
 {
 public:
   /// Constructs the filter with a bound in degrees.
   explicit Angular_defect_filter(double bound_in_degrees = 70.,
                                  const BaseFilter& base_filter = BaseFilter())
-    : m_bound(float(bound_in_degrees * CGAL_PI / 180.)), m_base_filter(base_filter)
+    : internal::Measured_filter<internal::Angular_defect_test, BaseFilter>(
+        {float(bound_in_degrees * CGAL_PI / 180.)}, base_filter)
   {}
 
+#ifdef DOXYGEN_RUNNING
   /// Returns `placement` if the base filter and the bound accept it, and nothing otherwise.
   template <class Profile, class OptionalPoint>
-  OptionalPoint operator()(const Profile& profile, const OptionalPoint& placement) const
-  {
-    const auto& measured = internal::measured(profile, placement);
-    if(!m_base_filter(measured, placement))
-      return OptionalPoint();
-    const Measured_collapse& collapse = measured.collapse();
-    if(!collapse.is_valid)
-      return OptionalPoint();
-    if(!collapse.is_border && !(std::abs(float(2. * CGAL_PI) - collapse.angle_sum) < m_bound))
-      return OptionalPoint();
-    return placement;
-  }
-
-private:
-  float m_bound; // radians
-  BaseFilter m_base_filter;
+  OptionalPoint operator()(const Profile& profile, const OptionalPoint& placement) const;
+#endif
 };
 
 } // namespace Surface_mesh_simplification

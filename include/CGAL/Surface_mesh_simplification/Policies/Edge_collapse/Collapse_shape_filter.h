@@ -5,7 +5,8 @@
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_COLLAPSE_SHAPE_FILTER_H
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Measured_collapse.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Angular_defect_filter.h>
+
+#include <cmath>
 
 namespace CGAL {
 namespace Surface_mesh_simplification {
@@ -26,47 +27,22 @@ struct Collapse_shape_bounds
   int maximal_degree = 14;
 };
 
-/*!
-\ingroup PkgHLSCMPolicies
+namespace internal {
 
-The class `Collapse_shape_filter` rejects the collapses that make bad triangles: those that turn a
-normal too far, that make a sliver, or that make a vertex of too large a degree.
-
-\tparam BaseFilter a model of `PlacementFilter`, applied first
-
-\cgalModels{PlacementFilter}
-
-\sa `Angular_defect_filter`
-*/
-template <class BaseFilter = internal::Accept_all_filter>
-class Collapse_shape_filter
+// Whether a collapse makes no bad triangle and no vertex of too large a degree.
+class Collapse_shape_test
 {
 public:
-  /// Constructs the filter.
-  explicit Collapse_shape_filter(const Collapse_shape_bounds& bounds = Collapse_shape_bounds(),
-                                 const BaseFilter& base_filter = BaseFilter())
+  explicit Collapse_shape_test(const Collapse_shape_bounds& bounds)
     : m_signed_squared_cosine(float(bounds.minimal_normal_cosine
                                     * std::abs(bounds.minimal_normal_cosine)))
     , m_squared_quality(float(bounds.minimal_quality * bounds.minimal_quality))
     , m_maximal_degree(bounds.maximal_degree)
-    , m_base_filter(base_filter)
   {}
 
-  /// Returns `placement` if the base filter and the bounds accept it, and nothing otherwise.
-  template <class Profile, class OptionalPoint>
-  OptionalPoint operator()(const Profile& profile, const OptionalPoint& placement) const
+  bool operator()(const Measured_collapse& collapse) const
   {
-    const auto& measured = internal::measured(profile, placement);
-    if(!m_base_filter(measured, placement))
-      return OptionalPoint();
-    const Measured_collapse& collapse = measured.collapse();
-    return is_acceptable(collapse) ? placement : OptionalPoint();
-  }
-
-private:
-  bool is_acceptable(const Measured_collapse& collapse) const
-  {
-    if(!collapse.is_valid || collapse.measure.min_signed_squared_cosine < m_signed_squared_cosine)
+    if(collapse.measure.min_signed_squared_cosine < m_signed_squared_cosine)
       return false;
     const float quality = collapse.measure.min_squared_quality;
     if(quality < m_squared_quality && quality < collapse.min_squared_quality)
@@ -76,10 +52,45 @@ private:
     return degree <= m_maximal_degree || degree <= collapse.kept_degree;
   }
 
+private:
   float m_signed_squared_cosine;
   float m_squared_quality;
   int m_maximal_degree;
-  BaseFilter m_base_filter;
+};
+
+} // namespace internal
+
+/*!
+\ingroup PkgHLSCMPolicies
+
+The class `Collapse_shape_filter` rejects the collapses that make bad triangles: those that turn a
+normal too far, that make a sliver, or that make a vertex of too large a degree.
+
+\tparam BaseFilter a model of CGAL's `PlacementFilter`, applied first
+
+\cgalModels{PlacementFilter of CGAL's Triangulated Surface Mesh Simplification}
+
+\sa `Angular_defect_filter`
+*/
+template <class BaseFilter = internal::Accept_all_filter>
+class Collapse_shape_filter
+#ifndef DOXYGEN_RUNNING
+  : public internal::Measured_filter<internal::Collapse_shape_test, BaseFilter>
+#endif
+{
+public:
+  /// Constructs the filter.
+  explicit Collapse_shape_filter(const Collapse_shape_bounds& bounds = Collapse_shape_bounds(),
+                                 const BaseFilter& base_filter = BaseFilter())
+    : internal::Measured_filter<internal::Collapse_shape_test, BaseFilter>(
+        internal::Collapse_shape_test(bounds), base_filter)
+  {}
+
+#ifdef DOXYGEN_RUNNING
+  /// Returns `placement` if the base filter and the bounds accept it, and nothing otherwise.
+  template <class Profile, class OptionalPoint>
+  OptionalPoint operator()(const Profile& profile, const OptionalPoint& placement) const;
+#endif
 };
 
 } // namespace Surface_mesh_simplification

@@ -5,7 +5,7 @@
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_HALFEDGE_COLLAPSE_PLACEMENT_H
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Volume_and_border_area_cost.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Angular_defect_filter.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Measured_collapse.h>
 
 #include <CGAL/boost/graph/helpers.h>
 
@@ -32,12 +32,12 @@ coarse mesh are then vertices of the fine one. Directions that the filter or the
 not considered; if none is left the edge has no placement. A border vertex moves only along the
 border.
 
-\tparam Cost a model of `GetCost`
-\tparam Filter a model of `PlacementFilter`
+\tparam Cost a model of CGAL's `GetCost`
+\tparam Filter a model of CGAL's `PlacementFilter`
 \tparam VertexIsLockedMap a model of `ReadablePropertyMap` with the vertex descriptor as key and
         `bool` as value; locked vertices are never removed
 
-\cgalModels{GetPlacement}
+\cgalModels{GetPlacement of CGAL's Triangulated Surface Mesh Simplification}
 */
 template <class Cost = Volume_and_border_area_cost,
           class Filter = internal::Accept_all_filter,
@@ -70,6 +70,11 @@ public:
       return p1;
     return cost_p0 ? p0 : Optional_point();
   }
+
+  /// Returns the filter.
+  const Filter& filter() const { return m_filter; }
+  /// Returns the map of the vertices that are never removed.
+  const VertexIsLockedMap& vertex_is_locked_map() const { return m_is_locked; }
 
 private:
   // Whether neither a lock nor the border, when the edge is not part of it, holds the vertex.

@@ -25,8 +25,13 @@ namespace Surface_mesh_simplification {
 using internal::Collapse_measure;
 using internal::Vertex_star;
 
-// The optional type of the CGAL at hand: SMS changed from boost to std with CGAL 6.
-#if CGAL_VERSION_NR < 1060000000
+#ifdef DOXYGEN_RUNNING
+/// \ingroup PkgHLSCMPolicies
+/// The optional type that policies of the CGAL at hand return: `boost::optional` up to CGAL 5,
+/// `std::optional` from CGAL 6 on. A cost of one's own that works with both returns
+/// `Optional_of_policies<typename Profile::FT>`.
+template <class T> using Optional_of_policies = unspecified_type;
+#elif CGAL_VERSION_NR < 1060000000
 template <class T> using Optional_of_policies = boost::optional<T>;
 #else
 template <class T> using Optional_of_policies = std::optional<T>;
@@ -183,6 +188,42 @@ decltype(auto) measured(const Profile& profile, const OptionalPoint& placement)
   else
     return Measured_profile<Profile>(profile, placement);
 }
+
+// The filter that lets every placement through.
+struct Accept_all_filter
+{
+  template <class Profile, class OptionalPoint>
+  OptionalPoint operator()(const Profile&, const OptionalPoint& placement) const
+  {
+    return placement;
+  }
+};
+
+// The filter that applies `BaseFilter` and then a test of the measures of a collapse.
+template <class Test, class BaseFilter>
+class Measured_filter
+{
+public:
+  // Returns `placement` if both accept it, and nothing otherwise.
+  template <class Profile, class OptionalPoint>
+  OptionalPoint operator()(const Profile& profile, const OptionalPoint& placement) const
+  {
+    const auto& measured = internal::measured(profile, placement);
+    if(!m_base_filter(measured, placement))
+      return OptionalPoint();
+    const Measured_collapse& collapse = measured.collapse();
+    return collapse.is_valid && m_test(collapse) ? placement : OptionalPoint();
+  }
+
+protected:
+  Measured_filter(const Test& test, const BaseFilter& base_filter)
+    : m_test(test), m_base_filter(base_filter)
+  {}
+
+private:
+  Test m_test;
+  BaseFilter m_base_filter;
+};
 
 } // namespace internal
 } // namespace Surface_mesh_simplification

@@ -24,9 +24,9 @@ with the length \f$ \ell \f$ of the collapsed edge and the quality
 \f$ q = 4\sqrt3 A / \sum l^2 \f$ of the new triangles. Multigrid needs fewer iterations on levels of
 well shaped triangles.
 
-\tparam BaseCost a model of `GetCost` whose cost is a length
+\tparam BaseCost a model of CGAL's `GetCost` whose cost is a length
 
-\cgalModels{GetCost}
+\cgalModels{GetCost of CGAL's Triangulated Surface Mesh Simplification}
 */
 template <class BaseCost = Volume_and_border_area_cost>
 class Triangle_shape_cost

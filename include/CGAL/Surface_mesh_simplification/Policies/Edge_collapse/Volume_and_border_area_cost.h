@@ -21,7 +21,7 @@ the border moves, made comparable as lengths by the cube root and the square roo
 \f[ c = \sqrt[3]{\textstyle\sum_T |V_T|} + \sqrt{A_\mathrm{border}} . \f]
 The cost is a length: it scales with the mesh.
 
-\cgalModels{GetCost}
+\cgalModels{GetCost of CGAL's Triangulated Surface Mesh Simplification}
 
 \sa `Accumulated_cost`
 \sa `Triangle_shape_cost`

@@ -9,52 +9,17 @@
 #include <CGAL/Surface_mesh_texturing/tangent_frames.h>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 namespace CGAL {
 namespace Surface_mesh_texturing {
 namespace internal {
 
-// What is wrong with the triangles and points of a mesh, or nothing.
-template <class Mesh>
-std::string surface_error(const Mesh& mesh, const std::string& name)
-{
-  if(mesh.triangles.empty())
-    return name + " has no triangles";
-  for(std::size_t v = 0; v < mesh.points.size(); ++v)
-    for(int c = 0; c < 3; ++c)
-      if(!std::isfinite(mesh.points[v][c]))
-        return "vertex " + std::to_string(v) + " of " + name
-             + " has a coordinate that is not a finite number";
-  for(std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for(const Vertex_index v : mesh.triangles[t])
-      if(v >= mesh.points.size())
-        return "triangle " + std::to_string(t) + " of " + name + " has a corner without vertex";
-  return {};
-}
-
-// What is wrong with the texture coordinates of a mesh wherever they lie, or nothing.
-inline std::string wedge_error(const Textured_triangle_mesh& mesh, const std::string& name)
-{
-  if(mesh.wedges.size() != mesh.triangles.size())
-    return name + " has not as many triangles in the texture as on the surface";
-  for(std::size_t w = 0; w < mesh.uv.size(); ++w)
-    if(!std::isfinite(mesh.uv[w].x()) || !std::isfinite(mesh.uv[w].y()))
-      return "texture coordinate " + std::to_string(w) + " of " + name + " is not a finite number";
-  for(std::size_t t = 0; t < mesh.wedges.size(); ++t)
-    for(const Vertex_index w : mesh.wedges[t])
-      if(w >= mesh.uv.size())
-        return "triangle " + std::to_string(t) + " of " + name
-             + " has a corner without texture coordinate";
-  return {};
-}
-
-// The same of coordinates in an atlas. They may leave the texture by its size, which is more than
+// What is wrong with the texture coordinates of a mesh in an atlas, or nothing. They may leave the texture by its size, which is more than
 // rounding or a chart at the border may need.
-inline std::string uv_error(const Textured_triangle_mesh& mesh, const std::string& name)
+inline std::string atlas_error(const Textured_triangle_mesh& mesh, const std::string& name)
 {
-  const std::string error = wedge_error(mesh, name);
+  const std::string error = texture_error(mesh, name);
   if(!error.empty())
     return error;
   for(std::size_t w = 0; w < mesh.uv.size(); ++w)
@@ -113,8 +78,8 @@ inline std::string light_error(const Textured_triangle_mesh& light, const Baking
 {
   std::string error = options_error(options);
   if(error.empty())
-    error = surface_error(light, "the light model");
-  return error.empty() ? uv_error(light, "the light model") : error;
+    error = mesh_error(light, "the light model");
+  return error.empty() ? atlas_error(light, "the light model") : error;
 }
 
 // What is wrong with the two meshes of a bake at equal texture coordinates, or nothing.
@@ -123,9 +88,9 @@ inline std::string baking_error(const Textured_triangle_mesh& fine,
 {
   std::string error = options_error(options);
   if(error.empty())
-    error = surface_error(fine, "the fine mesh");
+    error = mesh_error(fine, "the fine mesh");
   if(error.empty())
-    error = uv_error(fine, "the fine mesh");
+    error = atlas_error(fine, "the fine mesh");
   return error.empty() ? light_error(light, options) : error;
 }
 
@@ -136,7 +101,7 @@ inline std::string ray_baking_error(const Indexed_triangle_mesh& fine,
 {
   std::string error = options_error(options);
   if(error.empty())
-    error = surface_error(fine, "the fine mesh");
+    error = mesh_error(fine, "the fine mesh");
   return error.empty() ? light_error(light, options) : error;
 }
 

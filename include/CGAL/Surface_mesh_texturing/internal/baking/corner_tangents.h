@@ -32,25 +32,25 @@ class Corner_tangents
 {
 public:
   Corner_tangents(const Textured_triangle_mesh& mesh, const std::vector<Vector_3>& normals)
-    : m_mesh(mesh), m_normals(normals), m_orientation(mesh.triangles.size())
-    , m_breaks(mesh.triangles.size(), 0)
+    : m_mesh(mesh), m_normals(normals), m_adjacency(mesh.triangles)
+    , m_orientation(mesh.triangles.size())
   {
     for(std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
       const double area = uv_area(t);
       m_orientation[t] = area > 0. ? 1 : area < 0. ? -1 : 0;
     }
-    const Triangle_adjacency adjacency(mesh.triangles);
-    orient_triangles_without_area(adjacency);
-    for(std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-      for(int c = 0; c < 3; ++c) {
-        const std::uint32_t opposite = adjacency.opposite(t, c);
-        if(opposite != no_vertex && !goes_on(t, c, opposite))
-          m_breaks[t] |= 1 << c;
-      }
+    orient_triangles_without_area();
   }
 
-  // Bit c of entry t: tangents are not shared across the edge from corner c of triangle t.
-  const std::vector<std::uint8_t>& breaks() const { return m_breaks; }
+  // The halfedge on the other side of h if tangents are shared across it, otherwise `no_halfedge`.
+  Halfedge across(Halfedge h) const
+  {
+    const Halfedge opposite = m_adjacency.opposite(h);
+    const bool goes_on = opposite != no_halfedge
+                      && m_orientation[triangle_of(h)] == m_orientation[triangle_of(opposite)]
+                      && is_smooth(m_mesh, h, opposite);
+    return goes_on ? opposite : no_halfedge;
+  }
 
   bool is_mirrored(std::uint32_t t) const { return m_orientation[t] < 0; }
 
@@ -93,16 +93,16 @@ private:
   }
 
   // Triangles that are only points or lines in the texture follow a neighbour.
-  void orient_triangles_without_area(const Triangle_adjacency& adjacency)
+  void orient_triangles_without_area()
   {
     std::vector<std::uint32_t> queue;
     for(std::uint32_t t = 0; t < m_orientation.size(); ++t)
       if(m_orientation[t] != 0)
         for(int c = 0; c < 3; ++c)
-          spread(t, adjacency.opposite(t, c), queue);
+          spread(t, m_adjacency.opposite(t, c), queue);
     for(std::size_t i = 0; i < queue.size(); ++i)
       for(int c = 0; c < 3; ++c)
-        spread(queue[i], adjacency.opposite(queue[i], c), queue);
+        spread(queue[i], m_adjacency.opposite(queue[i], c), queue);
     for(auto& orientation : m_orientation)
       if(orientation == 0)
         orientation = 1;
@@ -110,24 +110,16 @@ private:
 
   void spread(std::uint32_t t, std::uint32_t opposite, std::vector<std::uint32_t>& queue)
   {
-    if(opposite == no_vertex || m_orientation[opposite / 3] != 0)
+    if(opposite == no_halfedge || m_orientation[triangle_of(opposite)] != 0)
       return;
-    m_orientation[opposite / 3] = m_orientation[t];
-    queue.push_back(opposite / 3);
-  }
-
-  bool goes_on(std::uint32_t t, int c, std::uint32_t opposite) const
-  {
-    const std::uint32_t s = opposite / 3;
-    const int d = int(opposite % 3);
-    return m_orientation[t] == m_orientation[s] && uv(t, c) == uv(s, d + 1)
-        && uv(t, c + 1) == uv(s, d);
+    m_orientation[triangle_of(opposite)] = m_orientation[t];
+    queue.push_back(triangle_of(opposite));
   }
 
   const Textured_triangle_mesh& m_mesh;
   const std::vector<Vector_3>& m_normals;
+  Triangle_adjacency m_adjacency;
   std::vector<std::int8_t> m_orientation;
-  std::vector<std::uint8_t> m_breaks;
 };
 
 } // namespace internal

@@ -6,8 +6,6 @@
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/Chart_state.h>
-#include <CGAL/Surface_mesh_texturing/internal/charts/Chart_unions.h>
-#include <CGAL/Surface_mesh_texturing/internal/charts/Cut_mesh.h>
 
 #include <algorithm>
 #include <cmath>
@@ -46,7 +44,8 @@ public:
   Chart_merger(const Growth_surface& surface, const std::vector<std::uint8_t>& is_feature,
                const Distortion_bound& bound, double least_fill, std::size_t least)
     : m_surface(surface), m_bound(bound), m_least_fill(least_fill)
-    , m_least(least), m_finder(surface, is_feature), m_cutter(surface.mesh)
+    , m_least(least), m_finder(surface, is_feature), m_cutter(surface.mesh, surface.adjacency)
+    , m_is_opened(3 * surface.size(), 0)
   {
     for(const double a : surface.area)
       m_area += a;
@@ -99,6 +98,17 @@ private:
         && (trial.distortion.area_scale > std::pow(m_bound.area_scale, much)
             || trial.distortion.quasi_conformal > std::pow(m_bound.quasi_conformal, much));
   }
+  template <class IsOpen>
+  static std::uint64_t hash_of(const Indices& triangles, const IsOpen& is_open)
+  {
+    std::uint64_t key = 0xcbf29ce484222325u;
+    for(const Triangle_index t : triangles)
+      for(Halfedge h = 3 * t; h < 3 * t + 3; ++h) {
+        key = (key ^ (2 * h + (is_open(h) ? 1 : 0))) * 0x100000001b3u;
+        key ^= key >> 29;
+      }
+    return key;
+  }
   void merge_pair(Chart_state& state, const Pair& pair, Candidates& candidates) const;
   void apply(Chart_state& state, const Pair& pair, const Chart_union& candidate) const;
 
@@ -107,7 +117,8 @@ private:
   double m_least_fill;
   std::size_t m_least;
   Union_finder m_finder;
-  Mesh_cutter m_cutter;
+  Chart_cutter<Halfedge_triangles> m_cutter;
+  std::vector<std::uint8_t> m_is_opened; // of each halfedge; all 0 between calls
   double m_area = 0.;
   std::size_t m_work = 0;
   std::unordered_map<std::uint64_t, Trial_map> m_known; // by a hash of triangles and seams
@@ -173,26 +184,35 @@ inline void Chart_merger::try_arcs(const Chart_state& state, Candidates& candida
   struct Item
   {
     Chart_union* candidate;
-    Cut_mesh chart;
+    std::uint64_t key;
+    Chart_mesh chart;
   };
   std::vector<Item> items;
+  const auto is_open = [&](Halfedge h) { return m_is_opened[h] || !state.graph.is_seam(h); };
+  const auto set_opened = [&](const Chart_union& candidate, std::uint8_t value) {
+    for(const Halfedge h : candidate.opened)
+      m_is_opened[h] = m_is_opened[state.graph.opposite(h)] = value;
+  };
   for(auto& [pair, candidate] : candidates) {
     if(candidate.is_known || candidate.is_hopeless)
       continue;
     candidate.is_known = true;
     fresh.push_back(&candidate);
-    Cut_mesh chart = m_cutter(state.graph, state.union_of(pair), candidate.opened);
-    const auto known = m_known.find(chart.key);
+    set_opened(candidate, 1);
+    Indices triangles = state.union_of(pair);
+    const std::uint64_t key = hash_of(triangles, is_open);
+    const auto known = m_known.find(key);
     if(known != m_known.end())
       candidate.trial = known->second;
     else
-      items.push_back({&candidate, std::move(chart)});
+      items.push_back({&candidate, key, m_cutter(std::move(triangles), is_open)});
+    set_opened(candidate, 0);
   }
   Blocked_execution::blocked_for(items.size(), 1, [&](std::size_t i, std::size_t) {
-    items[i].candidate->trial = try_map(items[i].chart.mesh, items[i].chart.border);
+    items[i].candidate->trial = try_map(items[i].chart);
   });
   for(const Item& item : items) {
-    m_known.emplace(item.chart.key, item.candidate->trial);
+    m_known.emplace(item.key, item.candidate->trial);
     m_work += item.chart.mesh.triangles.size();
   }
 }
@@ -224,7 +244,7 @@ inline void Chart_merger::apply(Chart_state& state, const Pair& pair,
   a.triangles.swap(all);
   a.trial = candidate.trial;
   for(const std::uint32_t h : candidate.opened)
-    state.graph.open(h);
+    state.graph.remove_seam(h);
   state.measure(m_surface, a);
   --state.number_of_charts;
   --state.charts_of_component[m_surface.component[a.triangles[0]]];

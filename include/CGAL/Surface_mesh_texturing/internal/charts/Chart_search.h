@@ -5,12 +5,12 @@
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_CHART_SEARCH_H
 
 #include <CGAL/Surface_mesh_texturing/internal/charts/Chart_merger.h>
-#include <CGAL/Surface_mesh_texturing/internal/charts/feature_curves.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/Growth_surface.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/grow_patches.h>
-#include <CGAL/Surface_mesh_texturing/internal/seams/straighten_seams.h>
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -19,6 +19,64 @@
 namespace CGAL {
 namespace Surface_mesh_texturing {
 namespace internal {
+
+// Seams along features count less, so that they stay there.
+constexpr double feature_length_factor = 0.25;
+
+// Lets seams that run around two sides of a triangle go along the third one, if that is shorter.
+class Seam_corner_cutter
+{
+public:
+  Seam_corner_cutter(const Growth_surface& surface, const std::vector<std::uint8_t>& is_feature)
+    : m_surface(surface), m_is_feature(is_feature)
+  {}
+
+  // Changes the triangles for which `may_change` until no seam gets shorter.
+  template <class MayChange>
+  void run(Seam_graph& graph, std::vector<std::uint32_t>& label, const MayChange& may_change) const
+  {
+    std::vector<std::uint32_t> waiting;
+    for(std::uint32_t t = 0; t < label.size(); ++t)
+      waiting.push_back(t);
+    // Each step makes the seams shorter; rounding could undo that only for sides of equal length
+    for(std::size_t i = 0; i < waiting.size() && i < 8 * label.size(); ++i)
+      if(may_change(waiting[i]) && cut_corner(graph, label, waiting[i]))
+        for(std::uint32_t h = 3 * waiting[i], end = h + 3; h < end; ++h)
+          waiting.push_back(triangle_of(graph.opposite(h)));
+  }
+
+private:
+  double weight(std::uint32_t h) const
+  {
+    return m_surface.length[h] * (m_is_feature[h] ? feature_length_factor : 1.);
+  }
+
+  //      b            b
+  //   __ v __      _______     The seam around the corner v, which no other seam meets, goes along
+  //     / \                    the opposite side; t goes from one chart to the other.
+  //  a /_t_\    =>  a  t
+  //
+  bool cut_corner(Seam_graph& graph, std::vector<std::uint32_t>& label, std::uint32_t t) const
+  {
+    for(std::uint32_t third = 3 * t; third < 3 * t + 3; ++third) {
+      const std::uint32_t first = next_halfedge(third), second = next_halfedge(first);
+      if(graph.is_seam(third) || !graph.is_seam(first) || !graph.is_seam(second)
+         || graph.is_border(first) || graph.is_border(second)
+         || graph.degree(graph.target(first)) != 2
+         || !(weight(first) + weight(second) > (1. + 1e-9) * weight(third)))
+        continue;
+      label[t] = label[triangle_of(graph.opposite(first))];
+      graph.remove_seam(first);
+      graph.remove_seam(second);
+      graph.add_seam(third);
+      return true;
+    }
+    return false;
+  }
+
+  const Growth_surface& m_surface;
+  const std::vector<std::uint8_t>& m_is_feature;
+};
 
 // See Chart_growth_options.
 struct Search_options
@@ -96,11 +154,11 @@ inline Chart_search::State Chart_search::start()
   const std::size_t number = m_surface.size() / m_options.patch_size;
   constexpr std::size_t least_patches = 6; // of a component
   growth.grow(number, (std::max)(least_patches, 2 * m_options.least_charts));
-  const Seam_straightening straightening(m_surface, m_is_feature);
+  const Seam_corner_cutter corner_cutter(m_surface, m_is_feature);
   for(;;) {
     Seam_graph graph = growth.seams();
     std::vector<std::uint32_t> patch = growth.patch(), bad;
-    straightening.run(graph, patch, [](std::uint32_t) { return true; });
+    corner_cutter.run(graph, patch, [](std::uint32_t) { return true; });
     State state = m_merger.start(graph, patch, growth.number_of_patches());
     for(std::uint32_t p = 0; p < state.pieces.size(); ++p)
       if(!m_merger.is_good(state.pieces[p].trial))
@@ -178,12 +236,11 @@ inline Chart_search::State Chart_search::straightened(const std::vector<bool>& i
 {
   Seam_graph graph = m_best->graph;
   std::vector<std::uint32_t> label = m_best->label;
-  Seam_straightening(m_surface, m_is_feature).run(graph, label, [&](std::uint32_t t) {
+  Seam_corner_cutter(m_surface, m_is_feature).run(graph, label, [&](std::uint32_t t) {
     bool may_change = !is_fixed[label[t]];
-    for(int c = 0; c < 3; ++c) {
-      const std::uint32_t h = m_surface.adjacency.opposite(t, c);
-      may_change = may_change && (h == Indexed_mesh::no_vertex
-                                  || !is_fixed[label[h / 3]]);
+    for(Halfedge h = 3 * t; h < 3 * t + 3; ++h) {
+      const Halfedge g = m_surface.adjacency.opposite(h);
+      may_change = may_change && (g == no_halfedge || !is_fixed[label[triangle_of(g)]]);
     }
     return may_change;
   });

@@ -27,7 +27,7 @@ inline double seam_length(const Indexed_triangle_mesh& mesh, const Face_charts& 
   for(std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
     for(int c = 0; c < 3; ++c) {
       const std::uint32_t opposite = adjacency.opposite(t, c);
-      if(opposite != no_vertex && 3 * t + std::uint32_t(c) < opposite && charts.is_seam(t, c))
+      if(opposite != no_halfedge && 3 * t + std::uint32_t(c) < opposite && charts.is_seam(t, c))
         sum += std::sqrt(squared_distance(mesh.points[mesh.triangles[t][c]],
                                           mesh.points[mesh.triangles[t][(c + 1) % 3]]));
     }
@@ -39,13 +39,9 @@ inline Face_charts charts_of_maps(const Indexed_triangle_mesh& mesh,
                                   const std::vector<Mapped_chart>& maps)
 {
   std::vector<std::uint8_t> seams(mesh.triangles.size());
-  for(const Mapped_chart& map : maps) {
-    const Triangle_adjacency adjacency(map.chart.mesh.triangles);
-    for(std::uint32_t t = 0; t < map.chart.triangles.size(); ++t)
-      for(int c = 0; c < 3; ++c)
-        if(adjacency.opposite(t, c) == no_vertex)
-          seams[map.chart.triangles[t]] |= 1 << c;
-  }
+  for(const Mapped_chart& map : maps)
+    for(const Halfedge h : map.chart.border)
+      mark(seams, 3 * map.chart.triangles[triangle_of(h)] + corner_of(h));
   return charts_between(mesh.triangles, std::move(seams));
 }
 

@@ -24,7 +24,6 @@ namespace internal {
 // vertex (`Seam_graph::zip()`), so that a patch is a disk at any time.
 class Patch_growth
 {
-  static constexpr std::uint32_t none = Indexed_mesh::no_vertex;
   static constexpr double least_step = 1e-6; // the mean length of an edge is 1
   typedef std::vector<std::uint32_t> Seeds;
 
@@ -37,10 +36,10 @@ public:
       all += x;
     for(std::uint32_t h = 0; h < m_step.size(); ++h) {
       const std::uint32_t g = surface.adjacency.opposite(h);
-      if(g == none)
+      if(g == no_halfedge)
         continue;
       const double length
-        = std::sqrt(squared_distance(surface.centre[h / 3], surface.centre[g / 3]));
+        = std::sqrt(squared_distance(surface.centre[triangle_of(h)], surface.centre[triangle_of(g)]));
       m_step[h] = length * (1. + surface.angle[h]) + (is_feature[h] ? all : 0.) + least_step;
     }
   }
@@ -81,17 +80,17 @@ inline void Patch_growth::spread(Queue& queue)
   while(!queue.empty()) {
     const auto [distance, h, patch] = queue.top();
     queue.pop();
-    const std::uint32_t t = h / 3;
+    const std::uint32_t t = triangle_of(h);
     if(m_patch[t] != patch || m_distance[t] != distance || m_entry[t] != h)
       continue;
     for(std::uint32_t g = 3 * t; g < 3 * t + 3; ++g) {
       const std::uint32_t across = m_surface.adjacency.opposite(g);
-      if(across == none || !(distance + m_step[g] < m_distance[across / 3]))
+      if(across == no_halfedge || !(distance + m_step[g] < m_distance[triangle_of(across)]))
         continue;
-      m_distance[across / 3] = distance + m_step[g];
-      m_patch[across / 3] = patch;
-      m_entry[across / 3] = across;
-      queue.push({m_distance[across / 3], across, patch});
+      m_distance[triangle_of(across)] = distance + m_step[g];
+      m_patch[triangle_of(across)] = patch;
+      m_entry[triangle_of(across)] = across;
+      queue.push({m_distance[triangle_of(across)], across, patch});
     }
   }
 }
@@ -145,8 +144,8 @@ inline bool Patch_growth::move_seeds_inward()
   typedef std::pair<double, std::uint32_t> Item;
   std::priority_queue<Item, std::vector<Item>, std::greater<Item>> queue;
   for(std::uint32_t h = 0; h < m_step.size(); ++h) {
-    const std::uint32_t g = m_surface.adjacency.opposite(h), t = h / 3;
-    if((g == none || m_patch[g / 3] != m_patch[t]) && depth[t] > 0.)
+    const std::uint32_t g = m_surface.adjacency.opposite(h), t = triangle_of(h);
+    if((g == no_halfedge || m_patch[triangle_of(g)] != m_patch[t]) && depth[t] > 0.)
       queue.push({depth[t] = 0., t});
   }
   while(!queue.empty()) {
@@ -156,8 +155,8 @@ inline bool Patch_growth::move_seeds_inward()
       continue;
     for(std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
       const std::uint32_t g = m_surface.adjacency.opposite(h);
-      if(g != none && d + m_step[h] < depth[g / 3])
-        queue.push({depth[g / 3] = d + m_step[h], g / 3});
+      if(g != no_halfedge && d + m_step[h] < depth[triangle_of(g)])
+        queue.push({depth[triangle_of(g)] = d + m_step[h], triangle_of(g)});
     }
   }
   const Seeds old = m_seeds;
@@ -173,8 +172,8 @@ inline void Patch_growth::grow(std::size_t number, std::size_t least)
   constexpr int rounds = 3; // of the seeds' move to the middle, in the manner of Lloyd
   const auto reset = [this] {
     m_distance.assign(m_surface.size(), (std::numeric_limits<double>::max)());
-    m_patch.assign(m_surface.size(), none);
-    m_entry.assign(m_surface.size(), none);
+    m_patch.assign(m_surface.size(), std::uint32_t(-1));
+    m_entry.assign(m_surface.size(), no_halfedge);
   };
   reset();
   m_seeds.clear();
@@ -203,7 +202,8 @@ inline bool Patch_growth::refine(const std::vector<std::uint32_t>& patches)
 
 inline Seam_graph Patch_growth::seams() const
 {
-  Seam_graph graph(m_surface.mesh.triangles, m_surface.adjacency, m_surface.mesh.points.size());
+  constexpr std::uint8_t all_three = 7; // edges, which are all seams to begin with
+  Seam_graph graph(m_surface.adjacency, std::vector<std::uint8_t>(m_surface.size(), all_three));
   std::vector<std::uint32_t> order(m_surface.size()), zipped;
   for(std::uint32_t t = 0; t < order.size(); ++t)
     order[t] = t;
@@ -212,7 +212,7 @@ inline Seam_graph Patch_growth::seams() const
   });
   for(const std::uint32_t t : order)
     if(m_distance[t] > 0.)
-      graph.open(m_entry[t]);
+      graph.remove_seam(m_entry[t]);
   for(std::uint32_t v = 0; v < m_surface.mesh.points.size(); ++v)
     graph.zip(v, zipped);
   return graph;

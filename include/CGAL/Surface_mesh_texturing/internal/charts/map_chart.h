@@ -4,7 +4,6 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_MAP_CHART_H
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_MAP_CHART_H
 
-#include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 #include <CGAL/Surface_mesh_parameterization/repair_flipped_faces.h>
 #include <CGAL/Surface_mesh_parameterization/self_overlap.h>
 #include <CGAL/Surface_mesh_texturing/Texture_atlas.h>
@@ -18,29 +17,6 @@
 namespace CGAL {
 namespace Surface_mesh_texturing {
 namespace internal {
-
-// Whether the images of no two border edges of a mesh, all of which are given, have a point in
-// common, the vertex between two successive ones aside. Then a map of a disk whose triangles all
-// have a positive area is one-to-one: see `Surface_mesh_parameterization::certify_map()`.
-inline bool
-is_simple_border(const std::vector<Border_edge>& border,
-                 const std::vector<Simple_cartesian<double>::Point_2>& uv)
-{
-  namespace SMP = Surface_mesh_parameterization;
-  const auto point = [&uv](Indexed_mesh::Vertex_index v) {
-    return SMP::Uv_point(uv[v].x(), uv[v].y());
-  };
-  std::vector<std::pair<Bbox_2, Border_edge>> items;
-  for(const Border_edge& e : border)
-    items.push_back({point(e[0]).bbox() + point(e[1]).bbox(), e});
-  return !SMP::any_pair_of_boxes(items, [&](const Border_edge& e, const Border_edge& f) {
-    if(e[0] == f[1] && e[1] != f[0])
-      return SMP::successive_segments_meet(point(f[0]), point(f[1]), point(e[1]));
-    if(e[1] == f[0] && e[0] != f[1])
-      return SMP::successive_segments_meet(point(e[0]), point(e[1]), point(f[1]));
-    return SMP::segments_meet(point(e[0]), point(e[1]), point(f[0]), point(f[1]));
-  });
-}
 
 typedef Simple_cartesian<double>::Point_2 Point_2;
 
@@ -161,7 +137,7 @@ inline Mapped_chart map_chart(Chart_mesh chart, const Chart_mapping& mapping)
   result.chart = std::move(chart);
   const Indexed_triangle_mesh& mesh = result.chart.mesh;
   result.report.faces = mesh.triangles.size();
-  const std::vector<Border_edge> border = border_edges(mesh.triangles);
+  const std::vector<Border_edge> border = result.chart.border_edges();
   result.report.border_length = border_length(mesh, border);
   if(mesh.triangles.size() == 1) {
     result.uv = lay_out_triangle(mesh);
@@ -187,7 +163,8 @@ inline Mapped_chart map_chart(Chart_mesh chart, const Chart_mapping& mapping)
     result.report.distortion = measure_chart_distortion(mesh, result.uv);
   }
   result.report.repaired_flips = flips.first - (std::min)(flips.first, left.first);
-  result.report.is_one_to_one = left.first == 0 && is_simple_border(border, result.uv);
+  result.report.is_one_to_one
+    = left.first == 0 && Surface_mesh_parameterization::is_simple_border(border, result.uv);
   result.is_valid = result.report.is_one_to_one && is_allowed(result.report.distortion);
   return result;
 }

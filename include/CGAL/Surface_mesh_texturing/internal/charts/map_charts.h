@@ -36,20 +36,20 @@ inline Face_charts halve_chart(const Indexed_triangle_mesh& mesh)
   add(0);
   for(std::size_t i = 0; i < disk.size() && disk.size() < half; ++i)
     for(int c = 0; c < 3 && disk.size() < half; ++c) {
-      const std::uint32_t h = adjacency.opposite(disk[i], c);
-      if(h == no_vertex || label[h / 3] == 1)
+      const Halfedge h = adjacency.opposite(disk[i], c);
+      if(h == no_halfedge || label[triangle_of(h)] == 1)
         continue;
       int shared = 0; // edges with the disk: with one of them the vertex across must be new
       for(int d = 0; d < 3; ++d) {
-        const std::uint32_t g = adjacency.opposite(h / 3, d);
-        shared += g != no_vertex && label[g / 3] == 1 ? 1 : 0;
+        const Halfedge g = adjacency.opposite(triangle_of(h), d);
+        shared += g != no_halfedge && label[triangle_of(g)] == 1 ? 1 : 0;
       }
-      if(shared == 3 || (shared == 1 && has_vertex[mesh.triangles[h / 3][(h % 3 + 2) % 3]]))
+      if(shared == 3 || (shared == 1 && has_vertex[vertex_of(mesh.triangles, previous_halfedge(h))]))
         continue;
-      add(h / 3);
-      disk.push_back(h / 3);
+      add(triangle_of(h));
+      disk.push_back(triangle_of(h));
     }
-  return charts_of_labels(mesh.triangles, label);
+  return charts_of_labels(adjacency, label);
 }
 
 // Maps charts: the large ones one after the other, each in parallel within, then the others side by

@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_SEAMS_BAND_SEARCH_H
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_SEAMS_BAND_SEARCH_H
 
-#include <CGAL/Surface_mesh_texturing/internal/seams/Seam_net.h>
+#include <CGAL/Surface_mesh_texturing/internal/seams/Refinable_seam_graph.h>
 
 #include <algorithm>
 #include <functional>
@@ -24,12 +24,12 @@ namespace internal {
 class Band_search
 {
 public:
-  typedef Seam_net::Length Length;
+  typedef Refinable_seam_graph::Length Length;
   typedef std::vector<Halfedge> Path;
 
   static constexpr Length no_length = (std::numeric_limits<Length>::max)();
 
-  explicit Band_search(const Seam_net& graph)
+  explicit Band_search(const Refinable_seam_graph& graph)
     : m_graph(graph), m_place(graph.mesh().number_of_vertices(), {0, 0})
   {}
 
@@ -128,7 +128,7 @@ private:
   }
   void relax(Halfedge h, Length so_far, Length bound, const End* to, Paths& paths);
 
-  const Seam_net& m_graph;
+  const Refinable_seam_graph& m_graph;
   std::vector<Place> m_place; // of each vertex
   std::uint32_t m_band_number = 0;
   std::vector<Vertex_index> m_band;
@@ -140,7 +140,7 @@ private:
 template <class Use>
 void Band_search::for_each_in_sector(Halfedge outgoing, const Use& use) const
 {
-  const Linked_triangles& mesh = m_graph.mesh();
+  const Halfedge_triangles& mesh = m_graph.mesh();
   Halfedge h = outgoing;
   do {
     use(h);
@@ -156,7 +156,7 @@ void Band_search::for_each_in_sector(Halfedge outgoing, const Use& use) const
 template <class Use>
 void Band_search::for_each_neighbor(Vertex_index v, const Use& use) const
 {
-  const Linked_triangles& mesh = m_graph.mesh();
+  const Halfedge_triangles& mesh = m_graph.mesh();
   mesh.for_each_outgoing(mesh.outgoing(v), [&](Halfedge h) {
     use(mesh.target(h));
     return true;
@@ -165,7 +165,7 @@ void Band_search::for_each_neighbor(Vertex_index v, const Use& use) const
 
 inline void Band_search::add_border(Vertex_index v, int rings)
 {
-  const Linked_triangles& mesh = m_graph.mesh();
+  const Halfedge_triangles& mesh = m_graph.mesh();
   Halfedge first = mesh.outgoing(v);
   while(mesh.opposite(first) != no_halfedge)
     first = mesh.clockwise(first);
@@ -193,7 +193,7 @@ inline void Band_search::grow(int rings)
     const std::size_t end = m_band.size();
     for(; begin < end; ++begin) {
       const Vertex_index v = m_band[begin];
-      if(is_end(v) || m_graph.is_border(v))
+      if(is_end(v) || m_graph.is_on_border(v))
         continue;
       for_each_neighbor(v, [&](Vertex_index w) {
         if(m_graph.degree(w) == 0)
@@ -205,7 +205,7 @@ inline void Band_search::grow(int rings)
 
 inline bool Band_search::is_contractible() const
 {
-  const Linked_triangles& mesh = m_graph.mesh();
+  const Halfedge_triangles& mesh = m_graph.mesh();
   // Connected by construction; so its Euler characteristic decides. Seams that are left, which no
   // path may cross, are no part of it, nor are the triangles at them
   long twice_edges = 0, triangles = 0;
@@ -225,7 +225,7 @@ inline void Band_search::relax(Halfedge h, Length so_far, Length bound, const En
                                Paths& paths)
 {
   const Vertex_index w = m_graph.mesh().target(h);
-  if(!has(w) || (m_graph.degree(w) > 0 && !m_graph.is_border(w) && !is_end(w)))
+  if(!has(w) || (m_graph.degree(w) > 0 && !m_graph.is_on_border(w) && !is_end(w)))
     return;
   if(is_end(w) && (to == nullptr || to->vertex != w || !is_arrival(*to, h)))
     return;
@@ -243,7 +243,7 @@ inline void Band_search::relax(Halfedge h, Length so_far, Length bound, const En
 
 inline void Band_search::search(int from, int to, Length bound, Paths& paths)
 {
-  const Linked_triangles& mesh = m_graph.mesh();
+  const Halfedge_triangles& mesh = m_graph.mesh();
   const End* const target = to < 0 ? nullptr : &m_ends[to];
   paths.length.assign(m_band.size(), Length(no_length));
   paths.arrival.assign(m_band.size(), no_halfedge);
@@ -261,7 +261,7 @@ inline void Band_search::search(int from, int to, Length bound, Paths& paths)
       continue;
     if(target != nullptr && target->vertex == v)
       return;
-    if(is_end(v) || m_graph.is_border(v)) // where paths end
+    if(is_end(v) || m_graph.is_on_border(v)) // where paths end
       continue;
     mesh.for_each_outgoing(mesh.outgoing(v), [&](Halfedge h) {
       relax(h, entry.first, bound, target, paths);

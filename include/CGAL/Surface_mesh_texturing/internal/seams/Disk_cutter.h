@@ -17,14 +17,6 @@ namespace CGAL {
 namespace Surface_mesh_texturing {
 namespace internal {
 
-// How a closed surface is cut.
-struct Disk_cut
-{
-  std::size_t extremities; // far vertices that the cut goes to at most
-  double least_distance;   // of an extremity from the cut, as a part of the first one's
-  Crease_weights creases;
-};
-
 // Cuts one connected manifold mesh to a disk.
 //
 // Loops of handles, and paths between borders: with the forest of the shortest paths to the
@@ -35,14 +27,15 @@ struct Disk_cut
 class Disk_cutter
 {
 public:
-  Disk_cutter(const Indexed_triangle_mesh& mesh, const Disk_cut& options)
-    : m_options(options), m_graph(mesh.triangles, mesh.points, options.creases)
+  Disk_cutter(const Indexed_triangle_mesh& mesh, const Disk_cut_options& options)
+    : m_options(options), m_mesh(mesh.triangles, mesh.points.size())
+    , m_graph(m_mesh, mesh.points, options.creases)
     , m_plain(mesh.points, plain_weights())
   {
     m_graph.set_seams(
-      label_charts(m_graph.mesh(), std::vector<std::uint8_t>(mesh.triangles.size())).seams);
+      label_charts(m_mesh, std::vector<std::uint8_t>(mesh.triangles.size())).seams);
     for(Vertex_index v = 0; v < mesh.points.size(); ++v)
-      m_is_closed = m_is_closed && !m_graph.is_border(v);
+      m_is_closed = m_is_closed && !m_graph.is_on_border(v);
   }
 
   // Returns the seams of each triangle.
@@ -56,7 +49,7 @@ public:
   }
 
 private:
-  typedef Seam_net::Length Length;
+  typedef Refinable_seam_graph::Length Length;
 
   struct Forest
   {
@@ -89,8 +82,9 @@ private:
   void shorten() { Seam_straightener(m_graph).run({8, 48, 0, 4}); }
   void add_extremities();
 
-  Disk_cut m_options;
-  Seam_net m_graph;
+  Disk_cut_options m_options;
+  Halfedge_triangles m_mesh;
+  Refinable_seam_graph m_graph;
   Crease_metric m_plain;
   bool m_is_closed = true;
 };
@@ -102,7 +96,7 @@ Disk_cutter::Forest Disk_cutter::shortest_paths(const std::vector<Vertex_index>&
                                                 Vertex_index* goal) const
 {
   typedef std::pair<Length, Vertex_index> Entry;
-  const Linked_triangles& mesh = m_graph.mesh();
+  const Halfedge_triangles& mesh = m_graph.mesh();
   Forest forest = {std::vector<Length>(mesh.number_of_vertices(), Length(far)),
                    std::vector<Halfedge>(mesh.number_of_vertices(), no_halfedge)};
   std::vector<Entry> heap;
@@ -177,7 +171,7 @@ inline std::size_t Disk_cutter::add_path(const Forest& forest, Vertex_index v)
 
 inline void Disk_cutter::add_generators()
 {
-  const Linked_triangles& mesh = m_graph.mesh();
+  const Halfedge_triangles& mesh = m_graph.mesh();
   std::vector<Vertex_index> sources = seam_vertices();
   Length distance = 0;
   if(sources.empty())
@@ -198,10 +192,8 @@ inline void Disk_cutter::add_generators()
   Disjoint_sets sets(mesh.number_of_halfedges() / 3);
   for(const auto& edge : edges) {
     const Halfedge h = edge.second;
-    if(sets.find(h / 3) != sets.find(mesh.opposite(h) / 3)) {
-      sets.join(h / 3, mesh.opposite(h) / 3);
+    if(sets.join(triangle_of(h), triangle_of(mesh.opposite(h))))
       continue;
-    }
     m_graph.add_seam(h);
     add_path(forest, mesh.source(h));
     add_path(forest, mesh.target(h));
@@ -212,7 +204,7 @@ inline void Disk_cutter::add_generators()
 // Removes seams that end inside the surface, edge by edge.
 inline void Disk_cutter::prune()
 {
-  const Linked_triangles& mesh = m_graph.mesh();
+  const Halfedge_triangles& mesh = m_graph.mesh();
   for(Vertex_index first = 0; first < mesh.number_of_vertices(); ++first)
     for(Vertex_index v = first; m_graph.degree(v) == 1;) {
       Halfedge last = no_halfedge;

@@ -6,15 +6,74 @@
 
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/seams/Band_search.h>
-#include <CGAL/Surface_mesh_texturing/internal/seams/seam_arcs.h>
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_texturing {
 namespace internal {
+
+// One end of an arc.
+struct Arc_end
+{
+  Vertex_index node;
+  std::uint32_t arc;
+  bool is_last; // the end of the last halfedge, not the beginning of the first
+};
+
+// The seams inside a surface as paths between *nodes*, which are junctions, ends of seams, pinned
+// vertices, and vertices on the border of the surface. Arcs without nodes are closed.
+struct Seam_arcs
+{
+  std::vector<std::vector<Halfedge>> arcs;
+  std::vector<Arc_end> ends; // by node
+};
+
+// The arcs in the order of their first halfedges. Time linear in the number of triangles; but for a
+// look at each, in that of the seams.
+inline Seam_arcs find_seam_arcs(const Refinable_seam_graph& graph)
+{
+  Seam_arcs result;
+  const Halfedge_triangles& mesh = graph.mesh();
+  std::vector<std::uint8_t> is_done(graph.seams().size(), 0);
+  const auto trace = [&](Halfedge h) {
+    std::vector<Halfedge> arc;
+    const Vertex_index first = mesh.source(h);
+    for(;; h = graph.next_seam(h)) {
+      arc.push_back(h);
+      mark(is_done, h);
+      mark(is_done, mesh.opposite(h));
+      if(mesh.target(h) == first || graph.is_node(mesh.target(h)))
+        break;
+    }
+    result.arcs.push_back(std::move(arc));
+  };
+  const auto trace_all = [&](bool from_nodes) {
+    for(std::uint32_t t = 0; t < is_done.size(); ++t)
+      if(graph.seams()[t] != is_done[t])
+        for(Halfedge h = 3 * t; h < 3 * t + 3; ++h)
+          if(graph.is_seam(h) && !is_marked(is_done, h) && mesh.opposite(h) != no_halfedge
+             && (!from_nodes || graph.is_node(mesh.source(h))))
+            trace(h);
+  };
+  trace_all(true);
+  trace_all(false);
+  for(std::uint32_t a = 0; a < result.arcs.size(); ++a) {
+    const Vertex_index first = mesh.source(result.arcs[a].front());
+    const Vertex_index last = mesh.target(result.arcs[a].back());
+    if(graph.is_node(first)) {
+      result.ends.push_back({first, a, false});
+      result.ends.push_back({last, a, true});
+    }
+  }
+  std::sort(result.ends.begin(), result.ends.end(), [](const Arc_end& x, const Arc_end& y) {
+    return std::tie(x.node, x.arc, x.is_last) < std::tie(y.node, y.arc, y.is_last);
+  });
+  return result;
+}
 
 // How the seams are pulled straight.
 struct Straightening_reach
@@ -35,7 +94,7 @@ struct Straightening_reach
 class Seam_straightener
 {
 public:
-  explicit Seam_straightener(Seam_net& graph) : m_graph(graph), m_band(graph) {}
+  explicit Seam_straightener(Refinable_seam_graph& graph) : m_graph(graph), m_band(graph) {}
 
   // Straightens the seams between the triangles that the graph has at present.
   void run(const Straightening_reach& reach)
@@ -58,7 +117,7 @@ public:
   }
 
 private:
-  typedef Seam_net::Length Length;
+  typedef Refinable_seam_graph::Length Length;
   typedef Band_search::Path Path;
 
   Vertex_index source(Halfedge h) const { return m_graph.mesh().source(h); }
@@ -97,7 +156,7 @@ private:
   Path tail(const Path& arc, bool is_last, std::size_t length) const;
   void replace_tail(Path& arc, bool is_last, std::size_t length, const Path& tail) const;
 
-  Seam_net& m_graph;
+  Refinable_seam_graph& m_graph;
   Band_search m_band;
   Band_search::Paths m_paths;
   Straightening_reach m_reach = {};
@@ -112,7 +171,7 @@ inline void Seam_straightener::straighten(Path& arc, int round)
   if(window < 2)
     return;
   const std::size_t half = window / 2;
-  if(is_closed && round % 2 == 1 && !is_seam_node(m_graph, source(arc.front())))
+  if(is_closed && round % 2 == 1 && !m_graph.is_node(source(arc.front())))
     std::rotate(arc.begin(), arc.begin() + std::ptrdiff_t(half), arc.end());
   Path result;
   for(std::size_t begin = 0, end; begin < arc.size(); begin = end) {
@@ -156,7 +215,7 @@ inline void Seam_straightener::slide(const Arc_end* first, const Arc_end* last,
   const std::uint32_t degree = std::uint32_t(last - first);
   if(m_graph.is_pinned(node))
     return;
-  if(m_graph.is_border(node)) {
+  if(m_graph.is_on_border(node)) {
     if(degree == 1 && m_graph.degree(node) == 3)
       slide_on_border(end, arcs[end.arc]);
   } else if(degree >= 3 && degree == m_graph.degree(node)) {
@@ -207,7 +266,7 @@ inline void Seam_straightener::slide_on_border(const Arc_end& end, Path& arc)
   if(m_band.is_contractible()) {
     m_band.search(0, -1, old_length - 1, m_paths);
     for(const Vertex_index v : m_band.vertices())
-      if(m_graph.is_border(v) && !m_band.is_end(v) && m_band.length(m_paths, v) < old_length
+      if(m_graph.is_on_border(v) && !m_band.is_end(v) && m_band.length(m_paths, v) < old_length
          && (best == no_vertex || m_band.length(m_paths, v) < m_band.length(m_paths, best)))
         best = v;
   }

@@ -1,0 +1,83 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MULTIGRID_BLOCK_VALUES_H
+#define CGAL_MULTIGRID_BLOCK_VALUES_H
+
+#include <CGAL/Multigrid/vector_operations.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+
+#include <cmath>
+#include <cstddef>
+
+namespace CGAL {
+namespace Multigrid {
+
+/*!
+\ingroup PkgHLSCMMultigrid
+
+Small real blocks, such as the 2 x 2 ones of an elastic energy in the plane: the entries of a matrix
+are `Eigen::Matrix<Real, N, N>`, those of its vectors `Eigen::Matrix<Real, N, 1>`. A pin is a whole
+row of blocks that are 0.
+*/
+template <class Real_, int N, int Columns, int Options>
+struct Value_traits<Eigen::Matrix<Real_, N, Columns, Options, N, Columns>>
+{
+  static_assert(N > 0 && (Columns == N || Columns == 1), "a square block or its vector");
+  typedef Eigen::Matrix<Real_, N, Columns, Options, N, Columns> Block;
+
+  typedef Real_ Real;
+  typedef Block Stored;
+  typedef Block Diagonal;
+  typedef Real Scalar;
+  typedef Eigen::Matrix<Real, N, 1> Vector_value;
+  typedef double Inner;
+  typedef Eigen::Matrix<double, N, Columns> Double;
+  static constexpr bool is_complex = false;
+  static constexpr std::size_t components = N * Columns;
+  static constexpr int rows = N;
+
+  template <class Other>
+  static Block from(const Eigen::MatrixBase<Other>& x) { return x.template cast<Real>(); }
+  static Block zero() { return Block::Zero(); }
+  static bool is_zero(const Block& v) { return !(v.array() != Real(0)).any(); }
+  static Eigen::Matrix<Real, Columns, N> adjoint(const Block& v) { return v.transpose(); }
+  static double product(const Block& v, const Block& w)
+  {
+    return v.template cast<double>().cwiseProduct(w.template cast<double>()).sum();
+  }
+  static Real squared_norm(const Block& v) { return v.squaredNorm(); }
+  static Double modulus(const Block& v)
+  {
+    const Double d = v.template cast<double>();
+    return with_eigenvalues(d * d.transpose(), [](double s) { return s > 0. ? std::sqrt(s) : 0.; });
+  }
+  static bool is_positive(const Block& d) { return d.trace() > 0; }
+  // Of the part that is positive: a component without any entry stays 0.
+  static Block inverse(const Double& d)
+  {
+    const double least = 1e-14 * d.diagonal().cwiseAbs().maxCoeff(); // rounding of d's entries
+    return from(with_eigenvalues(d, [least](double s) { return s > least ? 1. / s : 0.; }));
+  }
+  static Vector_value quotient(const Vector_value& x, const Block& d) { return d.ldlt().solve(x); }
+  static double coefficient(const Block& v, int r, int c) { return double(v(r, c)); }
+  static Block from_coefficients(const double* p) { return from(Eigen::Map<const Double>(p)); }
+
+private:
+  // The symmetric matrix d with its eigenvalues s replaced by f(s).
+  template <class Function>
+  static Double with_eigenvalues(const Double& d, const Function& f)
+  {
+    const Eigen::SelfAdjointEigenSolver<Double> solver(d);
+    const Eigen::Matrix<double, N, 1> values = solver.eigenvalues().unaryExpr(f);
+    return solver.eigenvectors() * values.asDiagonal() * solver.eigenvectors().transpose();
+  }
+};
+
+} // namespace Multigrid
+} // namespace CGAL
+
+#endif // CGAL_MULTIGRID_BLOCK_VALUES_H

@@ -1,0 +1,209 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_IO_OBJ_H
+#define CGAL_SURFACE_MESH_TEXTURING_IO_OBJ_H
+
+#include <CGAL/Surface_mesh_texturing/IO/Textured_model.h>
+#include <CGAL/Surface_mesh_texturing/internal/writing/Byte_output.h>
+
+#include <cstdio>
+#include <initializer_list>
+#include <ostream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+namespace internal {
+
+// A line of a text file: a keyword and numbers.
+inline void put_line(Byte_output& out, std::string_view keyword,
+                     std::initializer_list<double> numbers)
+{
+  out.put(keyword);
+  for(const double x : numbers) {
+    out.put(" ");
+    out.put_text(x);
+  }
+  out.put("\n");
+}
+
+inline void put_obj_vertices(Byte_output& out,
+                             const std::vector<Textured_triangle_mesh::Point_3>& points,
+                             const std::vector<Textured_triangle_mesh::Point_2>& uv)
+{
+  for(const auto& p : points)
+    put_line(out, "v", {p.x(), p.y(), p.z()});
+  for(const auto& p : uv)
+    put_line(out, "vt", {p.x(), p.y()});
+}
+
+// The corners v/vt, or v/vt/vn with normals of vertices.
+inline void put_obj_face(Byte_output& out, const Triangle_indices& vertices,
+                         const Triangle_indices& wedges, bool has_normals)
+{
+  out.put("f");
+  for(std::size_t c = 0; c < 3; ++c) {
+    out.put(" ");
+    out.put_text(vertices[c] + std::size_t(1));
+    out.put("/");
+    out.put_text(wedges[c] + std::size_t(1));
+    if(has_normals) {
+      out.put("/");
+      out.put_text(vertices[c] + std::size_t(1));
+    }
+  }
+  out.put("\n");
+}
+
+inline bool write_obj(std::ostream& os, const std::vector<Textured_triangle_mesh::Point_3>& points,
+                      const std::vector<Triangle_indices>& triangles,
+                      const std::vector<Textured_triangle_mesh::Point_2>& uv,
+                      const std::vector<Triangle_indices>& wedges)
+{
+  if(!can_be_written(points, triangles, uv, wedges))
+    return false;
+  Byte_output out(os);
+  put_obj_vertices(out, points, uv);
+  for(std::size_t t = 0; t < triangles.size(); ++t)
+    put_obj_face(out, triangles[t], wedges[t], false);
+  return out.finish();
+}
+
+} // namespace internal
+
+namespace IO {
+
+/*!
+\ingroup PkgHLSCMTextureFiles
+
+Writes a mesh with texture coordinates as OBJ: lines `v x y z` and `vt u v`, then `f v/vt v/vt
+v/vt`, all in the order of the arrays. Numbers have the shortest form that reads back as the same
+number, whatever precision and locale `os` has.
+
+\return `false` if `os` did not take all, or, before anything is written, if an index is out of
+range or a number not finite.
+
+Linear time.
+*/
+inline bool write_OBJ(std::ostream& os, const Textured_triangle_mesh& mesh)
+{
+  return internal::write_obj(os, mesh.points, mesh.triangles, mesh.uv, mesh.wedges);
+}
+
+/// \ingroup PkgHLSCMTextureFiles
+/// The same for a mesh with one texture coordinate for each vertex.
+inline bool write_OBJ(std::ostream& os, const Indexed_triangle_mesh& mesh,
+                      const std::vector<Textured_triangle_mesh::Point_2>& uv)
+{
+  return internal::write_obj(os, mesh.points, mesh.triangles, uv, mesh.triangles);
+}
+
+/*!
+\ingroup PkgHLSCMTextureFiles
+
+The same for a mesh of any type, in the order of `vertices(mesh)` and `faces(mesh)`.
+
+\tparam TriangleMesh a model of `FaceListGraph`
+\tparam UVMap a model of `ReadablePropertyMap` with the vertex descriptor as key, which gives each
+        vertex one texture coordinate, or with the halfedge descriptor, which gives that of the
+        corner at the target of each halfedge of a face; the value is a point with two coordinates.
+        For a `Seam_mesh`: the map of its vertices that `SMP::parameterize()` fills
+\param os the stream
+\param mesh a mesh
+\param uvmap its texture coordinates
+\param np optional named parameters: `vertex_point_map`
+
+\return `false` also if not all faces are triangles, or there are none.
+*/
+template <class TriangleMesh, class UVMap,
+          class NamedParameters = parameters::Default_named_parameters>
+bool write_OBJ(std::ostream& os, const TriangleMesh& mesh, UVMap uvmap,
+               const NamedParameters& np = parameters::default_values())
+{
+  const Textured_triangle_mesh arrays = internal::textured_mesh_of(mesh, uvmap, np);
+  return !arrays.triangles.empty() && write_OBJ(os, arrays);
+}
+
+/*!
+\ingroup PkgHLSCMTextureFiles
+
+Writes a model with the name of its file of materials, `model.name` + ".mtl", its normals, if it has
+some, and the material of each triangle. The other rules are those of the first overload.
+*/
+inline bool write_OBJ(std::ostream& os, const Textured_model& model)
+{
+  if(!internal::can_be_written(model))
+    return false;
+  internal::Byte_output out(os);
+  out.put("mtllib " + model.name + ".mtl\n");
+  internal::put_obj_vertices(out, model.mesh.points, model.mesh.uv);
+  for(const Vector_3& n : model.frames.normals) {
+    char line[64]; // of unit vectors
+    std::snprintf(line, sizeof line, "vn %.6f %.6f %.6f\n", n.x(), n.y(), n.z());
+    out.put(line);
+  }
+  for(std::size_t t = 0; t < model.mesh.triangles.size(); ++t) {
+    const std::uint32_t page = internal::page_of(model, t);
+    if(t == 0 || page != internal::page_of(model, t - 1))
+      out.put("usemtl " + internal::material_name(page) + "\n");
+    internal::put_obj_face(out, model.mesh.triangles[t], model.mesh.wedges[t],
+                           !model.frames.normals.empty());
+  }
+  return out.finish();
+}
+
+/*!
+\ingroup PkgHLSCMTextureFiles
+
+Writes the materials of the OBJ file of a model, one a page: colors as `map_Kd`; the normal map as
+`norm` and as `map_Bump`, of which programs know one or the other.
+
+\return `false` if `os` did not take all, or an invariant of the model does not hold.
+*/
+inline bool write_MTL(std::ostream& os, const Textured_model& model)
+{
+  if(!internal::can_be_written(model))
+    return false;
+  internal::Byte_output out(os);
+  for(std::size_t page = 0; page < model.materials.size(); ++page) {
+    const Texture_material& material = model.materials[page];
+    out.put("newmtl " + internal::material_name(page) + "\n");
+    out.put("Kd 0.8 0.8 0.8\nKs 0.2 0.2 0.2\nNs 40\n");
+    if(material.color != Texture_material::none)
+      out.put("map_Kd " + model.textures[material.color].name + "\n");
+    if(material.normal_map != Texture_material::none) {
+      const std::string& name = model.textures[material.normal_map].name;
+      out.put("norm " + name + "\nmap_Bump " + name + "\n");
+    }
+  }
+  return out.finish();
+}
+
+/*!
+\ingroup PkgHLSCMTextureFiles
+
+Writes an OBJ file: calls the overload with a stream for what follows the name.
+
+\return `false` also if the file cannot be created or written; what it held before is lost then.
+*/
+template <class... Input>
+bool write_OBJ(const std::string& filename, const Input&... input)
+{
+  return internal::write_file(filename, [&](std::ostream& os) { return write_OBJ(os, input...); });
+}
+
+/// \ingroup PkgHLSCMTextureFiles
+/// Writes a file of materials; the same for `write_MTL()`.
+inline bool write_MTL(const std::string& filename, const Textured_model& model)
+{
+  return internal::write_file(filename, [&](std::ostream& os) { return write_MTL(os, model); });
+}
+
+} // namespace IO
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_IO_OBJ_H

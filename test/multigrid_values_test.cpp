@@ -1,0 +1,264 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The parts of the multigrid layer with real numbers and with blocks, against the dense matrix of
+// their numbers.
+
+#include <support/dense_multigrid.h>
+
+#include <CGAL/Multigrid/Block_values.h>
+#include <CGAL/Multigrid/Monogrid_preconditioners.h>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <type_traits>
+
+namespace multigrid_values_test {
+
+using namespace CGAL::Multigrid;
+using namespace test_support;
+
+// A definite matrix whose entries are blocks of N x N numbers (N = 1: numbers), and its vectors.
+template <class Value>
+class Real_values : public ::testing::Test
+{
+protected:
+  typedef Value_traits<Value> Traits;
+  typedef typename Traits::Double Double;
+  typedef Value_vector<Value> Vector;
+  static constexpr int rows = Traits::rows;
+  static constexpr int size = 70; // rows of blocks
+  static constexpr double tolerance
+    = std::is_same_v<typename Traits::Real, float> ? 1e-4 : 1e-11;
+  static constexpr int pin = 11;
+
+  Random_numbers random = Random_numbers(30);
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(rows * size, rows * size);
+
+  // Row and column of the pin are 0.
+  Real_values()
+  {
+    for(int i = 0; i < size; ++i)
+      for(int j = 0; j < i; ++j)
+        if(i != pin && j != pin && random.chance(0.1))
+          for(int k = 0; k < rows * rows; ++k) {
+            const int r = rows * i + k / rows, c = rows * j + k % rows;
+            dense(r, c) = dense(c, r) = random.real();
+          }
+    const Eigen::VectorXd sums = dense.cwiseAbs().rowwise().sum();
+    for(int i = 0; i < rows * size; ++i)
+      dense(i, i) = i / rows == pin ? 0. : sums(i) + 0.2;
+    if(rows > 1) // blocks on the diagonal are not diagonal
+      for(int i = 0; i < size; ++i)
+        if(i != pin)
+          dense(rows * i, rows * i + 1) = dense(rows * i + 1, rows * i) = 0.1;
+  }
+
+  static Double block(const Eigen::MatrixXd& a, int i, int j)
+  {
+    std::array<double, rows * rows> p; // by columns
+    for(int k = 0; k < rows * rows; ++k)
+      p[k] = a(rows * i + k % rows, rows * j + k / rows);
+    return Value_traits<Double>::from_coefficients(p.data());
+  }
+
+  Self_adjoint_matrix<Value> sparse() const
+  {
+    return Matrix_builder::build_matrix<Value>(
+      std::vector<std::uint32_t>(size, size), [&](std::uint32_t i, auto& row) {
+        row.diagonal = block(dense, int(i), int(i));
+        for(std::uint32_t j = 0; j < size; ++j)
+          if(j != i && !Value_traits<Double>::is_zero(block(dense, int(i), int(j))))
+            row.entries.push_back({j, block(dense, int(i), int(j))});
+      });
+  }
+
+  template <class V>
+  static Eigen::MatrixXd to_real_dense(const Self_adjoint_matrix<V>& h)
+  {
+    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(rows * size, rows * size);
+    const auto put = [&a](std::uint32_t i, std::uint32_t j, const auto& value) {
+      for(int k = 0; k < rows * rows; ++k)
+        a(rows * i + k / rows, rows * j + k % rows)
+          = Value_traits<V>::coefficient(value, k / rows, k % rows);
+    };
+    const auto slot = h.slot_of_row();
+    for(std::uint32_t i = 0; i < size; ++i) {
+      put(i, i, h.diagonal()[i]);
+      h.for_each_entry(slot[i], [&](std::uint32_t j, const V& value) { put(i, j, value); });
+    }
+    return a;
+  }
+
+  static Vector to_values(const Eigen::VectorXd& x)
+  {
+    Vector result;
+    for(int i = 0; i < size; ++i)
+      result.push_back(Value_traits<typename Vector::value_type>::from_coefficients(
+        x.data() + rows * i));
+    return result;
+  }
+
+  static Eigen::VectorXd to_numbers(const Vector& x)
+  {
+    Eigen::VectorXd result(rows * size);
+    for(int i = 0; i < rows * size; ++i)
+      result(i) = Value_traits<typename Vector::value_type>::coefficient(x[i / rows], i % rows, 0);
+    return result;
+  }
+
+  Eigen::VectorXd random_numbers()
+  {
+    Eigen::VectorXd x(rows * size);
+    for(int i = 0; i < x.size(); ++i)
+      x(i) = random.real();
+    return x;
+  }
+
+  // What is 0 at the pin.
+  Eigen::VectorXd random_free_numbers()
+  {
+    Eigen::VectorXd x = random_numbers();
+    x.segment(rows * pin, rows).setZero();
+    return x;
+  }
+
+  // The matrix with the identity at the pin.
+  Eigen::MatrixXd regular() const
+  {
+    Eigen::MatrixXd a = dense;
+    for(int r = 0; r < rows; ++r)
+      a(rows * pin + r, rows * pin + r) = 1.;
+    return a;
+  }
+};
+
+typedef ::testing::Types<float, double, Eigen::Matrix2f, Eigen::Matrix2d, Eigen::Matrix3f,
+                         Eigen::Matrix3d> Real_value_types;
+TYPED_TEST_SUITE(Real_values, Real_value_types);
+
+TYPED_TEST(Real_values, make_the_matrix_and_its_product)
+{
+  const auto h = this->sparse();
+  EXPECT_LE((this->to_real_dense(h) - this->dense).norm(), this->tolerance * this->dense.norm());
+  EXPECT_EQ(h.number_of_nonzeros(), [&] {
+    std::size_t count = 0;
+    for(int i = 0; i < this->size; ++i)
+      for(int j = 0; j < this->size; ++j)
+        count += (this->dense.block(this->rows * i, this->rows * j, this->rows, this->rows).array()
+                  != 0.).any();
+    return count;
+  }());
+  const Eigen::VectorXd x = this->random_numbers();
+  typename TestFixture::Vector y(this->size);
+  h.multiply(this->to_values(x), y);
+  const Eigen::VectorXd expected = this->dense * x;
+  EXPECT_LE((this->to_numbers(y) - expected).norm(), this->tolerance * expected.norm());
+}
+
+TYPED_TEST(Real_values, take_rows_and_precisions)
+{
+  auto h = this->sparse();
+  const auto row = h.take_row(3);
+  Eigen::MatrixXd without = this->dense;
+  without.middleRows(3 * this->rows, this->rows).setZero();
+  EXPECT_LE((this->to_real_dense(h) - without).norm(), this->tolerance * without.norm());
+  h.put_row(3, row);
+  Self_adjoint_matrix<typename TestFixture::Double> in_double;
+  in_double.assign(h);
+  EXPECT_EQ(this->to_real_dense(h), this->to_real_dense(in_double));
+  EXPECT_LE((this->to_real_dense(h) - this->dense).norm(), this->tolerance * this->dense.norm());
+}
+
+TYPED_TEST(Real_values, have_the_vector_operations)
+{
+  const Eigen::VectorXd x = this->random_numbers(), y = this->random_numbers();
+  const auto a = this->to_values(x);
+  auto b = this->to_values(y);
+  EXPECT_NEAR(inner_product(a, b), x.dot(y), this->tolerance * x.norm() * y.norm());
+  EXPECT_NEAR(squared_norm(a), x.squaredNorm(), this->tolerance * x.squaredNorm());
+  double largest = 0.;
+  for(int i = 0; i < this->size; ++i)
+    largest = (std::max)(largest, x.segment(this->rows * i, this->rows).norm());
+  EXPECT_NEAR(largest_entry(a), largest, this->tolerance);
+  add_scaled(3, a, b);
+  EXPECT_LE((this->to_numbers(b) - (3. * x + y)).norm(), this->tolerance * x.norm());
+  set_zero(this->size, b);
+  EXPECT_EQ(squared_norm(b), 0.);
+}
+
+// D^-1 H has no eigenvalue above 2, and the Chebyshev smoother lowers the energy.
+TYPED_TEST(Real_values, are_smoothed)
+{
+  typedef Value_traits<typename TestFixture::Traits::Diagonal> Diagonal_traits;
+  const auto h = this->sparse();
+  const auto inverse = l1_inverse_diagonal(h);
+  Eigen::MatrixXd d = Eigen::MatrixXd::Zero(this->dense.rows(), this->dense.rows());
+  for(int i = 0; i < this->size; ++i)
+    for(int k = 0; k < this->rows * this->rows; ++k)
+      d(this->rows * i + k / this->rows, this->rows * i + k % this->rows)
+        = Diagonal_traits::coefficient(inverse[i], k / this->rows, k % this->rows);
+  EXPECT_EQ(d.middleRows(this->rows * this->pin, this->rows).norm(), 0.);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> root_of(d);
+  const Eigen::MatrixXd root = root_of.eigenvectors()
+    * root_of.eigenvalues().cwiseMax(0.).cwiseSqrt().asDiagonal()
+    * root_of.eigenvectors().transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(root * this->dense * root);
+  EXPECT_LE(spectrum.eigenvalues().maxCoeff(), 2. + 1e-4);
+  EXPECT_GT(spectrum.eigenvalues().maxCoeff(), 0.5);
+  Chebyshev_smoother<TypeParam> smoother;
+  smoother.set_matrix(h);
+  const Eigen::VectorXd error = this->random_free_numbers();
+  auto u = this->to_values(0. * error), r = this->to_values(this->dense * error), z = u;
+  smoother.smooth(h, 3, u, r, z);
+  const Eigen::VectorXd after = error - this->to_numbers(u);
+  EXPECT_LT(after.dot(this->dense * after), 0.9 * error.dot(this->dense * error));
+  const Eigen::VectorXd residual = this->dense * after;
+  EXPECT_LE((this->to_numbers(r) - this->dense * this->to_numbers(z) - residual).norm(),
+            1e-4 * (this->dense * error).norm());
+}
+
+TYPED_TEST(Real_values, have_preconditioners_and_a_factorization)
+{
+  const auto h = this->sparse();
+  const Eigen::VectorXd f = this->random_free_numbers();
+  typename TestFixture::Vector z;
+  Sparse_cholesky<Real_factorization> cholesky;
+  EXPECT_FALSE(cholesky.is_factorized());
+  ASSERT_TRUE(cholesky.factorize(h));
+  EXPECT_TRUE(cholesky.is_factorized());
+  cholesky.solve(this->to_values(f), z);
+  EXPECT_LE((this->dense * this->to_numbers(z) - f).norm(), this->tolerance * f.norm());
+
+  // The block diagonal and what is below it
+  Eigen::MatrixXd diagonal = Eigen::MatrixXd::Zero(f.size(), f.size()), lower = diagonal;
+  const Eigen::MatrixXd a = this->regular();
+  for(int i = 0; i < this->size; ++i) {
+    const int at = this->rows * i, rows = this->rows;
+    diagonal.block(at, at, rows, rows) = a.block(at, at, rows, rows);
+    lower.block(at, 0, rows, at) = a.block(at, 0, rows, at);
+  }
+  lower += diagonal;
+  const Diagonal_preconditioner<TypeParam> by_diagonal(h);
+  by_diagonal(this->to_values(f), z);
+  Eigen::VectorXd expected = diagonal.inverse() * f;
+  EXPECT_LE((this->to_numbers(z) - expected).norm(), this->tolerance * expected.norm());
+  const Gauss_seidel_preconditioner<TypeParam> sweeps(h);
+  sweeps(this->to_values(f), z);
+  expected = lower.transpose().inverse() * (diagonal * (lower.inverse() * f));
+  EXPECT_LE((this->to_numbers(z) - expected).norm(), this->tolerance * expected.norm());
+}
+
+// A component of a block that no entry concerns stays 0, where a diagonal has no inverse.
+TEST(Block_values, inverse_of_a_singular_block)
+{
+  typedef Value_traits<Eigen::Matrix2d> Traits;
+  const Eigen::Matrix2d d = (Eigen::Matrix2d() << 4., 0., 0., 0.).finished();
+  EXPECT_LE((Traits::inverse(d) - (Eigen::Matrix2d() << 0.25, 0., 0., 0.).finished()).norm(), 1e-15);
+  EXPECT_EQ(Traits::inverse(0. * d), Traits::zero());
+  const Eigen::Matrix2d b = (Eigen::Matrix2d() << 1., 2., -3., 4.).finished();
+  EXPECT_LE((Traits::modulus(b) * Traits::modulus(b) - b * b.transpose()).norm(), 1e-12);
+}
+
+} // namespace multigrid_values_test
