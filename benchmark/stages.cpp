@@ -21,6 +21,7 @@
 #include <filesystem>
 #include <functional>
 #include <iostream>
+#include <memory>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -64,9 +65,9 @@ private:
 SMP::internal::Chart copy_of(const Mesh& mesh)
 {
   SMP::internal::Chart chart;
-  SMP::internal::copy_faces(mesh, chart);
-  chart.source.resize(chart.mesh.points.size());
-  std::iota(chart.source.begin(), chart.source.end(), 0u);
+  SMP::internal::Status status;
+  SMP::internal::copy_faces(mesh, chart, status);
+  SMP::internal::number_sources(chart);
   return chart;
 }
 
@@ -74,7 +75,8 @@ SMP::internal::Chart copy_of(const Mesh& mesh)
 double seconds_per_evaluation(const Mesh& mesh)
 {
   SMP::internal::Chart chart = copy_of(mesh);
-  SMP::internal::prepare_chart(chart, CGAL::Indexed_mesh::no_vertex);
+  SMP::internal::Status status;
+  SMP::internal::prepare_chart(chart, CGAL::Indexed_mesh::no_vertex, status);
   SMM::Flat_collapse_options options;
   options.target_vertices = chart.mesh.points.size() - 1;
   double best = 1;
@@ -130,8 +132,10 @@ private:
   double m_seconds_per_evaluation, m_v, m_f;
   const SMP::HLSCM_options m_options;
   SMP::internal::Chart m_chart;
-  std::vector<SMP::internal::Pin> m_pins;
-  SMP::internal::Conformal_hierarchy<Counting_cholesky> m_hierarchy;
+  SMP::internal::Status m_status;
+  SMP::internal::Pins m_pins;
+  std::shared_ptr<Counting_cholesky> m_coarsest = std::make_shared<Counting_cholesky>();
+  SMP::internal::Conformal_hierarchy m_hierarchy{SMP::internal::Coarsest_solver(m_coarsest)};
   std::vector<Level_size> m_sizes;
   MG::Complex_vector<double> m_z;
   Stage_list m_list;
@@ -155,18 +159,18 @@ void Staged_map::prepare_chart()
     m_chart.source.swap(source);
   });
   stage("rings", m_v, "vertices", copying(ring_bytes(m_v, m_f)),
-        [this] { SMP::internal::connect(m_chart); });
+        [this] { SMP::internal::connect(m_chart, m_status); });
   stage("component; borders; pins", m_v, "vertices", copying(border_bytes(m_v)), [this] {
     const std::vector<bool> is_reached = CGAL::Indexed_mesh::component_of(m_chart.rings, 0);
     if(std::find(is_reached.begin(), is_reached.end(), false) != is_reached.end())
       throw std::runtime_error("the chart has several components");
     m_chart.borders = CGAL::Indexed_mesh::border_loops(m_chart.rings);
-    SMP::internal::check_topology(m_chart);
+    SMP::internal::check_topology(m_chart, m_status);
     m_pins = SMP::internal::far_border_pins(m_chart);
   });
 }
 
-// As internal::decimate() and internal::build_levels().
+// As internal::decimate() and internal::Conformal_system.
 void Staged_map::decimate()
 {
   SMM::Progressive_mesh pm;
@@ -214,15 +218,14 @@ void Staged_map::build_operators()
       return true;
     });
     m_hierarchy.build_cycle();
-    for(const SMP::internal::Pin& pin : m_pins)
-      m_hierarchy.pin(pin.vertex);
+    m_hierarchy.pin_only({m_pins[0].vertex, m_pins[1].vertex});
   });
   const Row_bytes row = row_bytes();
   const double finest = m_v * (row.in_double + row.in_float); // the finest one in single precision
   operators.bound = copying(operator_bytes(m_sizes, row.in_float) + finest);
 }
 
-// Improves the map of level l as Conformal_solver does; returns the iterations.
+// Improves the map of level l as Cycle_iteration does; returns the iterations.
 double Staged_map::iterate(std::size_t l)
 {
   m_z = m_hierarchy.prolonged(l, m_z);
@@ -237,11 +240,12 @@ double Staged_map::iterate(std::size_t l)
 
 void Staged_map::solve()
 {
-  Counting_cholesky& coarsest = m_hierarchy.coarsest_solver();
+  const Counting_cholesky& coarsest = *m_coarsest;
   stage("factorization of the coarsest level", m_sizes[0].vertices, "unknowns", {}, [&] {
     m_z = m_hierarchy.at_pins(m_pins);
     if(!m_hierarchy.factorize_coarsest()
-       || !SMP::internal::solve_for_free(coarsest, m_hierarchy.coarsest(), m_z))
+       || !SMP::internal::solve_for_free(m_hierarchy.coarsest_solver(), m_hierarchy.coarsest(),
+                                         m_z))
       throw std::runtime_error("the coarsest level cannot be factorized");
   });
   const std::size_t finest = m_hierarchy.number_of_levels() - 1;
@@ -284,7 +288,8 @@ void Staged_map::write_back()
   const double bytes = (row_bytes().in_double + (2 + 2) * 16 + 16 + 16 + 4 + 4) * m_v;
   stage("energy; writing back", m_v, "vertices", copying(bytes), [this] {
     m_hierarchy.finest().energy(m_z);
-    const auto rank = m_chart.rank(m_mesh.number_of_vertices());
+    const auto rank
+        = CGAL::Indexed_mesh::ranks(m_chart.source, m_mesh.number_of_vertices());
     std::size_t position = 0;
     for(const auto v : m_mesh.vertices()) {
       const std::complex<double> z = m_z[rank[position++]];

@@ -2,19 +2,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Makes a progressive mesh of a surface and walks along it: to the coarsest mesh by halfedge
-// collapses, and back by vertex splits, to exactly the mesh at the start.
+// collapses, and back by vertex splits, to exactly the mesh at the start. Then writes it as a file,
+// reads the beginning of that, takes a level out, and makes the same level in one call.
 //
 // Usage: progressive_mesh [MESH]
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh_cursor.h>
-#include <CGAL/Surface_mesh_multiresolution/build_progressive_mesh.h>
+#include <CGAL/Surface_mesh_multiresolution/Progressive_mesh_file.h>
+#include <CGAL/Surface_mesh_multiresolution/decimate.h>
 #include <CGAL/boost/graph/IO/polygon_mesh_io.h>
 #include <CGAL/boost/graph/generators.h>
 
 #include <cmath>
 #include <iostream>
+#include <sstream>
+#include <string>
 
 namespace SMM = CGAL::Surface_mesh_multiresolution;
 
@@ -64,5 +68,25 @@ int main(int argc, char* argv[])
                         && cursor.number_of_triangles() == pm.triangles.size();
   std::cout << (is_restored ? "the fine mesh is back exactly\n" : "the fine mesh is not back\n");
   const bool is_coarse = argc > 1 || pm.collapses.size() > pm.number_of_vertices / 2;
-  return is_coarse && is_same_level && is_restored ? 0 : 1;
+
+  // A file, of which any beginning will do
+  std::ostringstream file;
+  const std::string error = SMM::write_progressive_mesh(file, surface);
+  const std::string beginning = file.str().substr(0, file.str().size() / 2);
+  const SMM::Read_progressive_mesh read
+    = SMM::decode_progressive_mesh(beginning.data(), beginning.size());
+  std::cout << file.str().size() << " bytes; of half of them: " << read.message << "\n";
+
+  // A level as a mesh, and the mesh itself brought down to as many vertices
+  Mesh level;
+  SMM::copy_level(surface, pm.collapses.size() / 2, level);
+  SMM::Decimation_options options;
+  options.target_vertices = num_vertices(level);
+  const SMM::Decimation_result decimated = SMM::decimate(mesh, options);
+  mesh.collect_garbage();
+  std::cout << decimated.number_of_collapses << " vertices removed, " << num_faces(mesh)
+            << " faces left\n";
+  const bool is_decimated = argc > 1 || num_vertices(mesh) == num_vertices(level);
+  return is_coarse && is_same_level && is_restored && error.empty() && decimated.error.empty()
+           && is_decimated ? 0 : 1;
 }

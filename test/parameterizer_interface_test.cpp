@@ -18,6 +18,7 @@
 #include <limits>
 #include <numeric>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -667,6 +668,44 @@ TEST(Errors, options)
   options = HLSCM_options();
   options.schedule = CGAL::Multigrid::Schedule{1, 1, 0, CGAL::Multigrid::Acceleration::NONE};
   EXPECT_EQ(message_of(options), "the schedule must visit the coarse level at least once");
+}
+
+// One line for each level, which says what its row of the report does.
+TEST(Report, prints_the_levels_as_a_table)
+{
+  Surface_mesh mesh = to_surface_mesh(hills());
+  const HLSCM_options options = with_many_levels(Conformal_method::HLSCM, 1e-2);
+  const SMP::HLSCM_report report = parameterize(mesh, options).report;
+  ASSERT_GT(report.levels.size(), 1u);
+  std::ostringstream out;
+  out << report;
+  std::istringstream in(out.str());
+  std::string line;
+  std::getline(in, line);
+  for(std::size_t l = report.levels.size(); l-- > 0;) {
+    const SMP::HLSCM_level_report& level = report.levels[l];
+    EXPECT_GT(level.entries, 3 * level.vertices); // a vertex has three neighbours or more, mostly
+    EXPECT_GT(level.bytes, 8 * level.entries);    // an index and a number each
+    std::size_t number, vertices, faces, entries, iterations;
+    double megabytes, ratio = 1.;
+    std::getline(in, line);
+    std::istringstream row(line);
+    row >> number >> vertices >> faces >> entries >> megabytes;
+    if(l > 0)
+      row >> ratio;
+    row >> iterations;
+    ASSERT_FALSE(row.fail()) << line;
+    EXPECT_EQ(number, l);
+    EXPECT_EQ(vertices, level.vertices);
+    EXPECT_EQ(faces, level.faces);
+    EXPECT_EQ(entries, level.entries);
+    EXPECT_NEAR(megabytes, 1e-6 * double(level.bytes), 0.006);
+    if(l > 0) {
+      EXPECT_NEAR(ratio, double(level.vertices) / double(report.levels[l - 1].vertices), 0.006);
+    }
+  }
+  std::getline(in, line);
+  EXPECT_EQ(line.substr(0, 16), "hlscm: converged");
 }
 
 TEST(Errors, too_few_iterations)

@@ -7,6 +7,7 @@
 #include <support/conformal_maps.h>
 #include <support/mesh_properties.h>
 
+#include <CGAL/Surface_mesh_parameterization/Edge_collapse_decimation.h>
 #include <CGAL/Surface_mesh_parameterization/LSCM_parameterizer_3.h>
 
 #include <gtest/gtest.h>
@@ -24,10 +25,21 @@ using CGAL::Multigrid::Acceleration;
 using CGAL::Multigrid::Schedule;
 using SMP::Conformal_method;
 using SMP::Conformal_weights;
-using SMP::Decimation_engine;
 using SMP::HLSCM_options;
 using SMP::Monogrid_preconditioner;
 using SMP::Prolongation_rule;
+
+// What decimates.
+enum class Engine { FLAT, FLAT_STRICT, CGAL };
+const Engine all_engines[] = {Engine::FLAT, Engine::FLAT_STRICT, Engine::CGAL};
+
+void set_engine(Engine engine, HLSCM_options& options)
+{
+  options.engine = engine == Engine::FLAT_STRICT ? SMP::Decimation_engine::FLAT_STRICT
+                                                 : SMP::Decimation_engine::FLAT;
+  if(engine == Engine::CGAL)
+    options.decimate = SMP::Edge_collapse_decimation();
+}
 
 typedef std::complex<double> Complex;
 
@@ -201,17 +213,16 @@ void expect_agreement(const std::vector<Options>& all_options, const Describe& d
 TEST(Hierarchical_method, works_with_every_engine_and_prolongation_and_both_weights)
 {
   std::vector<HLSCM_options> all_options;
-  for(const auto engine : {Decimation_engine::FLAT, Decimation_engine::FLAT_STRICT,
-                           Decimation_engine::CGAL})
+  for(const auto engine : all_engines)
     for(const auto rule : {Prolongation_rule::WALK, Prolongation_rule::VSPLIT})
       for(const auto weights : {Conformal_weights::EXACT, Conformal_weights::CGAL_LSCM}) {
         all_options.push_back(with_many_levels());
-        all_options.back().engine = engine;
+        set_engine(engine, all_options.back());
         all_options.back().prolongation = rule;
         all_options.back().weights = weights;
       }
   expect_agreement(all_options, [](const HLSCM_options& o) {
-    return "engine " + std::to_string(int(o.engine)) + " rule "
+    return "engine " + std::to_string(int(o.engine)) + (o.decimate ? " of CGAL rule " : " rule ")
          + std::to_string(int(o.prolongation)) + " weights " + std::to_string(int(o.weights));
   });
 }
@@ -330,12 +341,12 @@ TEST(Monogrid_method, reaches_the_energy_of_the_direct_one)
 
 TEST(Cascade, comes_near_in_a_fixed_number_of_steps)
 {
-  for(const auto engine : {Decimation_engine::FLAT, Decimation_engine::CGAL})
+  for(const auto engine : {Engine::FLAT, Engine::CGAL})
     for(const auto& [name, mesh] : ordinary_charts()) {
       Surface_mesh surface_mesh = to_surface_mesh(mesh);
       HLSCM_options options = with_many_levels();
       options.method = Conformal_method::CASCADIC;
-      options.engine = engine;
+      set_engine(engine, options);
       const auto c = compare_with_direct(surface_mesh, options);
       const SMP::HLSCM_report& report = c.hierarchical.report;
       EXPECT_EQ(c.hierarchical.error, SMP::OK) << report.message;
@@ -502,13 +513,12 @@ TEST(Results, are_the_same_bytes_in_every_run)
   const auto mesh = curved_charts(5)[4].mesh;
   for(const auto method : {Conformal_method::HLSCM, Conformal_method::CASCADIC,
                            Conformal_method::LSCM, Conformal_method::DIRECT})
-    for(const auto engine : {Decimation_engine::FLAT, Decimation_engine::FLAT_STRICT,
-                             Decimation_engine::CGAL}) {
-      if(engine != Decimation_engine::FLAT && method != Conformal_method::HLSCM)
+    for(const auto engine : all_engines) {
+      if(engine != Engine::FLAT && method != Conformal_method::HLSCM)
         continue;
       HLSCM_options options = with_many_levels();
       options.method = method;
-      options.engine = engine;
+      set_engine(engine, options);
       Surface_mesh first_mesh = to_surface_mesh(mesh), second_mesh = to_surface_mesh(mesh);
       const Outcome first = parameterize(first_mesh, options);
       // Watching changes nothing.

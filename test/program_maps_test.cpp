@@ -246,6 +246,20 @@ TEST_F(Program, prints_a_table_unless_quiet)
   EXPECT_EQ(quiet.out + quiet.err, "");
 }
 
+TEST_F(Program, shows_the_levels_if_verbose)
+{
+  const std::string in = write("in.off", off(grid(50, hilly)));
+  const Outcome silent = parameterize(in, "out.obj", {"--quiet"});
+  const Outcome verbose
+    = parameterize(in, "out.obj", {"--quiet", "--verbose", "--coarsest", "200"});
+  ASSERT_EQ(verbose.exit_code, 0);
+  EXPECT_EQ(verbose.out, "");
+  EXPECT_EQ(silent.err, "");
+  EXPECT_NE(verbose.err.find("level    vertices       faces     entries"), std::string::npos);
+  EXPECT_NE(verbose.err.find("2500"), std::string::npos); // vertices of the finest level
+  EXPECT_NE(verbose.err.find("hlscm: converged"), std::string::npos);
+}
+
 TEST_F(Program, knows_all_its_options)
 {
   const std::string in = write("in.off", off(grid(50, flat)));

@@ -18,16 +18,18 @@
 namespace side_by_side {
 
 namespace SMM = CGAL::Surface_mesh_multiresolution;
-using CGAL::Surface_mesh_parameterization::Decimation_engine;
+
+// What decimates.
+enum class Engine { FLAT, FLAT_STRICT, CGAL };
 
 // Decimates by an engine as the parameterizer does: the same policies, the same number of vertices
 // at the end. `mesh` is normalized and in spatial order.
 inline SMM::Progressive_mesh decimate(const CGAL::Indexed_mesh::Indexed_triangle_mesh& mesh,
-                                      Decimation_engine engine)
+                                      Engine engine)
 {
   const CGAL::Surface_mesh_parameterization::HLSCM_options defaults;
   const std::vector<bool> is_locked(mesh.points.size(), false);
-  if(engine == Decimation_engine::CGAL) {
+  if(engine == Engine::CGAL) {
     SMM::Progressive_mesh_options options;
     options.target_vertices = defaults.coarsest_size;
     options.angular_defect_bound = defaults.angular_defect_bound;
@@ -35,7 +37,7 @@ inline SMM::Progressive_mesh decimate(const CGAL::Indexed_mesh::Indexed_triangle
   }
   SMM::Flat_collapse_options options;
   options.target_vertices = defaults.coarsest_size;
-  options.order = engine == Decimation_engine::FLAT ? SMM::Collapse_order::BATCHED
+  options.order = engine == Engine::FLAT ? SMM::Collapse_order::BATCHED
                                                     : SMM::Collapse_order::STRICT;
   SMM::Flat_collapse_engine<> flat(mesh, CGAL::Indexed_mesh::Vertex_rings(mesh), is_locked);
   return flat.run(options);
@@ -84,7 +86,7 @@ inline void measure_coarse_mesh(CGAL::Indexed_mesh::Indexed_triangle_mesh mesh, 
 }
 
 // Times an engine alone, from two arrays to the progressive mesh.
-inline Measurement run_decimation(const std::string& chart_path, Decimation_engine engine)
+inline Measurement run_decimation(const std::string& chart_path, Engine engine)
 {
   CGAL::Indexed_mesh::Indexed_triangle_mesh mesh = charts::make_indexed_mesh(charts::read_chart(chart_path));
   CGAL::Indexed_mesh::normalize(mesh);

@@ -9,6 +9,7 @@
 #include "library_methods.h"
 
 #include <CGAL/Surface_mesh_parameterization/Distortion_measures.h>
+#include <CGAL/Surface_mesh_parameterization/Edge_collapse_decimation.h>
 
 #include <functional>
 #include <string>
@@ -100,7 +101,7 @@ inline Method library_method(const std::string& name, const SMP::HLSCM_options& 
                        });
 }
 
-inline Method decimation_method(const std::string& name, Decimation_engine engine)
+inline Method decimation_method(const std::string& name, Engine engine)
 {
   return {name, Energy::NONE, false,
           [engine](const std::string& chart_path) { return run_decimation(chart_path, engine); }};
@@ -133,10 +134,13 @@ inline SMP::HLSCM_options options_of(SMP::Monogrid_preconditioner preconditioner
   return options;
 }
 
-inline SMP::HLSCM_options options_of(Decimation_engine engine)
+inline SMP::HLSCM_options options_of(Engine engine)
 {
   SMP::HLSCM_options options = options_of(SMP::Conformal_method::HLSCM, 1e-4);
-  options.engine = engine;
+  if(engine == Engine::FLAT_STRICT)
+    options.engine = SMP::Decimation_engine::FLAT_STRICT;
+  else if(engine == Engine::CGAL)
+    options.decimate = SMP::Edge_collapse_decimation();
   return options;
 }
 
@@ -160,12 +164,12 @@ inline std::vector<Method> all_methods()
       library_method("hlscm_1e-2_2_threads",
                      with_threads(options_of(Conformal_method::HLSCM, 1e-2), 2)),
       library_method("spectral_1e-2", options_of(Conformal_method::SPECTRAL, 1e-2)),
-      decimation_method("decimate_flat", Decimation_engine::FLAT),
-      decimation_method("decimate_flat_strict", Decimation_engine::FLAT_STRICT),
-      decimation_method("decimate_cgal", Decimation_engine::CGAL),
-      library_method("hlscm_flat", options_of(Decimation_engine::FLAT)),
-      library_method("hlscm_flat_strict", options_of(Decimation_engine::FLAT_STRICT)),
-      library_method("hlscm_cgal", options_of(Decimation_engine::CGAL)),
+      decimation_method("decimate_flat", Engine::FLAT),
+      decimation_method("decimate_flat_strict", Engine::FLAT_STRICT),
+      decimation_method("decimate_cgal", Engine::CGAL),
+      library_method("hlscm_flat", options_of(Engine::FLAT)),
+      library_method("hlscm_flat_strict", options_of(Engine::FLAT_STRICT)),
+      library_method("hlscm_cgal", options_of(Engine::CGAL)),
   };
 }
 

@@ -9,6 +9,7 @@
 #include "common/Program_error.h"
 
 #include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/Surface_mesh_parameterization/Edge_collapse_decimation.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/repair_flipped_faces.h>
 
@@ -70,6 +71,11 @@ Solved_chart solve_chart(const Program_options& options, SMP::HLSCM_options libr
 {
   if(options.repairs_flips) {
     library.repair_flips = SMP::Flip_repairer();
+  }
+  if(options.engine == Engine::FLAT_STRICT) {
+    library.engine = SMP::Decimation_engine::FLAT_STRICT;
+  } else if(options.engine == Engine::CGAL) {
+    library.decimate = SMP::Edge_collapse_decimation();
   }
   library.progress = [&progress](double fraction) { return progress.try_advance(fraction); };
   SMP::HLSCM_parameterizer_3<Mesh, CGAL::Default, CGAL::Default, CGAL::Parallel_if_available_tag>

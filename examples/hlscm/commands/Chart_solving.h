@@ -9,7 +9,6 @@
 #include "common/Program_options.h"
 #include "common/Progress_bar.h"
 
-#include <CGAL/Surface_mesh_parameterization/Chart_progressive_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
 
 #include <string>

@@ -80,12 +80,10 @@ void add_solver_options(CLI::App& app, Program_options& options)
       ->check(CLI::Range(std::size_t(1), std::size_t(1000000000), "N"));
   add_number(app, "--angular-defect", 0, 360, o.angular_defect_bound,
              "keep vertices that are more pointed than that many degrees (default 70)");
-  add_choice<SMP::Decimation_engine>(
+  add_choice<Engine>(
       app, "--engine",
-      {{"flat", SMP::Decimation_engine::FLAT},
-       {"flat-strict", SMP::Decimation_engine::FLAT_STRICT},
-       {"cgal", SMP::Decimation_engine::CGAL}},
-      o.engine,
+      {{"flat", Engine::FLAT}, {"flat-strict", Engine::FLAT_STRICT}, {"cgal", Engine::CGAL}},
+      options.engine,
       "what builds the hierarchy: our engine in batches (default), our engine with a "
       "priority queue, or CGAL's edge_collapse");
   add_choice<SMP::Prolongation_rule>(
@@ -131,6 +129,7 @@ void add_parameterize(CLI::App& app, Program_options& o)
                   "a folder for domain.png, isolines.png, checker.png and levels.png")
       ->type_name("DIR");
   add_report_and_quiet(*run, o);
+  run->add_flag("--verbose", o.is_verbose, "show the levels of the solver on stderr");
   run->callback([&o] { o.command = Command::PARAMETERIZE; });
 }
 

@@ -114,6 +114,9 @@ int run_parameterize(const Program_options& options)
   Interruption::finish();
   files.all.commit();
   progress.erase();
+  if(options.is_verbose) {
+    std::cerr << report.solver;
+  }
   if(!options.is_quiet) {
     print(report, options);
   }

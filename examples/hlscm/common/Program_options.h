@@ -19,6 +19,9 @@ enum class Command { INFO, PARAMETERIZE, LEVELS, ATLAS, BAKE };
 /// What `levels` writes: a file for each level, one with all levels, or the progressive mesh.
 enum class Level_format { OBJ, PLY, GLB, PM };
 
+/// What decimates a mesh to be mapped.
+enum class Engine { FLAT, FLAT_STRICT, CGAL };
+
 /// A vertex of the input, counted from 0, and where it goes.
 struct Pin
 {
@@ -70,6 +73,7 @@ struct Program_options
   Command command = Command::PARAMETERIZE;
   std::string input;
   bool is_quiet = false;
+  bool is_verbose = false;  ///< of `parameterize`: shows the levels of the solver
   bool prints_json = false; ///< of `info`
 
   std::string output;    ///< .obj or .ply; else a folder
@@ -78,6 +82,7 @@ struct Program_options
   std::vector<Pin> pins; ///< none, or two and more
   CGAL::Surface_mesh_parameterization::HLSCM_options library;
   bool repairs_flips = false; ///< of the map
+  Engine engine = Engine::FLAT;
 
   std::vector<std::size_t> faces;          ///< of the levels; empty: parts of all
   std::optional<Length> error;             ///< of the surface of one level more, of the light model

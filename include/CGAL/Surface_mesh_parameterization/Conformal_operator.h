@@ -6,7 +6,7 @@
 
 #include <CGAL/Multigrid/Matrix_builder.h>
 #include <CGAL/Indexed_mesh/Triangle_adjacency.h>
-#include <CGAL/Surface_mesh_parameterization/internal/solver/Half_cotangents.h>
+#include <CGAL/Surface_mesh_parameterization/Conformal_triangle.h>
 #include <CGAL/Surface_mesh_parameterization/internal/solver/conformal_rows.h>
 
 #include <algorithm>

@@ -4,12 +4,19 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_CONFORMAL_TRIANGLE_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_CONFORMAL_TRIANGLE_H
 
+#include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Blocked_execution/memory.h>
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
+
+#include <CGAL/boost/graph/iterator.h>
+#include <CGAL/boost/graph/properties.h>
+#include <CGAL/number_utils.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
+#include <cstddef>
 
 namespace CGAL {
 namespace Surface_mesh_parameterization {
@@ -144,6 +151,90 @@ inline void Conformal_triangle::lay_out(double a, double b, double c)
   m_edge[1] = Complex((a * a - b * b - c * c) / (2. * c), -2. * m_area / c);
   m_edge[0] = -(m_edge[1] + m_edge[2]);
 }
+
+namespace internal {
+
+// The mean length of the sides of the faces; 1 if there are none, or all are points.
+template <class TriangleMesh>
+double mean_edge_length(const TriangleMesh& mesh)
+{
+  const auto vpm = get(CGAL::vertex_point, mesh);
+  double sum = 0.;
+  for(const auto f : faces(mesh))
+    for(const auto h : halfedges_around_face(halfedge(f, mesh), mesh)) {
+      const auto& p = get(vpm, source(h, mesh));
+      const auto& q = get(vpm, target(h, mesh));
+      const double x = to_double(q[0]) - to_double(p[0]), y = to_double(q[1]) - to_double(p[1]),
+                   z = to_double(q[2]) - to_double(p[2]);
+      sum += std::sqrt(x * x + y * y + z * z);
+    }
+  return sum > 0. ? sum / (3. * double(num_faces(mesh))) : 1.;
+}
+
+// The face on the surface, its first corner in the origin, lengths in units of `mean_edge`: squares
+// of lengths exist whatever the unit of the mesh.
+template <class TriangleMesh>
+Conformal_triangle
+conformal_triangle(const TriangleMesh& mesh,
+                   typename boost::graph_traits<TriangleMesh>::face_descriptor f, double mean_edge)
+{
+  const auto vpm = get(CGAL::vertex_point, mesh);
+  const auto h = halfedge(f, mesh), h1 = next(h, mesh);
+  const auto& origin = get(vpm, target(h, mesh));
+  const auto corner = [&](auto v) {
+    const auto& p = get(vpm, v);
+    const auto coordinate
+      = [&](int i) { return (to_double(p[i]) - to_double(origin[i])) / mean_edge; };
+    return Conformal_triangle::Point_3(coordinate(0), coordinate(1), coordinate(2));
+  };
+  return Conformal_triangle(Conformal_triangle::Point_3(0., 0., 0.), corner(target(h1, mesh)),
+                            corner(target(next(h1, mesh), mesh)));
+}
+
+inline Conformal_triangle
+conformal_triangle(const Indexed_mesh::Indexed_triangle_mesh& mesh, std::size_t t)
+{
+  const auto& v = mesh.triangles[t];
+  return Conformal_triangle(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]);
+}
+
+inline std::array<double, 3> half_cotangents(const Conformal_triangle& t)
+{
+  return {0.5 * t.cotangent(0), 0.5 * t.cotangent(1), 0.5 * t.cotangent(2)};
+}
+
+// Half the cotangents of all triangles, three each: all that the energy needs to know of a metric.
+struct Half_cotangents
+{
+  // 3 t + c: of the angle at corner c of triangle t
+  Blocked_execution::Uninitialized_vector<double> value;
+  std::size_t mollified = 0;
+
+  Half_cotangents() {}
+
+  // Those of the triangles as they lie in space.
+  explicit Half_cotangents(const Indexed_mesh::Indexed_triangle_mesh& mesh)
+    : value(3 * mesh.triangles.size())
+  {
+    const auto fill = [&](std::size_t begin, std::size_t end) {
+      std::size_t count = 0;
+      for(std::size_t t = begin; t < end; ++t) {
+        const Conformal_triangle triangle = conformal_triangle(mesh, t);
+        set(t, half_cotangents(triangle));
+        count += triangle.is_mollified() ? 1 : 0;
+      }
+      return count;
+    };
+    mollified = Blocked_execution::blocked_sum<std::size_t>(mesh.triangles.size(), 16384, fill);
+  }
+
+  void set(std::size_t t, const std::array<double, 3>& c)
+  {
+    std::copy(c.begin(), c.end(), value.begin() + 3 * t);
+  }
+};
+
+} // namespace internal
 
 } // namespace Surface_mesh_parameterization
 } // namespace CGAL

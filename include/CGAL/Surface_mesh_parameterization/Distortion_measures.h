@@ -62,43 +62,6 @@ struct Distortion_measures
 
 namespace internal {
 
-// The mean length of the sides of the faces; 1 if there are none, or all are points.
-template <class TriangleMesh>
-double mean_edge_length(const TriangleMesh& mesh)
-{
-  const auto vpm = get(CGAL::vertex_point, mesh);
-  double sum = 0.;
-  for(const auto f : faces(mesh))
-    for(const auto h : halfedges_around_face(halfedge(f, mesh), mesh)) {
-      const auto& p = get(vpm, source(h, mesh));
-      const auto& q = get(vpm, target(h, mesh));
-      const double x = to_double(q[0]) - to_double(p[0]), y = to_double(q[1]) - to_double(p[1]),
-                   z = to_double(q[2]) - to_double(p[2]);
-      sum += std::sqrt(x * x + y * y + z * z);
-    }
-  return sum > 0. ? sum / (3. * double(num_faces(mesh))) : 1.;
-}
-
-// The face on the surface, its first corner in the origin, lengths in units of `mean_edge`: squares
-// of lengths exist whatever the unit of the mesh.
-template <class TriangleMesh>
-Conformal_triangle
-conformal_triangle(const TriangleMesh& mesh,
-                   typename boost::graph_traits<TriangleMesh>::face_descriptor f, double mean_edge)
-{
-  const auto vpm = get(CGAL::vertex_point, mesh);
-  const auto h = halfedge(f, mesh), h1 = next(h, mesh);
-  const auto& origin = get(vpm, target(h, mesh));
-  const auto corner = [&](auto v) {
-    const auto& p = get(vpm, v);
-    const auto coordinate
-      = [&](int i) { return (to_double(p[i]) - to_double(origin[i])) / mean_edge; };
-    return Conformal_triangle::Point_3(coordinate(0), coordinate(1), coordinate(2));
-  };
-  return Conformal_triangle(Conformal_triangle::Point_3(0., 0., 0.), corner(target(h1, mesh)),
-                            corner(target(next(h1, mesh), mesh)));
-}
-
 // Collects the measures face by face.
 class Distortion_summary
 {

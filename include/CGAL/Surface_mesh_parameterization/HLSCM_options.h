@@ -30,13 +30,29 @@ enum class Conformal_method
 };
 
 /// \ingroup PkgHLSCMParameterizer
-/// What decimates the mesh.
+/// In which order the mesh is decimated.
 enum class Decimation_engine
 {
-  FLAT,        ///< `Flat_collapse_engine`, in batches
-  FLAT_STRICT, ///< `Flat_collapse_engine`, always the cheapest collapse of all
-  CGAL         ///< CGAL's `edge_collapse()` with the same policies
+  FLAT,       ///< `Flat_collapse_engine`, in batches
+  FLAT_STRICT ///< `Flat_collapse_engine`, always the cheapest collapse of all
 };
+
+/// \ingroup PkgHLSCMParameterizer
+/// How far a mesh is decimated.
+struct Decimation_goal
+{
+  std::size_t target_vertices; ///< where to stop
+  double angular_defect_bound; ///< a vertex of no smaller defect stays; degrees
+  /// Told the part done in [0, 1] from time to time; returning `false` stops early.
+  std::function<bool(double)> progress;
+};
+
+/// \ingroup PkgHLSCMParameterizer
+/// Decimates a mesh by halfedge collapses. `is_locked`: for each vertex whether it must stay.
+typedef std::function<Surface_mesh_multiresolution::Progressive_mesh(
+  const Indexed_mesh::Indexed_triangle_mesh& mesh, const std::vector<bool>& is_locked,
+  const Decimation_goal& goal)>
+  Decimation_function;
 
 /// \ingroup PkgHLSCMParameterizer
 /// The preconditioner of the monogrid method.
@@ -93,8 +109,11 @@ struct HLSCM_options
   /// `Flip_repairer()` of `<CGAL/Surface_mesh_parameterization/repair_flipped_faces.h>`; nothing by
   /// default. The time limit and cancelling hold for it, too.
   Flip_repair_function repair_flips;
-  /// What decimates the mesh.
+  /// In which order the mesh is decimated.
   Decimation_engine engine = Decimation_engine::FLAT;
+  /// What decimates the mesh in the place of `engine`, such as `Edge_collapse_decimation()` of
+  /// `<CGAL/Surface_mesh_parameterization/Edge_collapse_decimation.h>`; nothing by default.
+  Decimation_function decimate;
   /// How values go to finer levels.
   Prolongation_rule prolongation = Prolongation_rule::WALK;
   /// The preconditioner of `Conformal_method::LSCM`.

@@ -4,14 +4,11 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_HLSCM_PARAMETERIZER_3_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_HLSCM_PARAMETERIZER_3_H
 
-#include <CGAL/Surface_mesh_parameterization/Chart_progressive_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
 #include <CGAL/Surface_mesh_parameterization/Solver_traits_cholesky.h>
-#include <CGAL/Surface_mesh_parameterization/internal/solver/Conformal_solver.h>
-#include <CGAL/Blocked_execution/Progress.h>
-#include <CGAL/Surface_mesh_parameterization/internal/solver/check_options.h>
 #include <CGAL/Surface_mesh_parameterization/internal/repair/mapped_faces.h>
+#include <CGAL/Surface_mesh_parameterization/internal/solver/map_chart_conformally.h>
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Default.h>
@@ -22,6 +19,7 @@
 #include <memory>
 #include <string>
 #include <type_traits>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -105,10 +103,17 @@ public:
   /// Constructs the parameterizer.
   explicit HLSCM_parameterizer_3(
     const HLSCM_options& options = HLSCM_options(),
-    const Border_parameterizer& border_parameterizer = Border_parameterizer())
+    const Border_parameterizer& border_parameterizer = Border_parameterizer(),
+    const Solver_traits& solver_traits = Solver_traits())
     : m_options(options), m_border_parameterizer(border_parameterizer)
-    , m_report(std::make_shared<HLSCM_report>())
+    , m_solver_traits(solver_traits), m_report(std::make_shared<HLSCM_report>())
     , m_progressive_mesh(std::make_shared<Chart_progressive_mesh>())
+  {}
+
+  /// Constructs the parameterizer as `LSCM_parameterizer_3` is constructed.
+  HLSCM_parameterizer_3(const Border_parameterizer& border_parameterizer,
+                        const Solver_traits& solver_traits = Solver_traits())
+    : HLSCM_parameterizer_3(HLSCM_options(), border_parameterizer, solver_traits)
   {}
 
   /// Gives access to the options.
@@ -133,6 +138,12 @@ public:
   /// Returns whether the map is one-to-one for certain.
   template <class VertexUVMap>
   bool is_one_to_one_mapping(const TriangleMesh&, const VertexUVMap) const { return false; }
+  /// Returns whether the map is one-to-one for certain.
+  template <class VertexUVMap>
+  bool is_one_to_one_mapping(const TriangleMesh&, halfedge_descriptor, const VertexUVMap) const
+  {
+    return false;
+  }
 
   /*!
   Computes the map of the component of `mesh` that has the border halfedge `bhd`.
@@ -146,7 +157,12 @@ public:
   \param vpmap a model of `ReadWritePropertyMap` with the vertex descriptor as key and `bool` as
          value; set to `true` for the pinned vertices
 
-  \return `OK`, or an error whose reason in words is `report().message`
+  \return `OK`, or an error whose reason in words is `report().message`. Do not ask CGAL's
+          `get_error_message()`: it returns a null pointer for `ERROR_WRONG_PARAMETER`, and for
+          other codes the text of their neighbours.
+
+  Bad data of any kind is an error, in Release builds too: a null halfedge or one that is not on a
+  border or not of `mesh`, a closed, empty or non-manifold mesh, coordinates that are not finite.
   */
   template <class VertexUVMap, class VertexIndexMap, class VertexParameterizedMap>
   Error_code parameterize(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvmap,
@@ -165,93 +181,108 @@ public:
   }
 
 private:
-  typedef typename internal::Coarsest_solver<SolverTraits_>::type Coarsest_solver;
-
+  std::vector<HLSCM_pin> user_pins(const TriangleMesh& mesh) const;
   template <class VertexUVMap, class VertexIndexMap, class VertexParameterizedMap>
-  std::vector<internal::Pin>
-  choose_pins(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvmap,
-              VertexIndexMap vimap, VertexParameterizedMap vpmap, internal::Chart& chart) const;
-  std::vector<internal::Pin> user_pins(const TriangleMesh& mesh, internal::Chart& chart) const;
-  bool has_pins() const { return m_options.method != Conformal_method::SPECTRAL; }
-  Error_code finish(const internal::Chart& chart) const;
+  internal::Wanted_pins
+  wanted_pins(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvmap,
+              VertexIndexMap vimap, VertexParameterizedMap vpmap, const internal::Chart& chart,
+              internal::Status& status) const;
+  template <class VertexUVMap, class VertexParameterizedMap>
+  void write_map(const TriangleMesh& mesh, const std::vector<std::uint32_t>& rank,
+                 const internal::Chart_map& map, VertexUVMap uvmap,
+                 VertexParameterizedMap vpmap) const;
 
   HLSCM_options m_options;
   Border_parameterizer m_border_parameterizer;
+  Solver_traits m_solver_traits;
   std::vector<std::pair<vertex_descriptor, Point_2>> m_pins;
   // Shared: SMP::parameterize() copies the parameterizer
   std::shared_ptr<HLSCM_report> m_report;
   std::shared_ptr<Chart_progressive_mesh> m_progressive_mesh;
 };
 
+// Vertices that are not of the mesh get the position after the last one. Linear in the pins and the
+// vertices.
 template <class TM, class BP, class ST, class CT>
-std::vector<internal::Pin>
-HLSCM_parameterizer_3<TM, BP, ST, CT>::user_pins(const TriangleMesh& mesh, internal::Chart& chart) const
+std::vector<HLSCM_pin>
+HLSCM_parameterizer_3<TM, BP, ST, CT>::user_pins(const TriangleMesh& mesh) const
 {
-  const auto rank = chart.rank(num_vertices(mesh));
-  std::vector<internal::Pin> pins;
-  for(const auto& [vertex, point] : m_pins) {
-    std::size_t position = 0, found = num_vertices(mesh);
-    for(const vertex_descriptor v : vertices(mesh)) {
-      if(v == vertex)
-        found = position;
-      ++position;
-    }
-    if(found >= rank.size() || rank[found] == Indexed_mesh::no_vertex) {
-      chart.fail(ERROR_WRONG_PARAMETER, "the pinned vertex " + std::to_string(found)
-                 + " does not belong to the chart; pin vertices of the chart");
-      return pins;
-    }
-    pins.push_back({rank[found], {to_double(point.x()), to_double(point.y())}});
+  std::unordered_map<vertex_descriptor, std::size_t> positions;
+  for(const auto& pin : m_pins)
+    positions.emplace(pin.first, num_vertices(mesh));
+  std::size_t position = 0;
+  for(const vertex_descriptor v : vertices(mesh)) {
+    const auto found = positions.find(v);
+    if(found != positions.end())
+      found->second = position;
+    ++position;
   }
+  std::vector<HLSCM_pin> pins;
+  for(const auto& [v, point] : m_pins)
+    pins.push_back({positions[v], to_double(point.x()), to_double(point.y())});
   return pins;
 }
 
 template <class TM, class BP, class ST, class CT>
 template <class VertexUVMap, class VertexIndexMap, class VertexParameterizedMap>
-std::vector<internal::Pin>
+internal::Wanted_pins
 HLSCM_parameterizer_3<TM, BP, ST, CT>::
-choose_pins(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvmap,
-            VertexIndexMap vimap, VertexParameterizedMap vpmap, internal::Chart& chart) const
+wanted_pins(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvmap,
+            VertexIndexMap vimap, VertexParameterizedMap vpmap, const internal::Chart& chart,
+            internal::Status& status) const
 {
-  if(!has_pins())
-    return internal::far_border_pins(chart); // where the map begins
+  if(!status.is_ok())
+    return std::nullopt;
   if(!m_pins.empty())
-    return user_pins(mesh, chart);
-  std::vector<internal::Pin> pins;
+    return user_pins(mesh);
   if constexpr(std::is_same<Border_parameterizer, internal::Far_border_pins>::value) {
     CGAL_USE(bhd);
     CGAL_USE(uvmap);
     CGAL_USE(vimap);
     CGAL_USE(vpmap);
-    return internal::far_border_pins(chart);
+    CGAL_USE(chart);
+    return std::nullopt;
   } else {
+    if(!internal::profile_of(m_options.method).has_pins)
+      return std::nullopt;
     Border_parameterizer border_parameterizer = m_border_parameterizer;
     const Error_code error = border_parameterizer.parameterize(mesh, bhd, uvmap, vimap, vpmap);
-    if(error != OK) {
-      chart.fail(error, std::string("the border parameterizer failed: ")
-                 + get_error_message(error));
-      return pins;
-    }
-    const auto rank = chart.rank(num_vertices(mesh));
+    if(error != OK)
+      status.fail(error, std::string("the border parameterizer failed: ")
+                  + internal::text_of(error));
+    const auto rank = Indexed_mesh::ranks(chart.source, num_vertices(mesh));
+    std::vector<HLSCM_pin> pins;
     std::size_t position = 0;
     for(const vertex_descriptor v : vertices(mesh)) {
-      const auto r = rank[position++];
-      if(r == Indexed_mesh::no_vertex || !get(vpmap, v))
-        continue;
-      const Point_2 uv = get(uvmap, v);
-      pins.push_back({r, {to_double(uv.x()), to_double(uv.y())}});
+      if(rank[position] != Indexed_mesh::no_vertex && get(vpmap, v)) {
+        const Point_2 uv = get(uvmap, v);
+        pins.push_back({position, to_double(uv.x()), to_double(uv.y())});
+      }
+      ++position;
     }
     return pins;
   }
 }
 
 template <class TM, class BP, class ST, class CT>
-Error_code HLSCM_parameterizer_3<TM, BP, ST, CT>::finish(const internal::Chart& chart) const
+template <class VertexUVMap, class VertexParameterizedMap>
+void HLSCM_parameterizer_3<TM, BP, ST, CT>::
+write_map(const TriangleMesh& mesh, const std::vector<std::uint32_t>& rank,
+          const internal::Chart_map& map, VertexUVMap uvmap, VertexParameterizedMap vpmap) const
 {
-  HLSCM_report& report = *m_report;
-  report.seconds_total = report.seconds_hierarchy + report.seconds_operators + report.seconds_solve;
-  report.message = report.cancelled ? "cancelled" : chart.message;
-  return report.cancelled ? ERROR_CANNOT_SOLVE_LINEAR_SYSTEM : chart.error;
+  typedef typename Kernel::FT FT;
+  std::vector<bool> is_pinned(map.z.size(), false);
+  for(const internal::Pin& pin : map.pins)
+    is_pinned[pin.vertex] = true;
+  std::size_t position = 0;
+  for(const vertex_descriptor v : vertices(mesh)) {
+    const auto r = rank[position++];
+    if(r == Indexed_mesh::no_vertex)
+      continue;
+    put(uvmap, v, Point_2(FT(map.z[r].real()), FT(map.z[r].imag())));
+    if(is_pinned[r])
+      put(vpmap, v, true);
+  }
 }
 
 template <class TM, class BP, class ST, class CT>
@@ -263,65 +294,27 @@ parameterize(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvma
 {
   *m_report = HLSCM_report();
   *m_progressive_mesh = Chart_progressive_mesh();
-  m_report->method = internal::name_of(m_options.method);
   const Blocked_execution::Thread_scope threads(is_parallel ? m_options.threads : 1);
-  Blocked_execution::Stopwatch watch;
-  internal::Chart chart;
-  internal::check_options(m_options, chart);
-  if(bhd == boost::graph_traits<TriangleMesh>::null_halfedge() || !is_border(bhd, mesh))
-    chart.fail(ERROR_NO_TOPOLOGICAL_DISC,
-               "the given halfedge is not on a border; a closed surface must be cut open first");
-  if(chart.error == OK)
-    chart = internal::extract_chart(mesh, bhd);
-  if(chart.error != OK)
-    return finish(chart);
-  m_report->vertices = chart.mesh.points.size();
-  m_report->faces = chart.mesh.triangles.size();
-  m_report->borders = chart.borders.size();
-  const std::vector<internal::Pin> pins = choose_pins(mesh, bhd, uvmap, vimap, vpmap, chart);
-  if(has_pins()) {
-    internal::check_pins(chart, pins);
-    internal::warn_of_pins(chart, pins, m_report->warnings);
-    for(const internal::Pin& pin : pins)
-      m_report->pins.push_back({chart.source[pin.vertex], pin.value.real(), pin.value.imag()});
-  } else if(!m_pins.empty())
-    m_report->warnings.push_back("the method has no pins; those that were set are not used");
-  m_report->seconds_hierarchy = watch.lap();
-  if(chart.error != OK)
-    return finish(chart);
-  HLSCM_options options = m_options;
-  if(options.repair_flips && options.progress)
-    options.progress = [this](double part) {
-      return m_options.progress((1. - internal::part_of_repair) * part);
-    };
-  const Blocked_execution::Stopwatch since_begin;
-  internal::Conformal_solver<Coarsest_solver> solver(chart, pins, options, *m_report);
-  auto z = solver.run();
-  if(chart.error != OK || m_report->cancelled)
-    return finish(chart);
-  if(m_options.keep_progressive_mesh)
-    *m_progressive_mesh = {solver.take_progressive_mesh(), chart.source};
-  watch.lap();
-  const auto rank = chart.rank(num_vertices(mesh));
-  std::vector<bool> is_pinned(z.size(), false);
-  for(const HLSCM_pin& pin : m_report->pins)
-    is_pinned[rank[pin.vertex]] = true;
+  internal::Run_control run(m_options, *m_report);
   if(m_options.repair_flips)
-    internal::repair_chart(mesh, rank, is_pinned, m_options, since_begin, z, *m_report);
-  if(m_report->cancelled)
-    return finish(chart);
-  std::size_t position = 0;
-  for(vertex_descriptor v : vertices(mesh)) {
-    const auto r = rank[position++];
-    if(r == Indexed_mesh::no_vertex)
-      continue;
-    typedef typename Kernel::FT FT;
-    put(uvmap, v, Point_2(FT(z[r].real()), FT(z[r].imag())));
-    if(is_pinned[r])
-      put(vpmap, v, true);
-  }
-  m_report->seconds_solve += watch.lap();
-  return finish(chart);
+    run.make_room_for_repair();
+  internal::Prepared_chart prepared = {{}, run.status()};
+  if(run.status().is_ok())
+    prepared = internal::extract_chart(mesh, bhd);
+  const internal::Wanted_pins wanted
+    = wanted_pins(mesh, bhd, uvmap, vimap, vpmap, prepared.chart, prepared.status);
+  internal::Chart_map map
+    = internal::map_chart_conformally(std::move(prepared), num_vertices(mesh), wanted,
+                                      internal::coarsest_solver_of(m_solver_traits), run);
+  const auto rank = Indexed_mesh::ranks(map.source, num_vertices(mesh));
+  if(m_options.repair_flips && !run.is_stopped())
+    internal::repair_chart(mesh, rank, map.pins, run, map.z);
+  if(!run.is_stopped())
+    write_map(mesh, rank, map, uvmap, vpmap);
+  if(m_options.keep_progressive_mesh && !run.is_stopped())
+    *m_progressive_mesh = {std::move(map.progressive_mesh), std::move(map.source)};
+  run.lap(m_report->seconds_solve);
+  return run.finish();
 }
 
 } // namespace Surface_mesh_parameterization

@@ -4,10 +4,15 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_HLSCM_REPORT_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_HLSCM_REPORT_H
 
+#include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/Flip_repair_options.h>
 
 #include <cstddef>
+#include <cstdint>
+#include <iomanip>
 #include <optional>
+#include <ostream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -31,6 +36,9 @@ struct HLSCM_level_report
   std::size_t faces = 0;      ///< faces of the level
   std::size_t iterations = 0; ///< iterations on it; 0 for a direct solution
   double seconds = 0.;        ///< time of these iterations
+  /// Stored entries of its matrix beside the diagonal, both triangles; some are padding.
+  std::size_t entries = 0;
+  std::size_t bytes = 0;      ///< memory of its matrices, in all precisions
 };
 
 /*!
@@ -65,6 +73,48 @@ struct HLSCM_report
   double seconds_solve = 0.;              ///< time of the iterations, and of the repair of flips
   double seconds_total = 0.;              ///< time of all
 };
+
+/// \ingroup PkgHLSCMParameterizer
+/// The collapses with which a chart was parameterized, in an order of its vertices of its own.
+struct Chart_progressive_mesh
+{
+  /// The collapses; empty if they were not kept.
+  Surface_mesh_multiresolution::Progressive_mesh progressive_mesh;
+  /// For each vertex of the chart its position in `vertices(mesh)`.
+  std::vector<std::uint32_t> vertices;
+};
+
+/*!
+\ingroup PkgHLSCMParameterizer
+
+Prints what the solver was and did: a table of the levels, the finest first, with their sizes, the
+entries and the memory of their matrices, the ratio of their vertices to those of the next coarser
+one, and the iterations on them; and a line on what came of it. The flags of `out` stay as they are.
+*/
+inline std::ostream& operator<<(std::ostream& out, const HLSCM_report& report)
+{
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(2) << "level    vertices       faces     entries"
+       << "        MB   ratio  iterations\n";
+  for(std::size_t l = report.levels.size(); l-- > 0;) {
+    const HLSCM_level_report& level = report.levels[l];
+    text << std::setw(5) << l << std::setw(12) << level.vertices << std::setw(12) << level.faces
+         << std::setw(12) << level.entries << std::setw(10) << 1e-6 * double(level.bytes)
+         << std::setw(8);
+    if(l > 0)
+      text << double(level.vertices) / double(report.levels[l - 1].vertices);
+    else
+      text << "";
+    text << std::setw(12) << (l + 1 == report.levels.size() ? report.iterations : level.iterations)
+         << '\n';
+  }
+  text << report.method << (report.converged ? ": converged" : ": not converged");
+  if(!report.message.empty())
+    text << ", " << report.message;
+  text << "; hierarchy " << report.seconds_hierarchy << " s, operators "
+       << report.seconds_operators << " s, solution " << report.seconds_solve << " s\n";
+  return out << text.str();
+}
 
 } // namespace Surface_mesh_parameterization
 } // namespace CGAL

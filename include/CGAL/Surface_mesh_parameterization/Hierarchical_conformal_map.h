@@ -16,6 +16,7 @@
 #include <CGAL/boost/graph/properties.h>
 #include <CGAL/tags.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <memory>
@@ -88,7 +89,7 @@ public:
                              const std::vector<Pin>& pins = std::vector<Pin>());
 
   /// Returns `OK`, or what was wrong with the last call; `report().message` says it in words.
-  Error_code error() const { return m_map->chart().error; }
+  Error_code error() const { return m_map->error(); }
 
   /// Returns the report; its times are those of the last solution, the first with the hierarchy.
   const HLSCM_report& report() const { return m_map->report(); }
@@ -100,11 +101,11 @@ public:
   /// Pins `v` at `p`, or moves it there if it is pinned already.
   Error_code set_pin(vertex_descriptor v, const Point_2& p)
   {
-    return m_map->set_pin(get(m_index, v), {to_double(p.x()), to_double(p.y())});
+    return m_map->set_pin(index_of(v), {to_double(p.x()), to_double(p.y())});
   }
 
   /// Lets `v` go. With no pin left the map is the spectral one; with a single pin, that one moved.
-  Error_code release_pin(vertex_descriptor v) { return m_map->release_pin(get(m_index, v)); }
+  Error_code release_pin(vertex_descriptor v) { return m_map->release_pin(index_of(v)); }
 
   /// Returns the number of pins.
   std::size_t number_of_pins() const { return m_map->number_of_pins(); }
@@ -149,10 +150,11 @@ public:
   /// Returns whether there is a map.
   bool has_map() const { return m_map->has_map(); }
 
-  /// Returns the parameter of `v`, a vertex of the component. Precondition: `has_map()`.
+  /// Returns the parameter of `v`; (0, 0) if it is not a vertex of the component. Precondition:
+  /// `has_map()`.
   Point_2 uv(vertex_descriptor v) const
   {
-    const std::complex<double> z = m_map->uv(get(m_index, v));
+    const std::complex<double> z = m_map->uv(index_of(v));
     typedef typename Kernel::FT FT;
     return Point_2(FT(z.real()), FT(z.imag()));
   }
@@ -169,17 +171,32 @@ public:
   /// @}
 
 private:
-  typedef internal::Live_map<typename internal::Coarsest_solver<SolverTraits_>::type> Map;
+  typedef internal::Live_map Map;
   typedef typename boost::property_map<
     Triangle_mesh, CGAL::dynamic_vertex_property_t<std::uint32_t>>::const_type Index_map;
 
-  bool is_in_chart(vertex_descriptor v) const
+  // The index of a vertex in the chart, or `no_vertex`, also if it is not a vertex of the mesh.
+  std::uint32_t index_of(vertex_descriptor v) const
   {
-    return get(m_index, v) != Indexed_mesh::no_vertex;
+    if(v == boost::graph_traits<Triangle_mesh>::null_vertex() || !is_below_end(v))
+      return Indexed_mesh::no_vertex;
+    return get(m_index, v) - 1;
   }
 
+  // Descriptors that are numbers must not be looked up beyond those of the mesh.
+  bool is_below_end(vertex_descriptor v) const
+  {
+    if constexpr(std::is_convertible<vertex_descriptor, std::size_t>::value)
+      return std::size_t(v) < m_end;
+    else
+      return true;
+  }
+
+  bool is_in_chart(vertex_descriptor v) const { return index_of(v) != Indexed_mesh::no_vertex; }
+
   const Triangle_mesh* m_mesh;
-  Index_map m_index; // of the chart's vertices; no_vertex for others
+  Index_map m_index;       // of the chart's vertices, from 1; 0 for others
+  std::size_t m_end = 0;   // of the descriptors, if they are numbers
   unsigned int m_threads;
   std::unique_ptr<Map> m_map;
 };
@@ -189,15 +206,18 @@ Hierarchical_conformal_map<TM, ST, CT>::
 Hierarchical_conformal_map(const Triangle_mesh& mesh, halfedge_descriptor bhd,
                            const HLSCM_options& options, const std::vector<Pin>& pins)
   : m_mesh(&mesh), m_index(get(CGAL::dynamic_vertex_property_t<std::uint32_t>(), mesh))
-  , m_threads(is_parallel ? options.threads : 1), m_map(std::make_unique<Map>(options))
+  , m_threads(is_parallel ? options.threads : 1), m_map(std::make_unique<Map>(options, internal::coarsest_solver_of(Solver_traits())))
 {
   const Blocked_execution::Thread_scope scope(m_threads);
   if(error() == OK)
     m_map->set_chart(internal::extract_chart(mesh, bhd));
-  const auto rank = m_map->chart().rank(num_vertices(mesh));
+  const auto rank = Indexed_mesh::ranks(m_map->source(), num_vertices(mesh));
   std::size_t position = 0;
-  for(const vertex_descriptor v : vertices(mesh))
-    put(m_index, v, rank[position++]);
+  for(const vertex_descriptor v : vertices(mesh)) {
+    put(m_index, v, rank[position++] + 1);
+    if constexpr(std::is_convertible<vertex_descriptor, std::size_t>::value)
+      m_end = (std::max)(m_end, std::size_t(v) + 1);
+  }
   if(error() == OK)
     for(const Pin& pin : pins)
       set_pin(pin.first, pin.second);
@@ -209,16 +229,16 @@ Error_code Hierarchical_conformal_map<TM, ST, CT>::update_positions()
 {
   if(m_map->is_broken())
     return error();
-  typename Map::Points points(m_map->chart().source.size());
+  typename Map::Points points(m_map->source().size());
   const auto vpm = get(CGAL::vertex_point, *m_mesh);
   for(const vertex_descriptor v : vertices(*m_mesh)) {
     if(!is_in_chart(v))
       continue;
     const auto& p = get(vpm, v);
-    auto& q = points[get(m_index, v)];
+    auto& q = points[index_of(v)];
     q = {to_double(p[0]), to_double(p[1]), to_double(p[2])};
     if(!std::isfinite(q.x()) || !std::isfinite(q.y()) || !std::isfinite(q.z()))
-      return m_map->fail("vertex " + std::to_string(m_map->chart().source[get(m_index, v)])
+      return m_map->fail("vertex " + std::to_string(m_map->source()[index_of(v)])
                          + " has a coordinate that is not a finite number; the old positions stay");
   }
   return m_map->set_points(std::move(points));
@@ -232,12 +252,12 @@ Error_code Hierarchical_conformal_map<TM, ST, CT>::set_face_weights(FaceWeightMa
     return error();
   const auto& triangles = m_map->triangles();
   const Indexed_mesh::Triangles_at_vertices at(
-    triangles, m_map->chart().source.size());
+    triangles, m_map->source().size());
   std::vector<double> result(triangles.size(), 1.);
   std::size_t position = 0;
   for(const auto f : faces(*m_mesh)) {
     const auto h = halfedge(f, *m_mesh), h1 = next(h, *m_mesh);
-    const std::uint32_t a = get(m_index, target(h, *m_mesh)), b = get(m_index, target(h1, *m_mesh));
+    const std::uint32_t a = index_of(target(h, *m_mesh)), b = index_of(target(h1, *m_mesh));
     const double weight = to_double(get(weights, f));
     if(!(weight > 0.) || !std::isfinite(weight))
       return m_map->fail("the weight of face " + std::to_string(position)

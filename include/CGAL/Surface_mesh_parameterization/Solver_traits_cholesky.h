@@ -12,10 +12,26 @@
 #include <complex>
 #include <cstdint>
 #include <memory>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_parameterization {
+
+namespace internal {
+
+// Matrices of iterative solvers know that they are symmetric; others are told.
+template <class Matrix>
+std::shared_ptr<Matrix> symmetric_matrix(int size)
+{
+  if constexpr(std::is_constructible<Matrix, int, int, bool>::value)
+    return std::make_shared<Matrix>(size, size, true);
+  else
+    return std::make_shared<Matrix>(size);
+}
+
+} // namespace internal
 
 /*!
 \ingroup PkgHLSCMParameterizer
@@ -53,7 +69,7 @@ public:
       return true;
     const int n = int(m_free.size());
     const std::vector<std::uint32_t> slot = matrix.slot_of_row();
-    m_matrix = std::make_shared<typename SolverTraits::Matrix>(2 * n, 2 * n, true);
+    m_matrix = internal::symmetric_matrix<typename SolverTraits::Matrix>(2 * n);
     const auto set = [&](int i, int j, std::complex<double> h) {
       m_matrix->set_coef(2 * i, 2 * j, NT(h.real()), true);
       m_matrix->set_coef(2 * i + 1, 2 * j + 1, NT(h.real()), true);
@@ -105,11 +121,103 @@ private:
 
 namespace internal {
 
-// What solves the coarsest level for the given template argument of a parameterizer.
+// What solves the coarsest level: a model of `MultigridCoarsestSolver` that hides which one it is,
+// so that all that is above it is compiled once. Copies share the solver.
+class Coarsest_solver
+{
+public:
+  // Constructs the default one, a sparse Cholesky factorization.
+  Coarsest_solver() : Coarsest_solver(std::make_shared<Multigrid::Sparse_cholesky<>>()) {}
+
+  template <class Solver>
+  explicit Coarsest_solver(std::shared_ptr<Solver> solver)
+    : m_solver(std::make_shared<Model<Solver>>(std::move(solver)))
+  {}
+
+  template <class Real>
+  bool factorize(const Multigrid::Hermitian_matrix<Real>& matrix)
+  {
+    return m_solver->factorize(matrix);
+  }
+
+  bool is_factorized() const { return m_solver->is_factorized(); }
+
+  template <class Real>
+  void solve(const Multigrid::Complex_vector<Real>& f, Multigrid::Complex_vector<Real>& x)
+  {
+    m_solver->solve(f, x);
+  }
+
+private:
+  struct Base
+  {
+    virtual ~Base() {}
+    virtual bool factorize(const Multigrid::Hermitian_matrix<float>& matrix) = 0;
+    virtual bool factorize(const Multigrid::Hermitian_matrix<double>& matrix) = 0;
+    virtual bool is_factorized() const = 0;
+    virtual void solve(const Multigrid::Complex_vector<float>& f,
+                       Multigrid::Complex_vector<float>& x) = 0;
+    virtual void solve(const Multigrid::Complex_vector<double>& f,
+                       Multigrid::Complex_vector<double>& x) = 0;
+  };
+
+  template <class Solver>
+  struct Model
+    : public Base
+  {
+    explicit Model(std::shared_ptr<Solver> s) : solver(std::move(s)) {}
+
+    bool factorize(const Multigrid::Hermitian_matrix<float>& matrix) override
+    {
+      return solver->factorize(matrix);
+    }
+    bool factorize(const Multigrid::Hermitian_matrix<double>& matrix) override
+    {
+      return solver->factorize(matrix);
+    }
+    bool is_factorized() const override { return solver->is_factorized(); }
+    void solve(const Multigrid::Complex_vector<float>& f,
+               Multigrid::Complex_vector<float>& x) override
+    {
+      solver->solve(f, x);
+    }
+    void solve(const Multigrid::Complex_vector<double>& f,
+               Multigrid::Complex_vector<double>& x) override
+    {
+      solver->solve(f, x);
+    }
+
+    std::shared_ptr<Solver> solver;
+  };
+
+  std::shared_ptr<Base> m_solver;
+};
+
+template <class SolverTraits, class = void>
+struct Has_factor
+  : std::false_type
+{};
 template <class SolverTraits>
-struct Coarsest_solver { typedef Solver_traits_cholesky<SolverTraits> type; };
-template <>
-struct Coarsest_solver<Default> { typedef Multigrid::Sparse_cholesky<> type; };
+struct Has_factor<SolverTraits, std::void_t<decltype(std::declval<SolverTraits&>().factor(
+                                  std::declval<const typename SolverTraits::Matrix&>(),
+                                  std::declval<typename SolverTraits::NT&>()))>>
+  : std::true_type
+{};
+
+// What solves the coarsest level for an object of the template argument of a parameterizer.
+template <class SolverTraits>
+Coarsest_solver coarsest_solver_of(const SolverTraits& traits)
+{
+  static_assert(Has_factor<SolverTraits>::value,
+                "The solver of a conformal parameterizer needs factor(): it must be a model of "
+                "SparseLinearAlgebraWithFactorTraits_d.");
+  if constexpr(Has_factor<SolverTraits>::value)
+    return Coarsest_solver(std::make_shared<Solver_traits_cholesky<SolverTraits>>(traits));
+  else
+    return Coarsest_solver();
+}
+
+inline Coarsest_solver coarsest_solver_of(const Default&) { return Coarsest_solver(); }
 
 } // namespace internal
 

@@ -74,11 +74,17 @@ public:
 #endif
 
   /// Constructs the parameterizer; the method of the options is ignored.
-  explicit Spectral_conformal_parameterizer_3(const HLSCM_options& options = HLSCM_options())
-    : Base(options)
+  explicit Spectral_conformal_parameterizer_3(const HLSCM_options& options = HLSCM_options(),
+                                              const Solver_traits& solver_traits = Solver_traits())
+    : Base(options, typename Base::Border_parameterizer(), solver_traits)
   {
     Base::options().method = Conformal_method::SPECTRAL;
   }
+
+  /// Constructs the parameterizer with an object that solves the coarsest level.
+  explicit Spectral_conformal_parameterizer_3(const Solver_traits& solver_traits)
+    : Spectral_conformal_parameterizer_3(HLSCM_options(), solver_traits)
+  {}
 };
 
 } // namespace Surface_mesh_parameterization

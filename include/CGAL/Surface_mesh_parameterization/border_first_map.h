@@ -39,25 +39,25 @@ Where the border would cross itself in a loop of at most a quarter of its edges,
 seam at which the surface has more than a full angle, it is turned apart: near the loop the border
 keeps its turning angles instead of its lengths (mixed conditions: section 4 of the same).
 
-The map may have flipped triangles, and its border may meet itself still. Bad data (coordinates that are
-not finite, no disk) give a result with `error` set.
+The map may have flipped triangles, and its border may meet itself still. Bad data (indices out of
+range, coordinates that are not finite, no disk) give a result with `error` set.
 */
 inline Border_first_map border_first_map(Indexed_mesh::Indexed_triangle_mesh mesh)
 {
   Border_first_map result;
   const std::size_t n = mesh.points.size();
-  internal::Chart chart = internal::chart_of_arrays(std::move(mesh));
-  if(chart.error == OK && chart.borders.size() != 1)
-    chart.fail(ERROR_NO_TOPOLOGICAL_DISC,
-               "the surface has several borders; cut it to a disk first");
-  if(chart.error == OK) {
-    const auto z = internal::Border_first_flattening(chart).run();
-    if(z.empty())
-      chart.fail(ERROR_CANNOT_SOLVE_LINEAR_SYSTEM, "the matrix cannot be factorized");
-    else
-      result.uv = internal::points_of_values(chart, z, n);
-  }
-  result.error = chart.message;
+  const internal::Prepared_chart prepared = internal::chart_of_arrays(std::move(mesh));
+  const internal::Chart& chart = prepared.chart;
+  result.error = prepared.status.message;
+  if(prepared.status.is_ok() && chart.borders.size() != 1)
+    result.error = "the surface has several borders; cut it to a disk first";
+  if(!result.error.empty())
+    return result;
+  const auto z = internal::Border_first_flattening(chart).run();
+  if(z.empty())
+    result.error = "the matrix cannot be factorized";
+  else
+    result.uv = internal::points_of_values(chart.source, z, n);
   return result;
 }
 

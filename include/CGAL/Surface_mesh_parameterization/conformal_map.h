@@ -6,12 +6,7 @@
 
 #include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
-#include <CGAL/Surface_mesh_parameterization/Solver_traits_cholesky.h>
-#include <CGAL/Surface_mesh_parameterization/internal/solver/Conformal_solver.h>
-#include <CGAL/Surface_mesh_parameterization/internal/solver/check_options.h>
-#include <CGAL/Surface_mesh_parameterization/internal/solver/pins.h>
-
-#include <CGAL/Default.h>
+#include <CGAL/Surface_mesh_parameterization/internal/solver/map_chart_conformally.h>
 
 #include <utility>
 #include <vector>
@@ -29,6 +24,27 @@ struct Conformal_map
   Error_code error = OK; ///< `OK`, or what is wrong with the mesh or the options
 };
 
+namespace internal {
+
+inline Conformal_map map_arrays(Indexed_mesh::Indexed_triangle_mesh mesh, const Wanted_pins& wanted,
+                                const HLSCM_options& options)
+{
+  Conformal_map result;
+  const std::size_t n = mesh.points.size();
+  Run_control run(options, result.report);
+  Prepared_chart prepared = {{}, run.status()};
+  if(run.status().is_ok())
+    prepared = chart_of_arrays(std::move(mesh));
+  const Chart_map map
+    = map_chart_conformally(std::move(prepared), n, wanted, Coarsest_solver(), run);
+  if(!run.is_stopped())
+    result.uv = points_of_values(map.source, map.z, n);
+  result.error = run.finish();
+  return result;
+}
+
+} // namespace internal
+
 /*!
 \ingroup PkgHLSCMParameterizer
 
@@ -38,32 +54,30 @@ arrays. `HLSCM_options::threads`, `keep_progressive_mesh` and `repair_flips` do 
 threads are those of the caller's `Blocked_execution::Thread_scope`.
 
 Time and memory as for `HLSCM_parameterizer_3`; meshes of less than about 10,000 triangles are best
-mapped with `Conformal_method::DIRECT`.
+mapped with `Conformal_method::DIRECT`. Bad data (indices out of range, coordinates that are not
+finite, no faces, no border) give a result with `error` set and `report.message` in words.
 */
 inline Conformal_map conformal_map(Indexed_mesh::Indexed_triangle_mesh mesh,
                                    const HLSCM_options& options = HLSCM_options())
 {
-  Conformal_map result;
-  const std::size_t n = mesh.points.size();
-  result.report.method = internal::name_of(options.method);
-  internal::Chart chart;
-  internal::check_options(options, chart);
-  if(chart.error == OK)
-    chart = internal::chart_of_arrays(std::move(mesh));
-  if(chart.error == OK) {
-    result.report.vertices = chart.mesh.points.size();
-    result.report.faces = chart.mesh.triangles.size();
-    result.report.borders = chart.borders.size();
-    const std::vector<internal::Pin> pins = internal::far_border_pins(chart);
-    internal::Conformal_solver<typename internal::Coarsest_solver<Default>::type>
-      solver(chart, pins, options, result.report);
-    const auto z = solver.run();
-    if(chart.error == OK && !result.report.cancelled)
-      result.uv = internal::points_of_values(chart, z, n);
-  }
-  result.report.message = result.report.cancelled ? "cancelled" : chart.message;
-  result.error = result.report.cancelled ? ERROR_CANNOT_SOLVE_LINEAR_SYSTEM : chart.error;
-  return result;
+  return internal::map_arrays(std::move(mesh), std::nullopt, options);
+}
+
+/*!
+\ingroup PkgHLSCMParameterizer
+
+The same with pins.
+
+\param mesh the mesh
+\param pins two or more vertices of the mesh, by their indices, and their parameters; with fewer, or
+       one that is no vertex of a triangle, `error` is set
+\param options as above
+*/
+inline Conformal_map conformal_map(Indexed_mesh::Indexed_triangle_mesh mesh,
+                                   const std::vector<HLSCM_pin>& pins,
+                                   const HLSCM_options& options = HLSCM_options())
+{
+  return internal::map_arrays(std::move(mesh), pins, options);
 }
 
 } // namespace Surface_mesh_parameterization

@@ -5,16 +5,35 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_TEXTURED_PROGRESSIVE_MESH_OF_CHART_H
 
 #include <CGAL/Surface_mesh_multiresolution/build_textured_progressive_mesh.h>
-#include <CGAL/Surface_mesh_parameterization/Chart_progressive_mesh.h>
+#include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
 
 #include <CGAL/boost/graph/properties.h>
 #include <CGAL/number_utils.h>
 
+#include <cstdint>
+#include <string>
 #include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_parameterization {
+
+namespace internal {
+
+// What is wrong with a chart of a mesh with `n` vertices, or nothing.
+inline std::string chart_error(const Chart_progressive_mesh& chart, std::size_t n)
+{
+  if(chart.vertices.empty() || chart.progressive_mesh.triangles.empty())
+    return "the collapses of the chart were not kept; set HLSCM_options::keep_progressive_mesh";
+  if(chart.vertices.size() != chart.progressive_mesh.number_of_vertices)
+    return "the chart has not as many vertices as its collapses";
+  for(const std::uint32_t v : chart.vertices)
+    if(v >= n)
+      return "the chart is not one of this mesh";
+  return std::string();
+}
+
+} // namespace internal
 
 /*!
 \ingroup PkgHLSCMLevelsOfDetail
@@ -28,7 +47,8 @@ texture coordinates, from the collapses with which it was parameterized.
 \param chart what `HLSCM_parameterizer_3::progressive_mesh()` returns
 \param options see the other overloads; `is_locked` is in the order of `chart.vertices`
 
-Linear time.
+A chart of another mesh, or one without collapses, and coordinates that are not finite give a result
+with `error` set. Linear time.
 */
 template <class TriangleMesh, class VertexUVMap>
 Surface_mesh_multiresolution::Textured_progressive_mesh_result
@@ -38,6 +58,12 @@ build_textured_progressive_mesh(
   = Surface_mesh_multiresolution::Textured_progressive_mesh_options())
 {
   namespace SMM = Surface_mesh_multiresolution;
+  SMM::Textured_progressive_mesh_result result;
+  result.error = internal::chart_error(chart, num_vertices(mesh));
+  if(!options.is_locked.empty() && options.is_locked.size() != chart.vertices.size())
+    result.error = "`is_locked` is not in the order of the chart's vertices";
+  if(!result.error.empty())
+    return result;
   const auto rank = Indexed_mesh::ranks(chart.vertices, num_vertices(mesh));
   std::vector<SMM::Textured_triangle_mesh::Point_3> points(chart.vertices.size());
   std::vector<SMM::Textured_triangle_mesh::Point_2> uv(chart.vertices.size());
@@ -53,9 +79,8 @@ build_textured_progressive_mesh(
                                                      to_double(p[2]));
     uv[r] = SMM::Textured_triangle_mesh::Point_2(to_double(q[0]), to_double(q[1]));
   }
-  SMM::Textured_progressive_mesh_result result
-    = SMM::build_textured_progressive_mesh(chart.progressive_mesh, std::move(points),
-                                           std::move(uv), options);
+  result = SMM::build_textured_progressive_mesh(chart.progressive_mesh, std::move(points),
+                                                std::move(uv), options);
   for(CGAL::Indexed_mesh::Vertex_index& v : result.mesh.source_vertex)
     v = chart.vertices[v];
   return result;

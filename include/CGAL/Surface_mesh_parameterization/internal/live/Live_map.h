@@ -7,7 +7,6 @@
 #include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
 #include <CGAL/Surface_mesh_parameterization/internal/live/Live_conformal_solver.h>
-#include <CGAL/Surface_mesh_parameterization/internal/solver/check_options.h>
 
 #include <cmath>
 #include <complex>
@@ -23,9 +22,7 @@ namespace Surface_mesh_parameterization {
 namespace internal {
 
 // The map that a `Hierarchical_conformal_map` keeps: its chart, the pins of the user and the
-// solver, which refers to the others, so that they stay in their place. Vertices are those of the
-// chart.
-template <class CoarsestSolver>
+// solver. Vertices are those of the chart.
 class Live_map
 {
 public:
@@ -35,17 +32,22 @@ public:
 
   // Checks the options. To be set then, if there is no error, are the chart and its pins; after
   // that the solver is to be built.
-  explicit Live_map(const HLSCM_options& options);
+  Live_map(const HLSCM_options& options, Coarsest_solver coarsest);
   Live_map(const Live_map&) = delete;
   Live_map& operator=(const Live_map&) = delete;
 
-  void set_chart(Chart chart);
+  void set_chart(Prepared_chart prepared);
 
   // Builds the solver, which has the pins of now on all levels. Without pins of the user they are
   // the two far ones, if the method has pins.
   void build(bool has_pins);
 
-  const Chart& chart() const { return m_chart; }
+  // For each vertex of the chart its position in the mesh.
+  const std::vector<std::uint32_t>& source() const
+  {
+    return m_solver ? m_solver->system().source : m_chart.source;
+  }
+  Error_code error() const { return m_run.status().error; }
   const HLSCM_report& report() const { return m_report; }
 
   // There will never be a map.
@@ -55,7 +57,7 @@ public:
   // Those of the chart. Precondition: it is not broken.
   const std::vector<Indexed_mesh::Triangle_indices>& triangles() const
   {
-    return m_solver->finest_level().mesh.triangles;
+    return m_solver->level(m_solver->system().finest()).mesh.triangles;
   }
 
   // Records an error, unless there is one already without which there would be no map.
@@ -73,40 +75,41 @@ public:
   }
 
   Error_code solve();
-  Complex uv(Vertex_index v) const { return m_solver->map()[v] + m_shift; }
+  Complex uv(Vertex_index v) const
+  {
+    return has_map() && v < m_solver->map().size() ? m_solver->map()[v] + m_shift : Complex(0.);
+  }
   Level_view preview(std::size_t vertices);
 
 private:
-  Error_code finish();
   bool choose_pins();
 
-  HLSCM_options m_options;
+  const HLSCM_options m_options;
   HLSCM_report m_report;
-  Blocked_execution::Stopwatch m_watch;
-  Chart m_chart;
+  Run_control m_run;
+  Coarsest_solver m_coarsest;                // for the solver to be built
+  Chart m_chart;                             // the same
   std::map<std::uint32_t, Complex> m_wanted; // the pins of the user
-  std::vector<Pin> m_far_pins, m_pins;       // those of the spectral map; of the solver
+  Pins m_far_pins;                           // those of the spectral map
   Complex m_shift = 0.;                      // from the map of the solver
-  std::unique_ptr<Live_conformal_solver<CoarsestSolver>> m_solver;
+  std::unique_ptr<Live_conformal_solver> m_solver;
   bool m_is_broken = false;
   std::vector<std::uint32_t> m_preview_vertices;
   std::vector<Complex> m_preview_uv;
 };
 
-template <class CoarsestSolver>
-Live_map<CoarsestSolver>::Live_map(const HLSCM_options& options)
-  : m_options(options)
+inline Live_map::Live_map(const HLSCM_options& options, Coarsest_solver coarsest)
+  : m_options(options), m_run(m_options, m_report), m_coarsest(std::move(coarsest))
 {
-  check_options(options, m_chart);
   if(options.method != Conformal_method::HLSCM && options.method != Conformal_method::SPECTRAL)
-    m_chart.fail(ERROR_WRONG_PARAMETER, "the method must be hlscm or spectral");
+    m_run.status().fail(ERROR_WRONG_PARAMETER, "the method must be hlscm or spectral");
 }
 
-template <class CoarsestSolver>
-void Live_map<CoarsestSolver>::set_chart(Chart chart)
+inline void Live_map::set_chart(Prepared_chart prepared)
 {
-  m_chart = std::move(chart);
-  if(m_chart.error != OK)
+  m_chart = std::move(prepared.chart);
+  m_run.status().fail(prepared.status.error, prepared.status.message);
+  if(error() != OK)
     return;
   m_report.vertices = m_chart.mesh.points.size();
   m_report.faces = m_chart.mesh.triangles.size();
@@ -114,47 +117,33 @@ void Live_map<CoarsestSolver>::set_chart(Chart chart)
   m_far_pins = far_border_pins(m_chart);
 }
 
-template <class CoarsestSolver>
-void Live_map<CoarsestSolver>::build(bool has_pins)
+inline void Live_map::build(bool has_pins)
 {
-  if(m_chart.error == OK) {
+  if(error() == OK) {
     if(!has_pins && m_options.method == Conformal_method::HLSCM)
       for(const Pin& pin : m_far_pins)
         m_wanted[pin.vertex] = pin.value;
-    m_pins = m_far_pins;
+    Pins pins = m_far_pins;
     for(const auto& [v, value] : m_wanted)
       if(v != m_far_pins[0].vertex && v != m_far_pins[1].vertex)
-        m_pins.push_back({v, value});
-    m_report.seconds_hierarchy = m_watch.lap();
-    m_solver = std::make_unique<Live_conformal_solver<CoarsestSolver>>(m_chart, m_pins, m_options,
-                                                                       m_report);
+        pins.push_back({v, value});
+    m_run.lap(m_report.seconds_hierarchy);
+    m_solver = std::make_unique<Live_conformal_solver>(std::move(m_chart), pins,
+                                                       std::move(m_coarsest), m_run);
   }
-  m_is_broken = m_chart.error != OK || m_report.cancelled;
-  finish();
+  m_is_broken = error() != OK || m_report.cancelled;
+  m_run.finish();
 }
 
-template <class CoarsestSolver>
-Error_code Live_map<CoarsestSolver>::finish()
-{
-  m_report.seconds_total
-    = m_report.seconds_hierarchy + m_report.seconds_operators + m_report.seconds_solve;
-  if(m_report.cancelled)
-    m_chart.fail(ERROR_CANNOT_SOLVE_LINEAR_SYSTEM, "cancelled");
-  m_report.message = m_chart.message;
-  return m_chart.error;
-}
-
-template <class CoarsestSolver>
-Error_code Live_map<CoarsestSolver>::fail(const std::string& message)
+inline Error_code Live_map::fail(const std::string& message)
 {
   if(!m_is_broken)
-    m_chart.error = OK;
-  m_chart.fail(ERROR_WRONG_PARAMETER, message);
-  return finish();
+    m_run.status() = Status();
+  m_run.status().fail(ERROR_WRONG_PARAMETER, message);
+  return m_run.finish();
 }
 
-template <class CoarsestSolver>
-Error_code Live_map<CoarsestSolver>::set_pin(Vertex_index v, const Complex& value)
+inline Error_code Live_map::set_pin(Vertex_index v, const Complex& value)
 {
   if(v == Indexed_mesh::no_vertex)
     return fail("a vertex that does not belong to the chart cannot be pinned");
@@ -164,16 +153,14 @@ Error_code Live_map<CoarsestSolver>::set_pin(Vertex_index v, const Complex& valu
   return OK;
 }
 
-template <class CoarsestSolver>
-Error_code Live_map<CoarsestSolver>::release_pin(Vertex_index v)
+inline Error_code Live_map::release_pin(Vertex_index v)
 {
   if(m_wanted.erase(v) == 0)
     return fail("a vertex that is not pinned cannot be released");
   return OK;
 }
 
-template <class CoarsestSolver>
-Error_code Live_map<CoarsestSolver>::set_points(Points points)
+inline Error_code Live_map::set_points(Points points)
 {
   Chart::Mesh moved;
   moved.triangles = triangles();
@@ -181,56 +168,47 @@ Error_code Live_map<CoarsestSolver>::set_points(Points points)
   const double scale = Indexed_mesh::normalize(moved);
   if(!(scale > 0.))
     return fail("all vertices lie in one point; the old positions stay");
-  m_chart.scale = scale;
-  m_solver->set_points(moved.points);
+  m_solver->set_points(moved.points, scale);
   return OK;
 }
 
-// The pins of the solver and its method; false if something is wrong with the user's.
-template <class CoarsestSolver>
-bool Live_map<CoarsestSolver>::choose_pins()
+// Gives the solver the pins of now, or none; false if something is wrong with the user's.
+inline bool Live_map::choose_pins()
 {
   if(m_is_broken)
     return false;
-  m_chart.error = OK;
-  m_chart.message.clear();
-  std::vector<Pin> pins;
+  m_run.status() = Status();
+  Pins pins;
   for(const auto& [v, value] : m_wanted)
     pins.push_back({v, value});
-  const bool is_spectral = pins.size() < 2;
-  if(is_spectral)
-    pins = m_far_pins;
-  check_pins(m_chart, pins);
-  if(m_chart.error != OK)
+  const bool is_free = pins.size() < 2;
+  check_pins(source(), is_free ? m_far_pins : pins, m_run.status());
+  if(error() != OK)
     return false;
-  m_pins = std::move(pins);
-  m_options.method = is_spectral ? Conformal_method::SPECTRAL : Conformal_method::HLSCM;
-  m_report.method = name_of(m_options.method);
-  m_report.pins.clear();
-  for(const auto& [v, value] : m_wanted)
-    m_report.pins.push_back({m_chart.source[v], value.real(), value.imag()});
+  m_report.pins = reported_pins(source(), pins);
+  m_report.method
+    = profile_of(is_free ? Conformal_method::SPECTRAL : Conformal_method::HLSCM).name;
+  m_solver->set_pins(is_free ? m_far_pins : std::move(pins), is_free);
   return true;
 }
 
-template <class CoarsestSolver>
-Error_code Live_map<CoarsestSolver>::solve()
+inline Error_code Live_map::solve()
 {
   if(!choose_pins())
-    return finish();
+    return m_run.finish();
   if(has_map()) // the times of the hierarchy were told with the first map
     m_report.seconds_hierarchy = m_report.seconds_operators = m_report.seconds_solve = 0.;
   m_solver->solve();
   m_shift = 0.;
   if(has_map() && m_wanted.size() == 1)
     m_shift = m_wanted.begin()->second - m_solver->map()[m_wanted.begin()->first];
-  return finish();
+  return m_run.finish();
 }
 
-template <class CoarsestSolver>
-Level_view Live_map<CoarsestSolver>::preview(std::size_t vertices)
+inline Level_view Live_map::preview(std::size_t vertices)
 {
   if(!choose_pins()) {
-    finish();
+    m_run.finish();
     return {0, 0, nullptr, nullptr, nullptr};
   }
   const std::size_t l = m_solver->preview_level(vertices);
@@ -239,7 +217,7 @@ Level_view Live_map<CoarsestSolver>::preview(std::size_t vertices)
     z += m_shift;
   m_preview_vertices.clear();
   for(const auto v : m_solver->level(l).vertices)
-    m_preview_vertices.push_back(m_chart.source[v]);
+    m_preview_vertices.push_back(source()[v]);
   return {l, m_report.levels.size(), &m_preview_vertices, &m_solver->level(l).mesh.triangles,
           &m_preview_uv};
 }

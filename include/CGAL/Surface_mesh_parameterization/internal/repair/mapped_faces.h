@@ -4,10 +4,10 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_REPAIR_MAPPED_FACES_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_REPAIR_MAPPED_FACES_H
 
-#include <CGAL/Surface_mesh_parameterization/Distortion_measures.h>
-#include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
-#include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
-#include <CGAL/Blocked_execution/Progress.h>
+#include <CGAL/Surface_mesh_parameterization/Conformal_triangle.h>
+#include <CGAL/Surface_mesh_parameterization/Flip_repair_options.h>
+#include <CGAL/Surface_mesh_parameterization/internal/solver/Pins.h>
+#include <CGAL/Surface_mesh_parameterization/internal/solver/Run_control.h>
 
 #include <cmath>
 #include <complex>
@@ -19,9 +19,6 @@
 namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
-
-// The part of the whole that the repair of flipped faces is taken for.
-constexpr double part_of_repair = 0.1;
 
 // The faces of a mesh whose vertices all have a place in a map, as arrays.
 template <class TriangleMesh>
@@ -91,33 +88,9 @@ shapes_of_triangles(const Indexed_mesh::Indexed_triangle_mesh& mesh,
   };
 }
 
-// Repairs the map of a chart of `mesh`, given by the place of each vertex of the mesh in it or
-// `no_vertex`, by the function of the options, and takes what changes over into the report.
-// `since_begin` is asked for the time limit.
-template <class TriangleMesh>
-void repair_chart(const TriangleMesh& mesh, const std::vector<std::uint32_t>& places,
-                  const std::vector<bool>& is_pinned, const HLSCM_options& options,
-                  const Blocked_execution::Stopwatch& since_begin, std::vector<std::complex<double>>& z,
-                  HLSCM_report& report)
+// Takes what the repair changed over into the report of the map.
+inline void report_repair(Flip_repair_report repair, HLSCM_report& report)
 {
-  const auto place = get(CGAL::dynamic_vertex_property_t<std::uint32_t>(), mesh);
-  std::size_t position = 0;
-  for(const auto v : vertices(mesh))
-    put(place, v, places[position++]);
-  const Mapped_faces<TriangleMesh> mapped(mesh, place);
-  Map_to_repair map
-    = {mapped.triangles, is_pinned, shapes_of_faces(mesh, mapped, options.weights), z};
-  Blocked_execution::Progress progress(options.progress);
-  const auto goes_on = [&](double part) {
-    if(options.time_limit > 0. && since_begin.seconds() > options.time_limit)
-      report.stopped_early = true;
-    return progress(1. - part_of_repair, 1., part) && !report.stopped_early;
-  };
-  const Blocked_execution::Stopwatch watch;
-  Flip_repair_report repair = options.repair_flips(map, goes_on);
-  for(std::size_t& face : repair.unmended_faces)
-    face = mapped.positions[face];
-  repair.seconds = watch.seconds();
   const double rise = repair.energy_after - repair.energy_before;
   repair.energy_before = report.energy;
   report.energy += rise;
@@ -127,8 +100,33 @@ void repair_chart(const TriangleMesh& mesh, const std::vector<std::uint32_t>& pl
     report.warnings.push_back(std::to_string(repair.unmended_faces.size())
                               + (repair.stopped_early ? " flipped faces are left: there was no time"
                                                       : " flipped faces could not be repaired"));
-  report.cancelled = progress.is_cancelled() || !progress(1., 1., 1.);
   report.flip_repair = std::move(repair);
+}
+
+// Repairs the map `z` of a chart of `mesh`, given by the place of each vertex of the mesh in it or
+// `no_vertex`, by the function of the options, and takes what changes over into the report.
+template <class TriangleMesh>
+void repair_chart(const TriangleMesh& mesh, const std::vector<std::uint32_t>& places,
+                  const Pins& pins, Run_control& run, std::vector<std::complex<double>>& z)
+{
+  const auto place = get(CGAL::dynamic_vertex_property_t<std::uint32_t>(), mesh);
+  std::size_t position = 0;
+  for(const auto v : vertices(mesh))
+    put(place, v, places[position++]);
+  std::vector<bool> is_pinned(z.size(), false);
+  for(const Pin& pin : pins)
+    is_pinned[pin.vertex] = true;
+  const Mapped_faces<TriangleMesh> mapped(mesh, place);
+  Map_to_repair map
+    = {mapped.triangles, is_pinned, shapes_of_faces(mesh, mapped, run.options().weights), z};
+  const Blocked_execution::Stopwatch watch;
+  Flip_repair_report repair = run.options().repair_flips(
+    map, [&run](double part) { return run.tell_repair(part) && !run.is_enough(); });
+  for(std::size_t& face : repair.unmended_faces)
+    face = mapped.positions[face];
+  repair.seconds = watch.seconds();
+  run.tell_repair(1.);
+  report_repair(std::move(repair), run.report());
 }
 
 } // namespace internal

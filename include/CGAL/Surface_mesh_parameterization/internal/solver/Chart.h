@@ -15,10 +15,11 @@
 #include <CGAL/boost/graph/properties.h>
 #include <CGAL/number_utils.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <complex>
-#include <limits>
+#include <numeric>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -28,7 +29,44 @@ namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
 
-// A chart of a mesh as arrays, or what is wrong with it.
+// What went wrong, if anything: a code and a sentence. The first error stays.
+struct Status
+{
+  Error_code error = OK;
+  std::string message; // why, if error is not OK
+
+  bool is_ok() const { return error == OK; }
+
+  void fail(Error_code code, const std::string& text)
+  {
+    if(error == OK) {
+      error = code;
+      message = text;
+    }
+  }
+};
+
+// What CGAL's error code says. CGAL's own texts are one too few: get_error_message() returns null
+// for the last code, and the text of the one before for others.
+inline const char* text_of(Error_code error)
+{
+  switch(error) {
+  case OK: return "no error";
+  case ERROR_EMPTY_MESH: return "the mesh is empty";
+  case ERROR_NON_TRIANGULAR_MESH: return "the mesh has faces that are not triangles";
+  case ERROR_NO_TOPOLOGICAL_DISC: return "the mesh is not a disk";
+  case ERROR_NO_TOPOLOGICAL_BALL: return "the mesh is not a ball";
+  case ERROR_BORDER_TOO_SHORT: return "the border is too short";
+  case ERROR_NON_CONVEX_BORDER: return "the border in the plane must be convex";
+  case ERROR_CANNOT_SOLVE_LINEAR_SYSTEM: return "a linear system cannot be solved";
+  case ERROR_NO_1_TO_1_MAPPING: return "the map is not one-to-one";
+  case ERROR_WRONG_PARAMETER: return "a parameter is wrong";
+  }
+  return "unknown error";
+}
+
+// A chart of a mesh as arrays: a connected surface of genus 0 with a border, unless the status that
+// came with it says otherwise.
 struct Chart
 {
   typedef Indexed_mesh::Indexed_triangle_mesh Mesh;
@@ -39,36 +77,31 @@ struct Chart
   Indexed_mesh::Vertex_rings rings;
   std::vector<std::vector<Vertex_index>> borders;
   double scale = 1.;                      // lengths of `mesh` to those of the input
-  Error_code error = OK;
-  std::string message;                    // why, if error is not OK
-
-  void fail(Error_code code, const std::string& text)
-  {
-    if(error == OK) {
-      error = code;
-      message = text;
-    }
-  }
-
-  // The position of each vertex of the input in the chart, or `no_vertex`.
-  std::vector<Vertex_index> rank(std::size_t number_of_input_vertices) const
-  {
-    return Indexed_mesh::ranks(source, number_of_input_vertices);
-  }
 };
 
-inline void check_point(const Chart::Mesh::Point_3& p, std::size_t vertex, Chart& chart)
+inline void check_point(const Chart::Mesh::Point_3& p, std::size_t vertex, Status& status)
 {
   if(!std::isfinite(p.x()) || !std::isfinite(p.y()) || !std::isfinite(p.z()))
-    chart.fail(ERROR_WRONG_PARAMETER, "vertex " + std::to_string(vertex)
+    status.fail(ERROR_WRONG_PARAMETER, "vertex " + std::to_string(vertex)
                + " has a coordinate that is not a finite number; correct or remove it");
 }
 
 // Says which point, the first of several, is none.
-inline void check_points(Chart& chart)
+inline void check_points(const Chart& chart, Status& status)
 {
   for(std::size_t v = 0; v < chart.mesh.points.size(); ++v)
-    check_point(chart.mesh.points[v], v, chart);
+    check_point(chart.mesh.points[v], v, status);
+}
+
+// Says which triangle, the first of several, has a corner that is no vertex.
+inline void check_indices(const Chart::Mesh& mesh, Status& status)
+{
+  for(std::size_t t = 0; t < mesh.triangles.size() && status.is_ok(); ++t)
+    for(const std::uint32_t v : mesh.triangles[t])
+      if(v >= mesh.points.size())
+        status.fail(ERROR_WRONG_PARAMETER, "triangle " + std::to_string(t) + " has the vertex "
+                    + std::to_string(v) + ", but there are only "
+                    + std::to_string(mesh.points.size()) + " vertices");
 }
 
 // Calls `body(i)` for i in [0, n). Numbers that are objects may not be read by several threads.
@@ -84,7 +117,7 @@ void for_each_of_mesh(std::size_t n, const Body& body)
 
 // Copies the positions of the vertices of `mesh`, which are numbered as in vertices(mesh).
 template <class TriangleMesh, class VertexPositionMap>
-void copy_points(const TriangleMesh& mesh, VertexPositionMap position, Chart& chart)
+void copy_points(const TriangleMesh& mesh, VertexPositionMap position, Chart& chart, Status& status)
 {
   typedef typename boost::graph_traits<TriangleMesh>::vertex_descriptor vertex_descriptor;
   const auto vpm = get(CGAL::vertex_point, mesh);
@@ -105,16 +138,16 @@ void copy_points(const TriangleMesh& mesh, VertexPositionMap position, Chart& ch
       is_finite = false;
   });
   if(!is_finite)
-    check_points(chart);
+    check_points(chart, status);
 }
 
 // Copies the faces and positions of `mesh`; vertices are numbered as in vertices(mesh).
 template <class TriangleMesh>
-void copy_faces(const TriangleMesh& mesh, Chart& chart)
+void copy_faces(const TriangleMesh& mesh, Chart& chart, Status& status)
 {
   typedef typename boost::graph_traits<TriangleMesh>::face_descriptor face_descriptor;
   const auto position = get(CGAL::dynamic_vertex_property_t<std::uint32_t>(), mesh);
-  copy_points(mesh, position, chart);
+  copy_points(mesh, position, chart, status);
   std::vector<face_descriptor> all;
   all.reserve(num_faces(mesh));
   for(const face_descriptor f : faces(mesh))
@@ -131,7 +164,7 @@ void copy_faces(const TriangleMesh& mesh, Chart& chart)
           break;
   });
   if(first_polygon < all.size())
-    chart.fail(ERROR_NON_TRIANGULAR_MESH, "face " + std::to_string(first_polygon)
+    status.fail(ERROR_NON_TRIANGULAR_MESH, "face " + std::to_string(first_polygon)
                + " is not a triangle; triangulate the mesh first");
 }
 
@@ -172,7 +205,7 @@ inline void remove_unused_vertices(Chart& chart)
 }
 
 // Builds the rings; says which vertex has none.
-inline void connect(Chart& chart)
+inline void connect(Chart& chart, Status& status)
 {
   typedef Indexed_mesh::Ring_defect Ring_defect;
   chart.rings = Indexed_mesh::Vertex_rings(chart.mesh);
@@ -181,15 +214,15 @@ inline void connect(Chart& chart)
   const std::string vertex
     = "vertex " + std::to_string(chart.source[chart.rings.defective_vertex()]);
   if(chart.rings.defect() == Ring_defect::REPEATED_HALFEDGE)
-    chart.fail(ERROR_NO_TOPOLOGICAL_DISC, vertex + " has an edge with more than two faces, or with "
+    status.fail(ERROR_NO_TOPOLOGICAL_DISC, vertex + " has an edge with more than two faces, or with "
                "two faces of different orientation; repair the mesh first");
   else
-    chart.fail(ERROR_NO_TOPOLOGICAL_DISC, "the faces at " + vertex
+    status.fail(ERROR_NO_TOPOLOGICAL_DISC, "the faces at " + vertex
                + " do not form one fan; split the vertex first");
 }
 
 // Euler: V - E + F = 2 - 2 genus - borders.
-inline void check_topology(Chart& chart)
+inline void check_topology(const Chart& chart, Status& status)
 {
   const long long v = (long long)(chart.mesh.points.size());
   const long long f = (long long)(chart.mesh.triangles.size());
@@ -199,93 +232,128 @@ inline void check_topology(Chart& chart)
   const long long e = (3 * f + border_edges) / 2;
   const long long twice_genus = 2 - (long long)(chart.borders.size()) - (v - e + f);
   if(chart.borders.empty())
-    chart.fail(ERROR_NO_TOPOLOGICAL_DISC, "the surface is closed; cut it open first");
+    status.fail(ERROR_NO_TOPOLOGICAL_DISC, "the surface is closed; cut it open first");
   else if(twice_genus != 0)
-    chart.fail(ERROR_NO_TOPOLOGICAL_DISC, "the surface has genus "
+    status.fail(ERROR_NO_TOPOLOGICAL_DISC, "the surface has genus "
                + std::to_string(twice_genus / 2) + "; cut its handles first");
 }
 
 // Takes the arrays of `chart.mesh` with `chart.source` set, and of it the component of the vertex at
 // position `seed`; without a seed all must be one component.
-inline void prepare_chart(Chart& chart, std::uint32_t seed)
+inline void prepare_chart(Chart& chart, std::uint32_t seed, Status& status)
 {
-  namespace SMM = Surface_mesh_multiresolution;
-  if(chart.error != OK)
+  if(!status.is_ok())
     return;
   if(chart.mesh.triangles.empty())
-    return chart.fail(ERROR_EMPTY_MESH, "the mesh has no faces");
+    return status.fail(ERROR_EMPTY_MESH, "the mesh has no faces");
   remove_unused_vertices(chart);
-  chart.scale = CGAL::Indexed_mesh::normalize(chart.mesh);
+  chart.scale = Indexed_mesh::normalize(chart.mesh);
   if(!(chart.scale > 0.))
-    return chart.fail(ERROR_WRONG_PARAMETER, "all vertices lie in one point");
+    return status.fail(ERROR_WRONG_PARAMETER, "all vertices lie in one point");
   const auto sort = [&chart] {
-    const std::vector<CGAL::Indexed_mesh::Vertex_index> order = CGAL::Indexed_mesh::sort_spatially(chart.mesh);
+    const std::vector<Indexed_mesh::Vertex_index> order = Indexed_mesh::sort_spatially(chart.mesh);
     std::vector<std::uint32_t> source(order.size());
     for(std::size_t v = 0; v < order.size(); ++v)
       source[v] = chart.source[order[v]];
     chart.source.swap(source);
   };
   sort();
-  connect(chart);
-  if(chart.error != OK)
+  connect(chart, status);
+  if(!status.is_ok())
     return;
-  CGAL::Indexed_mesh::Vertex_index first = 0;
-  for(CGAL::Indexed_mesh::Vertex_index v = 0; v < chart.source.size(); ++v)
+  Indexed_mesh::Vertex_index first = 0;
+  for(Indexed_mesh::Vertex_index v = 0; v < chart.source.size(); ++v)
     if(chart.source[v] == seed)
       first = v;
-  const std::vector<bool> is_reached = CGAL::Indexed_mesh::component_of(chart.rings, first);
+  const std::vector<bool> is_reached = Indexed_mesh::component_of(chart.rings, first);
   if(std::find(is_reached.begin(), is_reached.end(), false) != is_reached.end()) {
-    if(seed == CGAL::Indexed_mesh::no_vertex)
-      return chart.fail(ERROR_NO_TOPOLOGICAL_DISC,
+    if(seed == Indexed_mesh::no_vertex)
+      return status.fail(ERROR_NO_TOPOLOGICAL_DISC,
                         "the surface has several components; map them one by one");
     keep_vertices(chart, is_reached);
-    connect(chart);
+    connect(chart, status);
   }
   chart.borders = Indexed_mesh::border_loops(chart.rings);
-  check_topology(chart);
+  check_topology(chart, status);
+}
+
+// A chart, and what was wrong with the mesh that it is of.
+struct Prepared_chart
+{
+  Chart chart;
+  Status status;
+};
+
+// The sources of vertices that are numbered as in the input.
+inline void number_sources(Chart& chart)
+{
+  chart.source.resize(chart.mesh.points.size());
+  std::iota(chart.source.begin(), chart.source.end(), 0u);
 }
 
 // A connected mesh that is two arrays.
-inline Chart chart_of_arrays(Chart::Mesh mesh)
+inline Prepared_chart chart_of_arrays(Chart::Mesh mesh)
 {
-  Chart chart;
+  Prepared_chart result;
+  Chart& chart = result.chart;
   chart.mesh = std::move(mesh);
-  chart.source.resize(chart.mesh.points.size());
-  for(std::uint32_t v = 0; v < chart.source.size(); ++v)
-    chart.source[v] = v;
-  check_points(chart);
-  prepare_chart(chart, Indexed_mesh::no_vertex);
-  return chart;
+  number_sources(chart);
+  check_indices(chart.mesh, result.status);
+  check_points(chart, result.status);
+  prepare_chart(chart, Indexed_mesh::no_vertex, result.status);
+  return result;
 }
 
 // The parameters of the `n` vertices of the input; (0, 0) of those that are not in the chart.
 inline std::vector<Simple_cartesian<double>::Point_2>
-points_of_values(const Chart& chart, const std::vector<std::complex<double>>& z, std::size_t n)
+points_of_values(const std::vector<std::uint32_t>& source,
+                 const std::vector<std::complex<double>>& z, std::size_t n)
 {
   std::vector<Simple_cartesian<double>::Point_2> uv(n, Simple_cartesian<double>::Point_2(0., 0.));
   for(std::size_t v = 0; v < z.size(); ++v)
-    uv[chart.source[v]] = Simple_cartesian<double>::Point_2(z[v].real(), z[v].imag());
+    uv[source[v]] = Simple_cartesian<double>::Point_2(z[v].real(), z[v].imag());
   return uv;
 }
 
-// The connected component of `mesh` that has the halfedge `bhd`.
+// What is wrong with a halfedge that is to be on the border of a chart of `mesh`. It is looked for
+// among those of the mesh first: what does not belong to it must not be asked for anything.
 template <class TriangleMesh>
-Chart extract_chart(const TriangleMesh& mesh,
+Status check_border(const TriangleMesh& mesh,
                     typename boost::graph_traits<TriangleMesh>::halfedge_descriptor bhd)
 {
-  Chart chart;
-  copy_faces(mesh, chart);
-  chart.source.resize(chart.mesh.points.size());
-  for(std::uint32_t v = 0; v < chart.source.size(); ++v)
-    chart.source[v] = v;
+  typedef boost::graph_traits<TriangleMesh> Traits;
+  Status status;
+  if(faces(mesh).begin() == faces(mesh).end())
+    status.fail(ERROR_EMPTY_MESH, "the mesh has no faces");
+  const auto all = halfedges(mesh);
+  const bool is_null = bhd == Traits::null_halfedge() || !status.is_ok();
+  if(!is_null && std::find(all.begin(), all.end(), bhd) == all.end())
+    status.fail(ERROR_WRONG_PARAMETER, "the given halfedge does not belong to the mesh");
+  else if(is_null || !is_border(bhd, mesh))
+    status.fail(ERROR_NO_TOPOLOGICAL_DISC,
+                "the given halfedge is not on a border; a closed surface must be cut open first");
+  return status;
+}
+
+// The connected component of `mesh` that has the border halfedge `bhd`.
+template <class TriangleMesh>
+Prepared_chart extract_chart(const TriangleMesh& mesh,
+                             typename boost::graph_traits<TriangleMesh>::halfedge_descriptor bhd)
+{
+  Prepared_chart result;
+  result.status = check_border(mesh, bhd);
+  if(!result.status.is_ok())
+    return result;
+  copy_faces(mesh, result.chart, result.status);
+  number_sources(result.chart);
   std::uint32_t seed = 0;
   for(const auto v : vertices(mesh)) {
     if(v == target(bhd, mesh))
       break;
     ++seed;
   }
-  prepare_chart(chart, seed);
-  return chart;
+  prepare_chart(result.chart, seed, result.status);
+  return result;
 }
 
 } // namespace internal

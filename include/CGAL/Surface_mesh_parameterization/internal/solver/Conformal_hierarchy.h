@@ -9,11 +9,14 @@
 #include <CGAL/Multigrid/Rayleigh_quotient.h>
 #include <CGAL/Surface_mesh_multiresolution/Mesh_hierarchy.h>
 #include <CGAL/Surface_mesh_parameterization/Conformal_operator.h>
+#include <CGAL/Surface_mesh_parameterization/Solver_traits_cholesky.h>
+#include <CGAL/Surface_mesh_parameterization/internal/solver/Pins.h>
 #include <CGAL/Surface_mesh_parameterization/internal/solver/coarse_cotangents.h>
-#include <CGAL/Surface_mesh_parameterization/internal/solver/pins.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <utility>
@@ -22,34 +25,6 @@
 namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
-
-// Half the length of the two border edges of each border vertex of a level: the integral over the
-// border of the squared map, its mass lumped to the vertices (Mullen et al. 2008, section 4, count
-// vertices, which depends on how finely the border is divided). The loops are those of the finest
-// level; coarser ones have some of their vertices, in the same order.
-inline Multigrid::Diagonal_mass
-border_mass(const Surface_mesh_multiresolution::Mesh_level& level,
-            const std::vector<std::vector<Indexed_mesh::Vertex_index>>& loops)
-{
-  std::vector<Multigrid::Diagonal_mass::Entry> entries;
-  for(const auto& loop : loops) {
-    const std::size_t first = entries.size();
-    for(const auto v : loop) {
-      const std::size_t position = level.position(v);
-      if(position < level.vertices.size() && level.vertices[position] == v)
-        entries.push_back({std::uint32_t(position), 0.});
-    }
-    for(std::size_t i = first; i < entries.size(); ++i) {
-      auto& a = entries[i];
-      auto& b = entries[i + 1 < entries.size() ? i + 1 : first];
-      const auto& points = level.mesh.points;
-      const double half = 0.5 * std::sqrt(squared_distance(points[a.row], points[b.row]));
-      a.value += half;
-      b.value += half;
-    }
-  }
-  return Multigrid::Diagonal_mass(std::move(entries));
-}
 
 // The weights of the triangles of each level, from those of the finest; none if those are empty.
 // Coarse triangles get the mean weight of the fine ones that they stand for, so that the energy of
@@ -84,7 +59,6 @@ level_weights(const std::vector<Surface_mesh_multiresolution::Mesh_level>& level
 //
 // A pin is a vertex of the finest level. On a level that does not have it, the vertex from which it
 // would get most of its value stands for it.
-template <class CoarsestSolver>
 class Conformal_hierarchy
 {
 public:
@@ -93,7 +67,9 @@ public:
   typedef Surface_mesh_multiresolution::Mesh_level Level;
   typedef Indexed_mesh::Vertex_index Vertex_index;
 
-  Conformal_hierarchy() {}
+  explicit Conformal_hierarchy(Coarsest_solver solver = Coarsest_solver())
+    : m_solver(std::move(solver))
+  {}
   Conformal_hierarchy(const Conformal_hierarchy&) = delete; // the cycle refers to the operators
   Conformal_hierarchy& operator=(const Conformal_hierarchy&) = delete;
 
@@ -114,23 +90,33 @@ public:
   void pin(Vertex_index v);
   void release(Vertex_index v);
 
+  // Pins these vertices and no others; returns which were pinned or released for it.
+  struct Pin_changes
+  {
+    std::size_t pinned = 0, released = 0;
+  };
+  Pin_changes pin_only(std::vector<Vertex_index> vertices);
+
   const Conformal_operator<double>& finest() const { return m_finest; }
   const Conformal_operator<double>& coarsest() const
   {
     return m_levels.size() == 1 ? m_finest : m_coarsest;
   }
-  CoarsestSolver& coarsest_solver() { return m_cycle->coarsest_solver(); }
+  Coarsest_solver& coarsest_solver() { return m_cycle->coarsest_solver(); }
   bool factorize_coarsest() { return coarsest_solver().factorize(coarsest().matrix); }
 
+  // The entries that the matrix of level l stores, and the bytes of its matrices.
+  std::pair<std::size_t, std::size_t> size_of_matrices(std::size_t l) const;
+
   // Gives the pins of level l their values.
-  void set_pins(std::size_t l, const std::vector<Pin>& pins, Vector& z) const
+  void set_pins(std::size_t l, const Pins& pins, Vector& z) const
   {
     for(const Pin& pin : pins)
       z[m_pins.at(pin.vertex)[l]] = pin.value;
   }
 
   // The vector of the coarsest level that is 0 but at the pins.
-  Vector at_pins(const std::vector<Pin>& pins) const
+  Vector at_pins(const Pins& pins) const
   {
     Vector z(m_levels[0].vertices.size(), 0.);
     set_pins(0, pins, z);
@@ -164,15 +150,18 @@ public:
                         const Observe& observe, Vector& z);
 
 private:
-  typedef Multigrid::Multigrid_levels<Surface_mesh_multiresolution::Prolongation, CoarsestSolver>
+  typedef Multigrid::Multigrid_levels<Surface_mesh_multiresolution::Prolongation, Coarsest_solver>
     Cycle;
 
   template <class Use>
-  void for_each_operator(std::size_t l, const Use& use);
+  void for_each_operator(std::size_t l, const Use& use) { for_each_operator(*this, l, use); }
+  template <class Hierarchy, class Use>
+  static void for_each_operator(Hierarchy& hierarchy, std::size_t l, const Use& use);
   template <class Real>
   void precondition(std::size_t l, const Multigrid::Schedule& schedule,
                     const Multigrid::Complex_vector<Real>& r, Multigrid::Complex_vector<Real>& x);
 
+  Coarsest_solver m_solver;
   std::vector<Level> m_levels;
   std::vector<Conformal_operator<float>> m_single;     // of the levels between; of all for a cycle
   Conformal_operator<double> m_coarsest, m_finest;     // those at the ends
@@ -181,9 +170,8 @@ private:
   std::vector<std::map<Vertex_index, int>> m_number_of_pins; // that a vertex of a level stands for
 };
 
-template <class CoarsestSolver>
 template <class After_level>
-void Conformal_hierarchy<CoarsestSolver>::build_operators(std::vector<double> triangle_weights,
+void Conformal_hierarchy::build_operators(std::vector<double> triangle_weights,
                                                           const After_level& after_level)
 {
   typedef Indexed_mesh::Triangles_at_vertices Triangles_at_vertices;
@@ -194,6 +182,7 @@ void Conformal_hierarchy<CoarsestSolver>::build_operators(std::vector<double> tr
   m_single.clear();
   m_single.resize(count);
   m_cycle = std::make_unique<Cycle>();
+  m_cycle->coarsest_solver() = m_solver; // they share it
   const auto corners = [this](std::size_t l) {
     return Triangles_at_vertices(m_levels[l].mesh.triangles, m_levels[l].vertices.size());
   };
@@ -223,8 +212,7 @@ void Conformal_hierarchy<CoarsestSolver>::build_operators(std::vector<double> tr
   }
 }
 
-template <class CoarsestSolver>
-void Conformal_hierarchy<CoarsestSolver>::build_cycle()
+inline void Conformal_hierarchy::build_cycle()
 {
   const std::size_t count = m_levels.size();
   if(count == 1)
@@ -236,20 +224,32 @@ void Conformal_hierarchy<CoarsestSolver>::build_cycle()
 }
 
 // Calls `use` for the operators of level l that there are.
-template <class CoarsestSolver>
-template <class Use>
-void Conformal_hierarchy<CoarsestSolver>::for_each_operator(std::size_t l, const Use& use)
+template <class Hierarchy, class Use>
+void Conformal_hierarchy::for_each_operator(Hierarchy& hierarchy, std::size_t l, const Use& use)
 {
-  if(l + 1 == m_levels.size())
-    use(m_finest);
+  if(l + 1 == hierarchy.m_levels.size())
+    use(hierarchy.m_finest);
   else if(l == 0)
-    use(m_coarsest);
-  if(m_single[l].matrix.size() > 0)
-    use(m_single[l]);
+    use(hierarchy.m_coarsest);
+  if(hierarchy.m_single[l].matrix.size() > 0)
+    use(hierarchy.m_single[l]);
 }
 
-template <class CoarsestSolver>
-void Conformal_hierarchy<CoarsestSolver>::pin(Vertex_index v)
+// Matrices of one level share their pattern.
+inline std::pair<std::size_t, std::size_t> Conformal_hierarchy::size_of_matrices(std::size_t l) const
+{
+  std::size_t entries = 0, bytes = 0, pattern = 0;
+  for_each_operator(*this, l, [&](const auto& op) {
+    typedef typename std::decay_t<decltype(op.matrix.diagonal())>::value_type Real;
+    const Multigrid::Sliced_pattern& p = op.matrix.pattern();
+    entries = p.column.size();
+    bytes += (entries + op.matrix.size()) * sizeof(Real);
+    pattern = (entries + p.row_of_slot.size() + 2 * p.slices()) * sizeof(std::uint32_t);
+  });
+  return {entries, bytes + pattern};
+}
+
+inline void Conformal_hierarchy::pin(Vertex_index v)
 {
   const std::size_t count = m_levels.size();
   std::vector<Vertex_index>& stands_for = m_pins[v];
@@ -264,8 +264,7 @@ void Conformal_hierarchy<CoarsestSolver>::pin(Vertex_index v)
     }
 }
 
-template <class CoarsestSolver>
-void Conformal_hierarchy<CoarsestSolver>::release(Vertex_index v)
+inline void Conformal_hierarchy::release(Vertex_index v)
 {
   const auto pin = m_pins.find(v);
   for(std::size_t l = 0; l < m_levels.size(); ++l) {
@@ -280,10 +279,28 @@ void Conformal_hierarchy<CoarsestSolver>::release(Vertex_index v)
   m_pins.erase(pin);
 }
 
-template <class CoarsestSolver>
+// Ascending: each is then the last of those that are pinned already.
+inline Conformal_hierarchy::Pin_changes
+Conformal_hierarchy::pin_only(std::vector<Vertex_index> vertices)
+{
+  std::sort(vertices.begin(), vertices.end());
+  std::vector<Vertex_index> old, to_release, to_pin;
+  for(const auto& pin : m_pins)
+    old.push_back(pin.first);
+  std::set_difference(old.begin(), old.end(), vertices.begin(), vertices.end(),
+                      std::back_inserter(to_release));
+  std::set_difference(vertices.begin(), vertices.end(), old.begin(), old.end(),
+                      std::back_inserter(to_pin));
+  for(const Vertex_index v : to_release)
+    release(v);
+  for(const Vertex_index v : to_pin)
+    pin(v);
+  return {to_pin.size(), to_release.size()};
+}
+
 template <class Minimize>
 Multigrid::Iteration_report
-Conformal_hierarchy<CoarsestSolver>::on_level(std::size_t l, Vector& z,
+Conformal_hierarchy::on_level(std::size_t l, Vector& z,
                                               const Minimize& minimize) const
 {
   if(l + 1 == m_levels.size())
@@ -294,9 +311,8 @@ Conformal_hierarchy<CoarsestSolver>::on_level(std::size_t l, Vector& z,
   return result;
 }
 
-template <class CoarsestSolver>
 template <class Real>
-void Conformal_hierarchy<CoarsestSolver>::precondition(std::size_t l,
+void Conformal_hierarchy::precondition(std::size_t l,
                                                        const Multigrid::Schedule& schedule,
                                                        const Multigrid::Complex_vector<Real>& r,
                                                        Multigrid::Complex_vector<Real>& x)
@@ -307,10 +323,9 @@ void Conformal_hierarchy<CoarsestSolver>::precondition(std::size_t l,
     m_cycle->precondition(schedule, l, r, x);
 }
 
-template <class CoarsestSolver>
 template <class Observe>
 Multigrid::Iteration_report
-Conformal_hierarchy<CoarsestSolver>::minimize(std::size_t l, const Multigrid::Schedule& schedule,
+Conformal_hierarchy::minimize(std::size_t l, const Multigrid::Schedule& schedule,
                                               const Multigrid::Energy_stop& stop,
                                               const Observe& observe, Vector& z)
 {
@@ -332,10 +347,9 @@ Conformal_hierarchy<CoarsestSolver>::minimize(std::size_t l, const Multigrid::Sc
   return result;
 }
 
-template <class CoarsestSolver>
 template <class Observe>
 Multigrid::Iteration_report
-Conformal_hierarchy<CoarsestSolver>::minimize_without_pins(std::size_t l,
+Conformal_hierarchy::minimize_without_pins(std::size_t l,
                                                            const Multigrid::Diagonal_mass& mass,
                                                            const Multigrid::Schedule& schedule,
                                                            const Multigrid::Energy_stop& stop,

@@ -7,7 +7,7 @@
 #include <CGAL/Blocked_execution/sort_and_select.h>
 #include <CGAL/Multigrid/Matrix_builder.h>
 #include <CGAL/Indexed_mesh/Triangle_adjacency.h>
-#include <CGAL/Surface_mesh_parameterization/internal/solver/Half_cotangents.h>
+#include <CGAL/Surface_mesh_parameterization/Conformal_triangle.h>
 
 #include <algorithm>
 #include <array>

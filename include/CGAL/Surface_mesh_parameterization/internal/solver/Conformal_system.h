@@ -1,0 +1,304 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_SOLVER_CONFORMAL_SYSTEM_H
+#define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_SOLVER_CONFORMAL_SYSTEM_H
+
+#include <CGAL/Multigrid/Rayleigh_quotient.h>
+#include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
+#include <CGAL/Surface_mesh_multiresolution/Mesh_hierarchy.h>
+#include <CGAL/Surface_mesh_parameterization/internal/solver/Conformal_hierarchy.h>
+#include <CGAL/Surface_mesh_parameterization/internal/solver/Run_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <functional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_parameterization {
+namespace internal {
+
+// Decimates the mesh of a chart, whose rings are used up; pins stay.
+inline Surface_mesh_multiresolution::Progressive_mesh
+decimate(Chart& chart, const Pins& pins, const HLSCM_options& options,
+         const std::function<bool(double)>& progress)
+{
+  namespace SMM = Surface_mesh_multiresolution;
+  std::vector<bool> is_locked(chart.mesh.points.size(), false);
+  for(const Pin& pin : pins)
+    is_locked[pin.vertex] = true;
+  const std::size_t target = (std::max)(options.coarsest_size, std::size_t(3));
+  if(options.decimate)
+    return options.decimate(chart.mesh, is_locked,
+                            {target, options.angular_defect_bound, progress});
+  SMM::Flat_collapse_options decimation;
+  decimation.target_vertices = target;
+  decimation.order = options.engine == Decimation_engine::FLAT ? SMM::Collapse_order::BATCHED
+                                                               : SMM::Collapse_order::STRICT;
+  decimation.progress = progress;
+  SMM::Flat_collapse_engine<> engine(
+    chart.mesh, std::move(chart.rings), is_locked, SMM::hierarchy_collapse_cost(),
+    SMM::hierarchy_collapse_filter(options.angular_defect_bound));
+  return engine.run(decimation);
+}
+
+// The weights with which the energy is that of CGAL: eight times the area of each triangle, here in
+// the unit of the normalized chart, since squares of that of the input may not exist in single
+// precision; `Conformal_system::energy_unit` makes up for it.
+inline std::vector<double>
+cgal_triangle_weights(const Indexed_mesh::Indexed_triangle_mesh& mesh)
+{
+  std::vector<double> weights(mesh.triangles.size());
+  for(std::size_t t = 0; t < weights.size(); ++t)
+    weights[t] = 8. * conformal_triangle(mesh, t).area();
+  return weights;
+}
+
+// Half the length of the two border edges of each border vertex of a level: the integral over the
+// border of the squared map, its mass lumped to the vertices (Mullen et al. 2008, section 4, count
+// vertices, which depends on how finely the border is divided). The loops are those of the finest
+// level; coarser ones have some of their vertices, in the same order.
+inline Multigrid::Diagonal_mass
+border_mass(const Surface_mesh_multiresolution::Mesh_level& level,
+            const std::vector<std::vector<Indexed_mesh::Vertex_index>>& loops)
+{
+  std::vector<Multigrid::Diagonal_mass::Entry> entries;
+  for(const auto& loop : loops) {
+    const std::size_t first = entries.size();
+    for(const auto v : loop) {
+      const std::size_t position = level.position(v);
+      if(position < level.vertices.size() && level.vertices[position] == v)
+        entries.push_back({std::uint32_t(position), 0.});
+    }
+    for(std::size_t i = first; i < entries.size(); ++i) {
+      auto& a = entries[i];
+      auto& b = entries[i + 1 < entries.size() ? i + 1 : first];
+      const auto& points = level.mesh.points;
+      const double half = 0.5 * std::sqrt(squared_distance(points[a.row], points[b.row]));
+      a.value += half;
+      b.value += half;
+    }
+  }
+  return Multigrid::Diagonal_mass(std::move(entries));
+}
+
+// What a system has beside the operators of its levels.
+struct System_parts
+{
+  double level_ratio;    // 0 for the finest level only
+  bool has_cycle;
+  bool has_border_mass;  // for maps without pins
+  bool keeps_meshes;     // for operators that are built again, and for observers
+};
+
+inline System_parts parts_for(const HLSCM_options& options)
+{
+  const Method_profile& method = profile_of(options.method);
+  const bool is_ratio_given = method.level_ratio > 0. && options.level_ratio > 1.;
+  return {is_ratio_given ? options.level_ratio : method.level_ratio, method.has_cycle,
+          !method.has_pins, bool(options.level_observer)};
+}
+
+// The conformal energy of a chart on all levels under pins, and the way back to the chart. Methods
+// work on it and leave the map to their caller. It stays where it is.
+struct Conformal_system
+{
+  typedef std::complex<double> Complex;
+  typedef Multigrid::Complex_vector<double> Vector;
+  typedef Surface_mesh_multiresolution::Mesh_level Level;
+
+  Conformal_hierarchy hierarchy;                      // levels, their operators, the cycle
+  std::vector<std::uint32_t> source;                  // as those of the chart
+  std::vector<std::vector<Indexed_mesh::Vertex_index>> borders;
+  double scale = 1.;
+  double energy_unit = 1.;                            // the energy of `hierarchy` to that reported
+  Surface_mesh_multiresolution::Progressive_mesh progressive_mesh; // if the options keep it
+  Pins pins;
+  // If it is free, the map has no pins: then two are for the first guess, and the first of them,
+  // or both, make the preconditioner regular.
+  bool is_free = false;
+  bool needs_second_pin = false;
+  std::vector<double> face_weights;                   // of the user, if any
+  std::vector<Multigrid::Diagonal_mass> masses;       // of the borders of the levels, if asked for
+  double surface_area = 0.;                           // the same
+
+  // Builds it from a chart, which is used up, and pins that stay on all levels. The status of `run`
+  // tells whether it came to that.
+  Conformal_system(Chart chart, Pins wanted_pins, const System_parts& parts,
+                   Coarsest_solver coarsest, Run_control& run);
+
+  // Builds the operators again, for other points or weights.
+  void build_operators(Run_control& run);
+
+  // Pins in the operators what is pinned for the map; returns what that changed.
+  Conformal_hierarchy::Pin_changes update_pins() { return hierarchy.pin_only(pinned_vertices()); }
+
+  // The lengths of the meshes to those of the input.
+  void set_scale(double s)
+  {
+    scale = s;
+    energy_unit = m_has_cgal_weights ? 1. / (scale * scale) : 1.;
+  }
+
+  std::size_t finest() const { return hierarchy.number_of_levels() - 1; }
+
+  // Brings the map of level l to its place if it is free: it has no size, position or direction of
+  // its own. It gets the area of the surface, the first of the two far vertices at the origin and
+  // the second on the u axis. Returns the factor of its energy.
+  double fit_to_surface(std::size_t l, Vector& z) const;
+
+  // Shows the user the map of level l; returns whether to go on.
+  bool show(std::size_t l, const Vector& z, Run_control& run) const;
+
+private:
+  std::vector<Indexed_mesh::Vertex_index> pinned_vertices() const;
+  void build_levels(Chart& chart, Run_control& run);
+  void release_mesh(std::size_t l);
+
+  System_parts m_parts;
+  bool m_has_cgal_weights;
+};
+
+inline Conformal_system::Conformal_system(Chart chart, Pins wanted_pins, const System_parts& parts,
+                                          Coarsest_solver coarsest, Run_control& run)
+  : hierarchy(std::move(coarsest)), pins(std::move(wanted_pins))
+  , is_free(!profile_of(run.options().method).has_pins), m_parts(parts)
+  , m_has_cgal_weights(run.options().weights == Conformal_weights::CGAL_LSCM)
+{
+  set_scale(chart.scale);
+  build_levels(chart, run);
+  source = std::move(chart.source);
+  borders = std::move(chart.borders);
+  run.lap(run.report().seconds_hierarchy);
+  if(run.is_stopped())
+    return;
+  build_operators(run);
+  run.lap(run.report().seconds_operators);
+}
+
+// The mesh of the chart is moved into the finest level. There is none if the user stops it.
+inline void Conformal_system::build_levels(Chart& chart, Run_control& run)
+{
+  namespace SMM = Surface_mesh_multiresolution;
+  const HLSCM_options& options = run.options();
+  bool goes_on = true;
+  SMM::Progressive_mesh pm
+    = m_parts.level_ratio > 0.
+        ? decimate(chart, pins, options,
+                   [&](double part) { return goes_on = run.tell(phases::decimation, part); })
+        : SMM::trivial_progressive_mesh(chart.source.size());
+  chart.rings = Indexed_mesh::Vertex_rings();
+  if(goes_on) {
+    SMM::Hierarchy_options levels;
+    if(m_parts.level_ratio > 0.)
+      levels.ratio = m_parts.level_ratio;
+    levels.coarsest_size = options.coarsest_size;
+    levels.rule = options.prolongation;
+    hierarchy.set_levels(SMM::build_hierarchy(std::move(chart.mesh), pm, levels));
+  }
+  if(options.keep_progressive_mesh)
+    progressive_mesh = std::move(pm);
+  for(const Level& level : hierarchy.levels())
+    run.report().levels.push_back({level.vertices.size(), level.mesh.triangles.size(), 0, 0.});
+}
+
+inline std::vector<Indexed_mesh::Vertex_index> Conformal_system::pinned_vertices() const
+{
+  if(is_free && !needs_second_pin)
+    return {pins[0].vertex};
+  std::vector<Indexed_mesh::Vertex_index> result;
+  for(const Pin& pin : pins)
+    result.push_back(pin.vertex);
+  return result;
+}
+
+// Takes from level l what is still needed of its mesh.
+inline void Conformal_system::release_mesh(std::size_t l)
+{
+  Level& level = hierarchy.levels()[l];
+  if(m_parts.has_border_mass)
+    masses[l] = border_mass(level, borders);
+  if(m_parts.has_border_mass && l == finest())
+    for(std::size_t t = 0; t < level.mesh.triangles.size(); ++t)
+      surface_area += conformal_triangle(level.mesh, t).area();
+  if(m_parts.keeps_meshes)
+    return;
+  level.mesh.points = std::vector<Chart::Mesh::Point_3>();
+  if(l != finest()) // only the finest faces will be asked for
+    level.mesh.triangles = std::vector<Indexed_mesh::Triangle_indices>();
+}
+
+inline void Conformal_system::build_operators(Run_control& run)
+{
+  const std::size_t count = hierarchy.number_of_levels();
+  masses.resize(count);
+  surface_area = 0.;
+  std::vector<double> weights = face_weights;
+  if(weights.empty() && m_has_cgal_weights)
+    weights = cgal_triangle_weights(hierarchy.levels().back().mesh);
+  bool goes_on = true;
+  hierarchy.build_operators(std::move(weights), [&](std::size_t l) {
+    release_mesh(l);
+    return goes_on = run.tell(phases::operators, double(count - l) / double(count));
+  });
+  if(!goes_on)
+    return;
+  if(m_parts.has_cycle)
+    hierarchy.build_cycle();
+  update_pins();
+  HLSCM_report& report = run.report();
+  for(std::size_t l = 0; l < count; ++l)
+    std::tie(report.levels[l].entries, report.levels[l].bytes) = hierarchy.size_of_matrices(l);
+  report.mollified_faces = hierarchy.finest().mollified_triangles;
+  if(report.mollified_faces > 0)
+    report.warnings.push_back(std::to_string(report.mollified_faces)
+                              + " faces have no area; they were given some by mollification");
+}
+
+inline double Conformal_system::fit_to_surface(std::size_t l, Vector& z) const
+{
+  if(!is_free)
+    return 1.;
+  const Level& level = hierarchy.levels()[l];
+  double area = 0.;
+  for(const auto& t : level.mesh.triangles)
+    area += 0.5 * (std::conj(z[t[1]] - z[t[0]]) * (z[t[2]] - z[t[0]])).imag();
+  const Complex origin = z[level.position(pins[0].vertex)];
+  const Complex direction = z[level.position(pins[1].vertex)] - origin;
+  const double length = std::abs(direction);
+  const double unit = area > 0. ? std::sqrt(surface_area / area) / scale : 1.;
+  const Complex factor = unit * (length > 0. ? std::conj(direction) / length : Complex(1.));
+  for(Complex& value : z)
+    value = factor * (value - origin);
+  return std::norm(factor);
+}
+
+inline bool Conformal_system::show(std::size_t l, const Vector& z, Run_control& run) const
+{
+  if(!run.options().level_observer)
+    return !run.is_enough();
+  const Level& level = hierarchy.levels()[l];
+  std::vector<std::uint32_t> vertices;
+  for(const auto v : level.vertices)
+    vertices.push_back(source[v]);
+  Vector fitted;
+  if(is_free) {
+    fitted = z;
+    fit_to_surface(l, fitted);
+  }
+  const bool goes_on = run.options().level_observer(
+    {l, finest() + 1, &vertices, &level.mesh.triangles, is_free ? &fitted : &z});
+  run.report().stopped_early = run.report().stopped_early || (!goes_on && l < finest());
+  return !run.is_enough();
+}
+
+} // namespace internal
+} // namespace Surface_mesh_parameterization
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_SOLVER_CONFORMAL_SYSTEM_H
