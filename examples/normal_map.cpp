@@ -13,7 +13,7 @@
 #include <CGAL/Surface_mesh_texturing/bake_normal_map.h>
 #include <CGAL/Surface_mesh_texturing/encode_image.h>
 #include <CGAL/Surface_mesh_texturing/rendering_error.h>
-#include <CGAL/Surface_mesh_texturing/texture_atlas_of_mesh.h>
+#include <CGAL/Surface_mesh_texturing/build_texture_atlas.h>
 #include <CGAL/boost/graph/generators.h>
 #include <CGAL/subdivision_method_3.h>
 

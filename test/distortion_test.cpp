@@ -7,6 +7,8 @@
 #include <support/conformal_maps.h>
 #include <support/mesh_properties.h>
 
+#include <CGAL/Surface_mesh_parameterization/face_distortion.h>
+
 #include <Eigen/Dense>
 
 #include <gtest/gtest.h>
@@ -512,6 +514,90 @@ TEST(Overlap, is_a_common_area_of_two_faces)
   EXPECT_GE(overlapping, 20);
   EXPECT_GE(without_flips, 5);
   EXPECT_LE(overlapping, 80);
+}
+
+std::vector<CGAL::Simple_cartesian<double>::Point_2> points_2(const Parameters& uv)
+{
+  std::vector<CGAL::Simple_cartesian<double>::Point_2> result;
+  for(const auto& p : uv)
+    result.emplace_back(p.real(), p.imag());
+  return result;
+}
+
+// Each linear map x -> (a x + b y, c x + d y) has the same singular values on all faces.
+TEST(Face_distortion, is_that_of_a_linear_map)
+{
+  for(const double unit : {1e-160, 1., 1e160}) {
+    const Indexed_triangle_mesh mesh = scaled(plane(), unit);
+    for(const double ratio : {1., 1.5, 100.})
+      for(const double sign : {1., -1.}) {
+        std::vector<CGAL::Simple_cartesian<double>::Point_2> uv;
+        for(const auto& p : mesh.points) // turned, stretched, turned
+          uv.emplace_back(0.6 * ratio * (0.8 * p.x() - 0.6 * p.y())
+                            - 0.8 * sign * (0.6 * p.x() + 0.8 * p.y()),
+                          0.8 * ratio * (0.8 * p.x() - 0.6 * p.y())
+                            + 0.6 * sign * (0.6 * p.x() + 0.8 * p.y()));
+        const auto faces = SMP::measure_face_distortion(mesh, uv);
+        ASSERT_EQ(faces.size(), mesh.triangles.size());
+        for(const SMP::Face_distortion& face : faces) {
+          EXPECT_NEAR(face.quasi_conformal, ratio, 1e-6 * ratio);
+          EXPECT_NEAR(face.area_scale, sign * ratio, 1e-9 * ratio);
+        }
+      }
+  }
+}
+
+TEST(Face_distortion, is_infinite_for_faces_without_area)
+{
+  Indexed_triangle_mesh mesh = grid(1, 1);
+  auto uv = SMP::measure_face_distortion(mesh, {{0., 0.}, {1., 0.}, {2., 0.}, {3., 0.}});
+  for(const SMP::Face_distortion& face : uv) {
+    EXPECT_TRUE(std::isinf(face.quasi_conformal));
+    EXPECT_EQ(face.area_scale, 0.);
+  }
+  for(auto& p : mesh.points)
+    p = Indexed_triangle_mesh::Point_3(p.x(), 0., 0.);
+  uv = SMP::measure_face_distortion(mesh, {{0., 0.}, {1., 0.}, {0., 1.}, {1., 1.}});
+  for(const SMP::Face_distortion& face : uv)
+    EXPECT_TRUE(std::isinf(face.quasi_conformal) && std::isinf(face.area_scale));
+  mesh.triangles[1][2] = 4;
+  EXPECT_TRUE(SMP::measure_face_distortion(mesh, {{0., 0.}, {1., 0.}, {0., 1.}, {1., 1.}}).empty());
+  EXPECT_TRUE(SMP::measure_face_distortion(grid(1, 1), {{0., 0.}}).empty());
+}
+
+// A map of faces, by parameters of vertices or halfedges, whose extremes are those of all faces.
+TEST(Face_distortion, is_a_map_of_the_faces_of_any_mesh)
+{
+  const Indexed_triangle_mesh arrays = with_hills(grid(9, 7), 1., 3);
+  Surface_mesh mesh = to_surface_mesh(arrays);
+  Parameters uv;
+  for(const auto& p : arrays.points)
+    uv.emplace_back(p.x(), p.y());
+  const auto of_vertices = to_uv_map(mesh, uv);
+  typedef boost::property_traits<decltype(of_vertices)>::value_type Point_2;
+  const auto of_halfedges
+    = mesh.add_property_map<Surface_mesh::Halfedge_index, Point_2>("h:uv").first;
+  for(const auto h : halfedges(mesh))
+    of_halfedges[h] = get(of_vertices, target(h, mesh));
+  const auto a
+    = mesh.add_property_map<Surface_mesh::Face_index, SMP::Face_distortion>("f:a").first;
+  const auto b
+    = mesh.add_property_map<Surface_mesh::Face_index, SMP::Face_distortion>("f:b").first;
+  ASSERT_TRUE(SMP::measure_face_distortion(mesh, of_vertices, a));
+  ASSERT_TRUE(SMP::measure_face_distortion(mesh, of_halfedges, b));
+  const auto expected = SMP::measure_face_distortion(arrays, points_2(uv));
+  double worst = 1., smallest = 1e9, largest = 0.;
+  for(const auto f : faces(mesh)) {
+    EXPECT_EQ(a[f].quasi_conformal, b[f].quasi_conformal);
+    EXPECT_EQ(a[f].area_scale, b[f].area_scale);
+    EXPECT_NEAR(a[f].quasi_conformal, expected[std::size_t(f)].quasi_conformal, 1e-9);
+    worst = (std::max)(worst, a[f].quasi_conformal);
+    smallest = (std::min)(smallest, a[f].area_scale);
+    largest = (std::max)(largest, a[f].area_scale);
+  }
+  const Distortion_measures all = measure(arrays, uv);
+  EXPECT_NEAR(worst, all.quasi_conformal_max, 1e-9 * worst);
+  EXPECT_NEAR(largest / smallest, all.area_scale_range, 1e-9 * all.area_scale_range);
 }
 
 } // namespace distortion_test

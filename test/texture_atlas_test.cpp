@@ -8,7 +8,7 @@
 #include <support/texture_atlas_properties.h>
 
 #include <CGAL/Polyhedron_3.h>
-#include <CGAL/Surface_mesh_texturing/texture_atlas_of_mesh.h>
+#include <CGAL/Surface_mesh_texturing/build_texture_atlas.h>
 #include <CGAL/boost/graph/copy_face_graph.h>
 
 #include <gtest/gtest.h>
@@ -77,10 +77,12 @@ TEST(Texture_atlas, is_one_to_one_by_least_squares_too)
 {
   const Indexed_triangle_mesh mesh = with_noise(torus(40, 20), 0.02, seed);
   SMT::Texture_atlas_options options = small_texture();
-  options.method = CGAL::Surface_mesh_parameterization::Conformal_method::HLSCM;
-  for(const std::size_t direct_faces : {std::size_t(0), options.direct_faces}) {
-    options.direct_faces = direct_faces;
-    const SMT::Texture_atlas_result result = SMT::build_texture_atlas(mesh, options);
+  SMT::Conformal_chart_parameterizer parameterizer;
+  parameterizer.solver.method = CGAL::Surface_mesh_parameterization::Conformal_method::HLSCM;
+  for(const std::size_t direct_faces : {std::size_t(0), parameterizer.direct_faces}) {
+    parameterizer.direct_faces = direct_faces;
+    const SMT::Texture_atlas_result result
+      = SMT::build_texture_atlas(mesh, options, CGAL::Default(), parameterizer);
     ASSERT_EQ(result.error, "") << direct_faces;
     EXPECT_EQ(error_in_atlas(mesh, result.atlas), "") << direct_faces << seed_text;
     for(const SMT::Chart_report& chart : result.report.charts)
@@ -174,12 +176,12 @@ TEST(Texture_atlas, keeps_the_charts_of_the_user)
   std::vector<std::uint32_t> label(mesh.triangles.size());
   for(std::size_t t = 0; t < label.size(); ++t)
     label[t] = mesh.points[mesh.triangles[t][0]].x() < 10. ? 7 : 3;
-  SMT::Texture_atlas_options options = small_texture();
-  options.charts = SMT::charts_of_labels(mesh.triangles, label);
-  const SMT::Texture_atlas_result result = SMT::build_texture_atlas(mesh, options);
+  const SMT::Face_charts charts = SMT::charts_of_labels(mesh.triangles, label);
+  const SMT::Texture_atlas_result result
+    = SMT::build_texture_atlas(mesh, small_texture(), SMT::Given_charts_segmenter(charts));
   ASSERT_EQ(result.error, "");
-  EXPECT_EQ(result.atlas.charts.chart, options.charts->chart);
-  EXPECT_EQ(result.atlas.charts.seams, options.charts->seams);
+  EXPECT_EQ(result.atlas.charts.chart, charts.chart);
+  EXPECT_EQ(result.atlas.charts.seams, charts.seams);
   EXPECT_EQ(error_in_atlas(mesh, result.atlas), "");
 }
 
@@ -188,10 +190,10 @@ TEST(Texture_atlas, cuts_charts_of_the_user_that_are_no_disks)
   for(const auto& [name, mesh] : {Named_mesh{"cylinder", cylinder(24, 12)},
                                   Named_mesh{"sphere", sphere(3)},
                                   Named_mesh{"torus", torus(24, 12)}}) {
-    SMT::Texture_atlas_options options = small_texture();
-    options.charts
-      = SMT::charts_of_labels(mesh.triangles, std::vector<std::uint32_t>(mesh.triangles.size(), 0));
-    const SMT::Texture_atlas_result result = SMT::build_texture_atlas(mesh, options);
+    const SMT::Given_charts_segmenter one_chart(
+      SMT::charts_of_labels(mesh.triangles, std::vector<std::uint32_t>(mesh.triangles.size(), 0)));
+    const SMT::Texture_atlas_result result
+      = SMT::build_texture_atlas(mesh, small_texture(), one_chart);
     ASSERT_EQ(result.error, "") << name;
     EXPECT_EQ(error_in_atlas(mesh, result.atlas), "") << name;
   }
@@ -280,12 +282,13 @@ TEST(Texture_atlas, max_charts_has_precedence_over_the_bound)
 TEST(Texture_atlas, says_what_is_wrong_with_a_mesh)
 {
   const auto expect_error = [](const Indexed_triangle_mesh& mesh, const std::string& words) {
-    SMT::Texture_atlas_options options = small_texture();
+    const SMT::Texture_atlas_options options = small_texture();
     EXPECT_NE(SMT::build_texture_atlas(mesh, options).error.find(words), std::string::npos);
-    options.charts.emplace(); // one, which is looked at only if the mesh is well
-    options.charts->chart.assign(mesh.triangles.size(), 0);
-    options.charts->seams.assign(mesh.triangles.size(), 0);
-    EXPECT_NE(SMT::build_texture_atlas(mesh, options).error.find(words), std::string::npos);
+    SMT::Face_charts one; // which is looked at only if the mesh is well
+    one.chart.assign(mesh.triangles.size(), 0);
+    one.seams.assign(mesh.triangles.size(), 0);
+    EXPECT_NE(SMT::build_texture_atlas(mesh, options, SMT::Given_charts_segmenter(one))
+                .error.find(words), std::string::npos);
   };
   expect_error({}, "no triangles");
   Indexed_triangle_mesh isolated = grid(3, 3);

@@ -6,10 +6,8 @@
 \cgalConcept
 
 The concept `ChartPacker` describes a function object that lays charts side by side on pages, for
-`CGAL::Surface_mesh_texturing::pack_charts()`, which checks what it gives to it and measures what
-it gets from it.
-
-\cgalRefines{DefaultConstructible}
+`CGAL::Surface_mesh_texturing::pack_charts()` and `build_texture_atlas()`, which check what they give
+to it and measure what they get from it.
 
 \cgalHasModel{CGAL::Surface_mesh_texturing::Raster_packer}
 \cgalHasModel{CGAL::Surface_mesh_texturing::Horizon_packer}

@@ -8,6 +8,7 @@
 #include "common/Program_error.h"
 #include "reading/Surface_reading.h"
 
+#include <CGAL/Surface_mesh_texturing/Horizon_packer.h>
 #include <CGAL/Surface_mesh_texturing/build_texture_atlas.h>
 
 #include <utility>
@@ -16,15 +17,46 @@ namespace hlscm {
 
 namespace SMT = CGAL::Surface_mesh_texturing;
 
+namespace {
+
+typedef CGAL::Indexed_mesh::Indexed_triangle_mesh Indexed_triangle_mesh;
+
+template <class Segmenter, class Parameterizer>
+SMT::Texture_atlas_result build(const Indexed_triangle_mesh& mesh,
+                                const SMT::Texture_atlas_options& library,
+                                const Segmenter& segmenter, const Parameterizer& parameterizer,
+                                Packer packer)
+{
+  return packer == Packer::HORIZON
+             ? SMT::build_texture_atlas(mesh, library, segmenter, parameterizer,
+                                        SMT::Horizon_packer())
+             : SMT::build_texture_atlas(mesh, library, segmenter, parameterizer,
+                                        SMT::Raster_packer());
+}
+
+template <class Segmenter>
+SMT::Texture_atlas_result build(const Indexed_triangle_mesh& mesh,
+                                const SMT::Texture_atlas_options& library,
+                                const Segmenter& segmenter, const Atlas_settings& settings)
+{
+  if(!settings.method) {
+    return build(mesh, library, segmenter, SMT::Border_first_chart_parameterizer(),
+                 settings.packer);
+  }
+  SMT::Conformal_chart_parameterizer parameterizer;
+  parameterizer.solver.method = *settings.method;
+  return build(mesh, library, segmenter, parameterizer, settings.packer);
+}
+
+} // namespace
+
 Built_atlas build_atlas(const Polygon_soup& surface, const Program_options& options,
                         Progress_bar& progress)
 {
   SMT::Texture_atlas_options library;
   library.bound = options.atlas.bound;
   library.max_charts = options.atlas.max_charts;
-  library.charts = given_charts(surface, options);
-  library.method = options.atlas.method;
-  library.packer = options.atlas.packer;
+  const auto charts = given_charts(surface, options);
   library.packing.time_budget = options.atlas.packing_time;
   library.packing.width = library.packing.height = options.atlas.texture;
   library.packing.padding = options.atlas.padding;
@@ -33,7 +65,10 @@ Built_atlas build_atlas(const Polygon_soup& surface, const Program_options& opti
   library.progress = [&progress](double part) { return progress.try_advance(part); };
   progress.start_stage("atlas");
   const CGAL::Blocked_execution::Thread_scope threads(options.library.threads);
-  SMT::Texture_atlas_result result = SMT::build_texture_atlas(to_indexed(surface), library);
+  const Indexed_triangle_mesh mesh = to_indexed(surface);
+  SMT::Texture_atlas_result result
+      = charts ? build(mesh, library, SMT::Given_charts_segmenter(*charts), options.atlas)
+               : build(mesh, library, SMT::Chart_growth_segmenter(), options.atlas);
   Interruption::check();
   if(!result.error.empty()) {
     throw Program_error(options.input, result.error);

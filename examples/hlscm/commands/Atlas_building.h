@@ -9,7 +9,6 @@
 #include "common/Progress_bar.h"
 
 #include <CGAL/Surface_mesh_texturing/Texture_atlas.h>
-#include <CGAL/Surface_mesh_texturing/Texture_atlas_report.h>
 
 namespace hlscm {
 

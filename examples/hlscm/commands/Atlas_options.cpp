@@ -8,7 +8,6 @@
 namespace hlscm {
 
 namespace SMP = CGAL::Surface_mesh_parameterization;
-namespace SMT = CGAL::Surface_mesh_texturing;
 
 namespace {
 
@@ -39,9 +38,8 @@ void add_atlas_options(CLI::App& app, Program_options& o)
                "one chart for each part of the surface, cut to a disk where it is none");
   add_count(app, "--pages", std::size_t(1), std::size_t(1000), atlas.pages,
             "textures at most (default 1)");
-  add_choice<SMT::Atlas_packer>(
-      app, "--packer",
-      {{"raster", SMT::Atlas_packer::RASTER}, {"horizon", SMT::Atlas_packer::HORIZON}}, atlas.packer,
+  add_choice<Packer>(
+      app, "--packer", {{"raster", Packer::RASTER}, {"horizon", Packer::HORIZON}}, atlas.packer,
       "raster: charts in any gap where they fit; horizon: from below, as in 2002 (default raster)");
   add_number(app, "--packing-time", 0, 1e6, atlas.packing_time,
              "seconds to look for a better packing, on a usual machine (default none)");

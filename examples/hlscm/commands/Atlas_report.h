@@ -7,7 +7,7 @@
 #include "common/Program_options.h"
 
 #include <CGAL/Surface_mesh_multiresolution/texture_deviation.h>
-#include <CGAL/Surface_mesh_texturing/Texture_atlas_report.h>
+#include <CGAL/Surface_mesh_texturing/Texture_atlas.h>
 
 #include <cstddef>
 #include <optional>

@@ -5,7 +5,6 @@
 #define HLSCM_PROGRAM_PROGRAM_OPTIONS_H
 
 #include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
-#include <CGAL/Surface_mesh_texturing/Atlas_packer.h>
 #include <CGAL/Surface_mesh_texturing/Chart_distortion.h>
 
 #include <cstddef>
@@ -37,6 +36,9 @@ struct Length
   bool is_relative;
 };
 
+/// What packs an atlas.
+enum class Packer { RASTER, HORIZON };
+
 /// Of `atlas` and `bake`.
 struct Atlas_settings
 {
@@ -49,8 +51,8 @@ struct Atlas_settings
   bool is_one_disk = false;   ///< one chart for each connected component
   std::size_t pages = 1;      ///< at most
   double packing_time = 0;    ///< seconds for better packings
-  CGAL::Surface_mesh_texturing::Atlas_packer packer
-      = CGAL::Surface_mesh_texturing::Atlas_packer::RASTER;
+  Packer packer = Packer::RASTER;
+  /// Of `Conformal_chart_parameterizer`; none: `Border_first_chart_parameterizer`
   std::optional<CGAL::Surface_mesh_parameterization::Conformal_method> method;
   bool writes_ply = false;
 };

@@ -39,6 +39,8 @@ struct Baking_options
   std::size_t dilation = unlimited_dilation;
   /// Of the vectors of normal maps.
   Normal_space space = Normal_space::TANGENT;
+  /// Threads with `Parallel_tag`; 0 for all that the machine has. The result does not depend on it.
+  unsigned int threads = 0;
   /// Told the part done in [0, 1] from time to time; returning false stops early.
   std::function<bool(double)> progress;
 };

@@ -6,6 +6,7 @@
 
 #include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -34,6 +35,13 @@ inline Vector_3 interpolate(const std::array<double, 3>& weights, const Triangle
 }
 
 namespace internal {
+
+inline bool indices_are_below(const std::vector<Triangle_indices>& triangles, std::size_t bound)
+{
+  return std::all_of(triangles.begin(), triangles.end(), [bound](const Triangle_indices& t) {
+    return t[0] < bound && t[1] < bound && t[2] < bound;
+  });
+}
 
 // The unit vector, or the zero vector if there is none.
 inline Vector_3 normalized(const Vector_3& v)

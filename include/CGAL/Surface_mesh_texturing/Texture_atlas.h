@@ -5,10 +5,15 @@
 #define CGAL_SURFACE_MESH_TEXTURING_TEXTURE_ATLAS_H
 
 #include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
+#include <CGAL/Surface_mesh_parameterization/Distortion_measures.h>
+#include <CGAL/Surface_mesh_texturing/Chart_distortion.h>
+#include <CGAL/Surface_mesh_texturing/Chart_packing.h>
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <string>
 #include <vector>
 
 namespace CGAL {
@@ -16,6 +21,37 @@ namespace Surface_mesh_texturing {
 
 using Surface_mesh_multiresolution::Textured_triangle_mesh;
 using Surface_mesh_multiresolution::vertices_of_wedges;
+
+/// \ingroup PkgHLSCMTexturing
+/// The options of `build_texture_atlas()`. How charts are found, mapped and packed is the matter of
+/// its models of `ChartSegmenter`, `ChartParameterizer` and `ChartPacker`.
+struct Texture_atlas_options
+{
+  /// How far charts may be distorted, if the segmenter wants them within a bound.
+  Distortion_bound bound;
+  /// The number of charts to come down to, beyond the bound on distortion if need be; 0 for as few
+  /// as the bound allows. There are more only where a map would not be one-to-one otherwise, and of
+  /// a surface with more components.
+  std::size_t max_charts = 0;
+  /// The part of its convex hull in the plane that a chart fills at least, as far as charts can be
+  /// told apart: less means fewer charts, and more of the texture left empty.
+  double least_fill = 0.75;
+  /// Triangles of the level on which the charts are found.
+  std::size_t coarse_faces = 4000;
+  /// Meshes of more than four times as many triangles are made coarser to about so many first; the
+  /// charts are found, mapped and, where need be, cut again there, since few of them then have to
+  /// be cut again on the fine mesh.
+  std::size_t trial_faces = 60000;
+  /// For each triangle the texels that it is to have along a unit of length, relative to others; a
+  /// chart gets the mean over its area. Empty for equal texel density.
+  std::vector<float> density;
+  /// The textures, and how charts are placed in them.
+  Packing_options packing;
+  /// Threads with `Parallel_tag`; 0 for all that the machine has. The result does not depend on it.
+  unsigned int threads = 0;
+  /// Told the part done in [0, 1] from time to time; returning `false` cancels.
+  std::function<bool(double)> progress;
+};
 
 /*!
 \ingroup PkgHLSCMTexturing
@@ -34,6 +70,49 @@ struct Texture_atlas
   std::size_t number_of_pages = 0; ///< textures
   std::size_t width = 0;           ///< of a page, in texels
   std::size_t height = 0;          ///< of a page, in texels
+};
+
+/// \ingroup PkgHLSCMTexturing
+/// What became of one chart.
+struct Chart_report
+{
+  std::size_t faces = 0;         ///< its triangles
+  double border_length = 0.;     ///< of its border and of the seams within it, in units of the mesh
+  Chart_distortion distortion;   ///< of its map
+  std::size_t repaired_flips = 0;///< triangles that were flipped before its map was repaired
+  bool is_one_to_one = true;     ///< whether its map is one-to-one, by exact predicates
+  std::size_t page = 0;          ///< its texture
+};
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+What `build_texture_atlas()` did, and what came of it.
+*/
+struct Texture_atlas_report
+{
+  std::vector<Chart_report> charts; ///< of each chart
+  /// Charts of the first segmentation that failed on the fine mesh and were cut again.
+  std::size_t recut_charts = 0;
+  double seam_length = 0.;     ///< of all seams, each once, without the border of the surface
+  /// Of the whole atlas, in texels to units of length: so `area_scale_range` compares charts too.
+  Surface_mesh_parameterization::Distortion_measures distortion;
+  double texels_per_unit = 0.; ///< mean texels along a unit of length of the mesh
+  double utilisation = 0.;     ///< area of all triangles to that of the pages
+  double seconds_segment = 0.; ///< time of the segmentation
+  double seconds_map = 0.;     ///< time of the maps, their validation, and of cutting charts again
+  double seconds_pack = 0.;    ///< time of the packing
+  double seconds_total = 0.;   ///< time of all
+  bool cancelled = false;      ///< whether the progress function said stop
+};
+
+/// \ingroup PkgHLSCMTexturing
+/// What `build_texture_atlas()` returns.
+struct Texture_atlas_result
+{
+  Texture_atlas atlas;         ///< empty if there is an error or it was cancelled
+  Texture_atlas_report report; ///< what was done
+  std::string error;           ///< why there is no atlas, as a sentence; empty if all is well
 };
 
 } // namespace Surface_mesh_texturing

@@ -37,7 +37,8 @@ centre to centre) with the value of the nearest one. Linear time.
 inline void dilate(Baked_map& map, std::size_t dilation = unlimited_dilation)
 {
   Texture_image& image = map.image;
-  if(dilation == 0 || map.number_of_covered_texels == 0)
+  if(dilation == 0 || map.number_of_covered_texels == 0
+     || map.is_covered.size() != image.width * image.height)
     return;
   const internal::Nearest_covered nearest(image.width, image.height, [&map](std::size_t i) {
     return bool(map.is_covered[i]);
@@ -157,8 +158,7 @@ says which point of the fine surface it shows, and `shader` what is to be seen t
 \tparam Shader a model of `BakingShader`
 
 The result does not depend on the number of threads. Linear time beside that of `correspondence`.
-
-\pre `light` and `options` have no error in the sense of `bake_normal_map()`.
+Errors are those of `bake_normal_map()` for `light` and `options`.
 */
 template <class Correspondence, class Shader>
 Baked_map bake(const Textured_triangle_mesh& light, const Correspondence& correspondence,
@@ -167,6 +167,9 @@ Baked_map bake(const Textured_triangle_mesh& light, const Correspondence& corres
   typedef internal::Band_baker<Correspondence, Shader> Baker;
   const std::size_t texel_rows = 8, bands_between_progress = 16;
   Baked_map map;
+  map.error = internal::light_error(light, options);
+  if(!map.error.empty())
+    return map;
   map.image = {options.width, options.height, shader.channels(), {}};
   map.image.texels.assign(options.width * options.height * shader.channels(), 0.f);
   const internal::Uv_rasterizer raster(light.uv, light.wedges, options.width * options.samples,

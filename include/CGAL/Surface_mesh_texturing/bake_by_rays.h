@@ -7,9 +7,9 @@
 #include <CGAL/Surface_mesh_texturing/Along_rays.h>
 #include <CGAL/Surface_mesh_texturing/bake_normal_map.h>
 #include <CGAL/Surface_mesh_texturing/internal/baking/Bounding_ball.h>
+#include <CGAL/Surface_mesh_texturing/internal/mesh_of_graph.h>
 
-#include <CGAL/assertions.h>
-
+#include <cmath>
 #include <vector>
 
 namespace CGAL {
@@ -34,9 +34,8 @@ find none count for nothing; `Baked_map::number_of_samples_without` tells how ma
 
 \tparam RayCaster_ a model of `RayCaster`
 
-Errors are those of `bake_normal_map()` and of the ray caster. Linear time beside that of the rays.
-
-\pre there is a normal for each vertex of the fine surface; `frames` are those of `light`.
+There is a normal for each vertex of the fine surface, and `frames` are those of `light`. Errors are
+those of `bake_normal_map()` and of the ray caster. Linear time beside that of the rays.
 */
 template <class RayCaster_>
 Baked_map bake_normal_map_by_rays(const Indexed_triangle_mesh& fine,
@@ -45,10 +44,15 @@ Baked_map bake_normal_map_by_rays(const Indexed_triangle_mesh& fine,
                                   const Tangent_frames& frames,
                                   const Baking_by_rays_options& options = Baking_by_rays_options())
 {
-  CGAL_precondition(fine_normals.size() == fine.points.size());
-  CGAL_precondition(frames.normals.size() == light.points.size());
   Baked_map result;
   result.error = internal::ray_baking_error(fine, light, options);
+  if(result.error.empty())
+    result.error = internal::size_error(fine_normals.size(), fine.points.size(),
+                                        "normals of the fine mesh");
+  if(result.error.empty())
+    result.error = internal::frame_error(frames, light);
+  if(result.error.empty() && !(options.max_distance > 0. && std::isfinite(options.max_distance)))
+    result.error = "the distance that rays go is not a positive number";
   if(!result.error.empty())
     return result;
   const RayCaster_ caster(fine.points, fine.triangles);
@@ -78,6 +82,43 @@ Baked_map bake_normal_map_by_rays(const Indexed_triangle_mesh& fine,
   return bake_normal_map_by_rays<RayCaster_>(fine, vertex_normals(fine.points, fine.triangles),
                                             light, tangent_frames(light, vertex_normals(light)),
                                             options);
+}
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+Bakes the normals of the fine surface, which needs no texture, into
+a texture of `light`, with meshes of any types: see the other overloads.
+
+\tparam ConcurrencyTag `Sequential_tag`, or `Parallel_tag` for `options.threads` threads, or
+        `Default` for the threads of the caller's `Blocked_execution::Thread_scope`
+\tparam FineMesh a model of `FaceListGraph`
+\tparam LightMesh a model of `FaceListGraph`
+\param light_uv a model of `ReadablePropertyMap` with a point with two coordinates as value, and with
+       the halfedge descriptor as key, for the corner at its target, or the vertex descriptor
+\param np_fine optional named parameters of the fine mesh: `vertex_point_map`
+\param np_light the same of the light model
+*/
+template <class RayCaster_, class ConcurrencyTag = Default, class FineMesh, class LightMesh, class LightUVMap,
+          class NamedParameters_fine = parameters::Default_named_parameters,
+          class NamedParameters_light = parameters::Default_named_parameters,
+          class = typename boost::property_traits<LightUVMap>::key_type>
+Baked_map bake_normal_map_by_rays(const FineMesh& fine,
+                                  const LightMesh& light, LightUVMap light_uv,
+                                  const Baking_by_rays_options& options = Baking_by_rays_options(),
+                                  const NamedParameters_fine& np_fine = parameters::default_values(),
+                                  const NamedParameters_light& np_light = parameters::default_values())
+{
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
+  Baked_map result;
+  result.error = internal::polygon_error(fine, "the fine mesh");
+  if(result.error.empty())
+    result.error = internal::polygon_error(light, "the light model");
+  if(!result.error.empty())
+    return result;
+  return bake_normal_map_by_rays<RayCaster_>(
+    internal::arrays_of_graph(fine, np_fine),
+    internal::textured_arrays_of_graph(light, light_uv, np_light), options);
 }
 
 } // namespace Surface_mesh_texturing

@@ -6,9 +6,8 @@
 
 #include <CGAL/Surface_mesh_texturing/Equal_uv.h>
 #include <CGAL/Surface_mesh_texturing/bake.h>
+#include <CGAL/Surface_mesh_texturing/internal/mesh_of_graph.h>
 #include <CGAL/Surface_mesh_texturing/Texture_image.h>
-
-#include <CGAL/assertions.h>
 
 #include <vector>
 
@@ -88,19 +87,21 @@ private:
 \ingroup PkgHLSCMTexturing
 
 Bakes values of the vertices of `fine`, their colours for example, into a texture of `light`, which
-shares its atlas. Means are those of the numbers: colours in sRGB stay in sRGB. Errors and time are
-those of `bake_normal_map()`.
-
-\pre `values` has `channels` numbers for each vertex of `fine`.
+shares its atlas. Means are those of the numbers: colours in sRGB stay in sRGB. `values` has
+`channels` numbers for each vertex of `fine`. Errors and time are those of `bake_normal_map()`.
 */
 inline Baked_map bake_vertex_colors(const Textured_triangle_mesh& fine,
                                     const std::vector<float>& values, std::size_t channels,
                                     const Textured_triangle_mesh& light,
                                     const Baking_options& options = Baking_options())
 {
-  CGAL_precondition(values.size() == channels * fine.points.size());
   Baked_map result;
   result.error = internal::baking_error(fine, light, options);
+  if(result.error.empty() && channels == 0)
+    result.error = "the vertices have no values";
+  if(result.error.empty())
+    result.error = internal::size_error(values.size(), channels * fine.points.size(),
+                                        "values of the vertices of the fine mesh");
   if(!result.error.empty())
     return result;
   return bake(light, Equal_uv(fine, light, options),
@@ -113,24 +114,71 @@ inline Baked_map bake_vertex_colors(const Textured_triangle_mesh& fine,
 Bakes an image that `fine` has had before its atlas into a texture of `light`, which shares the
 atlas: `former` has the triangles of `fine` in the same order, with their coordinates in `image`.
 Errors and time are those of `bake_normal_map()`.
-
-\pre `former` has as many triangles as `fine`.
 */
 inline Baked_map bake_image(const Textured_triangle_mesh& fine,
                             const Textured_triangle_mesh& former, const Texture_image& image,
                             const Textured_triangle_mesh& light,
                             const Baking_options& options = Baking_options())
 {
-  CGAL_precondition(former.wedges.size() == fine.wedges.size());
   Baked_map result;
   result.error = internal::baking_error(fine, light, options);
-  if(result.error.empty() && (image.width == 0 || image.height == 0))
-    result.error = "the former image has no texels";
+  if(result.error.empty())
+    result.error = internal::image_error(image, "the former image");
+  if(result.error.empty())
+    result.error = internal::size_error(former.wedges.size(), fine.triangles.size(),
+                                        "triangles of the former texture");
   if(result.error.empty())
     result.error = texture_error(former, "the former texture");
   if(!result.error.empty())
     return result;
   return bake(light, Equal_uv(fine, light, options), Image_shader(former, image), options);
+}
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+Bakes values of the vertices of `fine`, such as colours, into a texture of `light`, which
+shares its atlas, with meshes of any types: see the other overloads.
+
+\tparam ConcurrencyTag `Sequential_tag`, or `Parallel_tag` for `options.threads` threads, or
+        `Default` for the threads of the caller's `Blocked_execution::Thread_scope`
+\tparam FineMesh a model of `FaceListGraph`
+\tparam LightMesh a model of `FaceListGraph`
+\param fine_uv a model of `ReadablePropertyMap` with a point with two coordinates as value, and with
+       the halfedge descriptor as key, for the corner at its target, or the vertex descriptor
+\param light_uv the same for the light model
+\param values a model of `ReadablePropertyMap` with the vertex descriptor as key; `value[c]` is number c
+       of a value, as for `std::array` and `IO::Color`
+\param channels the numbers of a value
+\param np_fine optional named parameters of the fine mesh: `vertex_point_map`
+\param np_light the same of the light model
+*/
+template <class ConcurrencyTag = Default, class FineMesh, class FineUVMap, class FineValueMap, class LightMesh, class LightUVMap,
+          class NamedParameters_fine = parameters::Default_named_parameters,
+          class NamedParameters_light = parameters::Default_named_parameters,
+          class = typename boost::property_traits<FineUVMap>::key_type>
+Baked_map bake_vertex_colors(const FineMesh& fine, FineUVMap fine_uv,
+                             FineValueMap values, std::size_t channels,
+                             const LightMesh& light, LightUVMap light_uv,
+                             const Baking_options& options = Baking_options(),
+                             const NamedParameters_fine& np_fine = parameters::default_values(),
+                             const NamedParameters_light& np_light = parameters::default_values())
+{
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
+  Baked_map result;
+  result.error = internal::polygon_error(fine, "the fine mesh");
+  if(result.error.empty())
+    result.error = internal::polygon_error(light, "the light model");
+  if(!result.error.empty())
+    return result;
+  std::vector<float> arrays;
+  for(const auto v : vertices(fine)) {
+    const auto& value = get(values, v);
+    for(std::size_t c = 0; c < channels; ++c)
+      arrays.push_back(float(to_double(value[c])));
+  }
+  return bake_vertex_colors(internal::textured_arrays_of_graph(fine, fine_uv, np_fine), arrays, channels,
+                            internal::textured_arrays_of_graph(light, light_uv, np_light), options);
 }
 
 } // namespace Surface_mesh_texturing

@@ -6,9 +6,8 @@
 
 #include <CGAL/Surface_mesh_texturing/Equal_uv.h>
 #include <CGAL/Surface_mesh_texturing/bake.h>
+#include <CGAL/Surface_mesh_texturing/internal/mesh_of_graph.h>
 #include <CGAL/Surface_mesh_texturing/vertex_normals.h>
-
-#include <CGAL/assertions.h>
 
 #include <algorithm>
 #include <vector>
@@ -72,18 +71,19 @@ struct Baked_displacement
 \ingroup PkgHLSCMTexturing
 
 Bakes how far `fine` lies above `light`, which shares its atlas, at equal texture coordinates; see
-`Displacement_shader`. Errors and time are those of `bake_normal_map()`.
-
-\pre `normals` has a vector for each vertex of `light`.
+`Displacement_shader`. `normals` has a vector for each vertex of `light`. Errors and time are those of
+`bake_normal_map()`.
 */
 inline Baked_displacement bake_displacement(const Textured_triangle_mesh& fine,
                                             const Textured_triangle_mesh& light,
                                             const std::vector<Vector_3>& normals,
                                             const Baking_options& options = Baking_options())
 {
-  CGAL_precondition(normals.size() == light.points.size());
   Baked_displacement result;
   result.map.error = internal::baking_error(fine, light, options);
+  if(result.map.error.empty())
+    result.map.error = internal::size_error(normals.size(), light.points.size(),
+                                            "normals of the light model");
   if(!result.map.error.empty())
     return result;
   result.map = bake(light, Equal_uv(fine, light, options),
@@ -110,6 +110,42 @@ inline Baked_displacement bake_displacement(const Textured_triangle_mesh& fine,
   result.map.error = internal::baking_error(fine, light, options);
   return result.map.error.empty() ? bake_displacement(fine, light, vertex_normals(light), options)
                                   : result;
+}
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+Bakes how far `fine` lies above `light`, which shares its atlas, with meshes of any types: see the other overloads.
+
+\tparam ConcurrencyTag `Sequential_tag`, or `Parallel_tag` for `options.threads` threads, or
+        `Default` for the threads of the caller's `Blocked_execution::Thread_scope`
+\tparam FineMesh a model of `FaceListGraph`
+\tparam LightMesh a model of `FaceListGraph`
+\param fine_uv a model of `ReadablePropertyMap` with a point with two coordinates as value, and with
+       the halfedge descriptor as key, for the corner at its target, or the vertex descriptor
+\param light_uv the same for the light model
+\param np_fine optional named parameters of the fine mesh: `vertex_point_map`
+\param np_light the same of the light model
+*/
+template <class ConcurrencyTag = Default, class FineMesh, class FineUVMap, class LightMesh, class LightUVMap,
+          class NamedParameters_fine = parameters::Default_named_parameters,
+          class NamedParameters_light = parameters::Default_named_parameters,
+          class = typename boost::property_traits<FineUVMap>::key_type>
+Baked_displacement bake_displacement(const FineMesh& fine, FineUVMap fine_uv,
+                                     const LightMesh& light, LightUVMap light_uv,
+                                     const Baking_options& options = Baking_options(),
+                                     const NamedParameters_fine& np_fine = parameters::default_values(),
+                                     const NamedParameters_light& np_light = parameters::default_values())
+{
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
+  Baked_displacement result;
+  result.map.error = internal::polygon_error(fine, "the fine mesh");
+  if(result.map.error.empty())
+    result.map.error = internal::polygon_error(light, "the light model");
+  if(!result.map.error.empty())
+    return result;
+  return bake_displacement(internal::textured_arrays_of_graph(fine, fine_uv, np_fine),
+                           internal::textured_arrays_of_graph(light, light_uv, np_light), options);
 }
 
 } // namespace Surface_mesh_texturing

@@ -6,10 +6,9 @@
 
 #include <CGAL/Surface_mesh_texturing/Equal_uv.h>
 #include <CGAL/Surface_mesh_texturing/bake.h>
+#include <CGAL/Surface_mesh_texturing/internal/mesh_of_graph.h>
 #include <CGAL/Surface_mesh_texturing/tangent_frames.h>
 #include <CGAL/Surface_mesh_texturing/vertex_normals.h>
-
-#include <CGAL/assertions.h>
 
 #include <array>
 #include <cmath>
@@ -120,21 +119,22 @@ of `light`, which a renderer must use in the same way. The texels are unit vecto
 
 `light` is a level of detail, for example, of `build_textured_progressive_mesh()`.
 
-Bad data (no triangles, coordinates that are not finite, an image without texels) give a result with
-`error` set. Linear time.
-
-\pre `normals` has a vector for each vertex of `fine`, `frames` those of `light`.
+`normals` has a vector for each vertex of `fine`, `frames` are those of `light`. Bad data (no
+triangles, indices out of range, coordinates that are not finite, arrays of another length, an image
+without texels) give a result with `error` set. Linear time.
 */
 inline Baked_map bake_normal_map(const Textured_triangle_mesh& fine,
                                  const std::vector<Vector_3>& normals,
                                  const Textured_triangle_mesh& light, const Tangent_frames& frames,
                                  const Baking_options& options = Baking_options())
 {
-  CGAL_precondition(normals.size() == fine.points.size());
-  CGAL_precondition(frames.normals.size() == light.points.size());
-  CGAL_precondition(frames.corners.size() == light.triangles.size());
   Baked_map result;
   result.error = internal::baking_error(fine, light, options);
+  if(result.error.empty())
+    result.error = internal::size_error(normals.size(), fine.points.size(),
+                                        "normals of the fine mesh");
+  if(result.error.empty())
+    result.error = internal::frame_error(frames, light);
   if(!result.error.empty())
     return result;
   return bake(light, Equal_uv(fine, light, options),
@@ -158,6 +158,42 @@ inline Baked_map bake_normal_map(const Textured_triangle_mesh& fine,
     return result;
   return bake_normal_map(fine, vertex_normals(fine), light,
                          tangent_frames(light, vertex_normals(light)), options);
+}
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+Bakes the normals of `fine` into a texture of `light`, which shares its atlas, with meshes of any types: see the other overloads.
+
+\tparam ConcurrencyTag `Sequential_tag`, or `Parallel_tag` for `options.threads` threads, or
+        `Default` for the threads of the caller's `Blocked_execution::Thread_scope`
+\tparam FineMesh a model of `FaceListGraph`
+\tparam LightMesh a model of `FaceListGraph`
+\param fine_uv a model of `ReadablePropertyMap` with a point with two coordinates as value, and with
+       the halfedge descriptor as key, for the corner at its target, or the vertex descriptor
+\param light_uv the same for the light model
+\param np_fine optional named parameters of the fine mesh: `vertex_point_map`
+\param np_light the same of the light model
+*/
+template <class ConcurrencyTag = Default, class FineMesh, class FineUVMap, class LightMesh, class LightUVMap,
+          class NamedParameters_fine = parameters::Default_named_parameters,
+          class NamedParameters_light = parameters::Default_named_parameters,
+          class = typename boost::property_traits<FineUVMap>::key_type>
+Baked_map bake_normal_map(const FineMesh& fine, FineUVMap fine_uv,
+                          const LightMesh& light, LightUVMap light_uv,
+                          const Baking_options& options = Baking_options(),
+                          const NamedParameters_fine& np_fine = parameters::default_values(),
+                          const NamedParameters_light& np_light = parameters::default_values())
+{
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
+  Baked_map result;
+  result.error = internal::polygon_error(fine, "the fine mesh");
+  if(result.error.empty())
+    result.error = internal::polygon_error(light, "the light model");
+  if(!result.error.empty())
+    return result;
+  return bake_normal_map(internal::textured_arrays_of_graph(fine, fine_uv, np_fine),
+                         internal::textured_arrays_of_graph(light, light_uv, np_light), options);
 }
 
 } // namespace Surface_mesh_texturing

@@ -6,8 +6,6 @@
 
 #include <CGAL/Surface_mesh_texturing/Texture_image.h>
 
-#include <CGAL/assertions.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -21,7 +19,8 @@ namespace Surface_mesh_texturing {
 \ingroup PkgHLSCMTexturing
 
 Returns the texels as integers: `lowest` becomes 0 and `highest` the largest number of the type,
-what lies between is rounded to the nearest, what lies beyond is cut off. Linear time.
+what lies between is rounded to the nearest, what lies beyond is cut off; all is 0 unless `lowest` is
+the smaller one. Linear time.
 
 \tparam Integer `std::uint8_t` or `std::uint16_t`, whose bytes are those of the machine (in PNG
 files the higher one comes first).
@@ -30,7 +29,6 @@ template <class Integer>
 std::vector<Integer> encode_values(const Texture_image& image, double lowest, double highest)
 {
   static_assert(std::is_unsigned<Integer>::value && sizeof(Integer) <= 2, "8 or 16 bits");
-  CGAL_precondition(lowest <= highest);
   const double largest = double((std::numeric_limits<Integer>::max)());
   const double scale = highest > lowest ? largest / (highest - lowest) : 0.;
   std::vector<Integer> result(image.texels.size());
@@ -51,12 +49,14 @@ std::vector<Integer> encode_unit_vectors(const Texture_image& image)
 }
 
 /// \ingroup PkgHLSCMTexturing
-/// Returns what is left of `image` after `encode_values()` with the same arguments.
+/// Returns what is left of `image` after `encode_values()` with the same arguments; no
+/// image if there are not as many values as texels.
 template <class Integer>
 Texture_image decode_values(const std::vector<Integer>& values, const Texture_image& image,
                             double lowest, double highest)
 {
-  CGAL_precondition(values.size() == image.texels.size());
+  if(values.size() != image.texels.size())
+    return Texture_image();
   const double step = (highest - lowest) / double((std::numeric_limits<Integer>::max)());
   Texture_image result = {image.width, image.height, image.channels, {}};
   result.texels.reserve(values.size());

@@ -109,6 +109,23 @@ inline std::string packing_error(const std::vector<Chart_shape>& charts,
   return {};
 }
 
+// What is wrong with what a packer returns without an error, or nothing.
+inline std::string foreign_packing_error(const std::vector<Chart_shape>& charts,
+                                         const Packing_result& result)
+{
+  if(result.placements.size() != charts.size())
+    return "the packer has placed " + std::to_string(result.placements.size()) + " of "
+           + std::to_string(charts.size()) + " charts";
+  for(const Chart_placement& p : result.placements) {
+    if(p.page >= result.pages)
+      return "the packer has placed a chart on a page that does not exist";
+    if(!std::isfinite(p.angle) || !std::isfinite(p.scale) || !std::isfinite(p.offset.x())
+       || !std::isfinite(p.offset.y()))
+      return "the packer has placed a chart where there is no finite place";
+  }
+  return {};
+}
+
 } // namespace internal
 
 /*!
@@ -118,7 +135,7 @@ Lays charts side by side on pages of texels: each is turned and moved, never mir
 scaled by the same factor. `Packing_options` defines the padding between them.
 
 The result has an error, and nothing else, if a coordinate is not finite, an index is out of range,
-an option makes no sense, a chart is larger than a page at the density asked for, the charts need
+an option makes no sense, a packer of the user returns no such result, a chart is larger than a page at the density asked for, the charts need
 more pages than allowed, or `Packing_options::progress` says stop. Charts without area are placed,
 too; each takes one texel at least. Without charts the result is empty.
 
@@ -128,15 +145,20 @@ The result does not depend on the number of threads of the `Blocked_execution::T
 */
 template <class Packer = Raster_packer>
 Packing_result pack_charts(const std::vector<Chart_shape>& charts,
-                           const Packing_options& options = Packing_options())
+                           const Packing_options& options = Packing_options(),
+                           const Packer& packer = Packer())
 {
   Packing_result result;
   result.error = internal::packing_error(charts, options);
   if(!result.error.empty() || charts.empty())
     return result;
-  result = Packer()(charts, options);
+  result = packer(charts, options);
+  if(result.error.empty())
+    result.error = internal::foreign_packing_error(charts, result);
   if(result.error.empty())
     internal::measure_utilisation(charts, options, result);
+  else
+    result.placements.clear();
   return result;
 }
 

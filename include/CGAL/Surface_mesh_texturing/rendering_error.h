@@ -8,11 +8,10 @@
 #include <CGAL/Surface_mesh_texturing/internal/baking/Orthographic_view.h>
 #include <CGAL/Surface_mesh_texturing/Texture_image.h>
 
-#include <CGAL/assertions.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <vector>
 
 namespace CGAL {
@@ -28,6 +27,7 @@ struct Rendering_error
   double angle_95_without_map = 0.;       ///< with the interpolated normals of the light model
   double silhouette_difference = 0.;      ///< pixels that show one model only, to those of any
   std::size_t number_of_pixels = 0;       ///< that show both models, in all views together
+  std::string error; ///< why nothing was measured, as a sentence; empty if all is well
 };
 
 namespace internal {
@@ -58,6 +58,25 @@ struct View_error
   std::vector<float> with_map, without_map;
   std::size_t one = 0, any = 0; // pixels
 };
+
+inline std::string rendering_input_error(const Textured_triangle_mesh& original,
+                                         const Textured_triangle_mesh& light,
+                                         const Tangent_frames& frames, const Texture_image& map,
+                                         std::size_t size)
+{
+  std::string error = size == 0 ? "the pictures have no pixels" : std::string();
+  if(error.empty())
+    error = mesh_error(original, "the original");
+  if(error.empty())
+    error = mesh_error(light, "the light model");
+  if(error.empty())
+    error = texture_error(light, "the light model");
+  if(error.empty())
+    error = frame_error(frames, light);
+  if(error.empty())
+    error = image_error(map, "the normal map");
+  return error.empty() && map.channels != 3 ? "the normal map has not three channels" : error;
+}
 
 // The normals that renderers see on a model.
 class Seen_normals
@@ -106,15 +125,18 @@ it.
 The result does not depend on the unit of length, nor on the number of threads. Linear time in the
 numbers of triangles and of pixels.
 
-\pre the meshes have triangles and finite coordinates; `frames` are those of `light`, `map` has
-three channels.
+Bad data (no triangles, indices out of range, coordinates that are not finite, frames of another mesh,
+a map that has not three channels, pictures without pixels) give a result with `error` set.
 */
 inline Rendering_error rendering_error(const Textured_triangle_mesh& original,
                                        const Textured_triangle_mesh& light,
                                        const Tangent_frames& frames, const Texture_image& map,
                                        Normal_space space, std::size_t size = 512)
 {
-  CGAL_precondition(map.channels == 3 && size > 0);
+  Rendering_error result;
+  result.error = internal::rendering_input_error(original, light, frames, map, size);
+  if(!result.error.empty())
+    return result;
   const std::vector<Vector_3> normals = vertex_normals(original);
   const internal::Seen_normals seen(light, frames);
   const internal::Bounding_ball ball({&original.points, &light.points});
@@ -146,7 +168,7 @@ inline Rendering_error rendering_error(const Textured_triangle_mesh& original,
   const auto with = internal::mean_and_quantile(all.with_map);
   const auto without = internal::mean_and_quantile(all.without_map);
   return {with[0], with[1], without[0], without[1],
-          all.any > 0 ? double(all.one) / double(all.any) : 0., all.with_map.size()};
+          all.any > 0 ? double(all.one) / double(all.any) : 0., all.with_map.size(), {}};
 }
 
 } // namespace Surface_mesh_texturing

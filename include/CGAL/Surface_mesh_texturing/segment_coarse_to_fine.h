@@ -28,6 +28,8 @@ struct Segmentation_options
   std::size_t coarse_faces = 4000;
   Straightening_options straightening; ///< of the seams, on the way to the fine mesh
   Disk_cut_options cut;                ///< of coarse charts that are no disks
+  /// Threads with `Parallel_tag`; 0 for all that the machine has. The result does not depend on it.
+  unsigned int threads = 0;
   /// Told the part done in [0, 1] from time to time; returning false stops.
   std::function<bool(double)> progress;
 };

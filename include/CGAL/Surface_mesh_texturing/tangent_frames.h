@@ -8,8 +8,6 @@
 #include <CGAL/Surface_mesh_texturing/Surface_point.h>
 #include <CGAL/Surface_mesh_texturing/internal/baking/corner_tangents.h>
 
-#include <CGAL/assertions.h>
-
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -62,13 +60,16 @@ plane.
 Triangles without area in the texture count for nothing and have the frames of a neighbour. Where no
 triangle tells a direction, the tangent is any that is orthogonal to the normal. Linear time.
 
-Edges should have one or two triangles, of equal orientation; frames do not go on across others.
+Edges should have one or two triangles, of equal orientation; frames do not go on across others. If
+an index is out of range, or the normals are those of another mesh, there are no frames.
 */
 inline Tangent_frames tangent_frames(const Textured_triangle_mesh& mesh,
                                      std::vector<Vector_3> normals)
 {
-  CGAL_precondition(normals.size() == mesh.points.size());
-  CGAL_precondition(mesh.wedges.size() == mesh.triangles.size());
+  if(normals.size() != mesh.points.size() || mesh.wedges.size() != mesh.triangles.size()
+     || !internal::indices_are_below(mesh.triangles, mesh.points.size())
+     || !internal::indices_are_below(mesh.wedges, mesh.uv.size()))
+    return {};
   const internal::Corner_tangents tangents(mesh, normals);
   const std::vector<Halfedge> first = internal::first_corners_of_wedges(
     3 * mesh.triangles.size(), [&tangents](Halfedge h) { return tangents.across(h); });

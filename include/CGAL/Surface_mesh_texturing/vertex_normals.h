@@ -43,13 +43,15 @@ inline Weighted_normal weighted_normal(const Indexed_triangle_mesh::Point_3& a,
 
 Returns the unit normal of each vertex: the mean of the normals of its triangles, weighted with the
 angles that they have there (Thuermer, Wuethrich 1998). Vertices have one normal, also where the
-texture has a seam. A vertex without triangles that have an area has the normal (0, 0, 1). Linear
-time.
+texture has a seam. A vertex without triangles that have an area has the normal (0, 0, 1). If an
+index is out of range, there are no normals. Linear time.
 */
 inline std::vector<Vector_3>
 vertex_normals(const std::vector<Indexed_triangle_mesh::Point_3>& points,
                const std::vector<Triangle_indices>& triangles)
 {
+  if(!internal::indices_are_below(triangles, points.size()))
+    return {};
   std::vector<internal::Weighted_normal> weighted(triangles.size());
   Blocked_execution::blocked_for(triangles.size(), 1 << 14, [&](std::size_t i, std::size_t end) {
     for(; i < end; ++i) {

@@ -155,7 +155,7 @@ public:
   {
     std::size_t bound = m_mesh.uv.size();
     for(const std::vector<Triangle_indices>& level : m_levels) {
-      if(level.empty() || !are_below(level, bound))
+      if(level.empty() || !indices_are_below(level, bound))
         return false;
       bound = number_of_wedges(level);
     }
@@ -163,7 +163,7 @@ public:
     return !m_levels.empty() && m_mesh.vertex.size() == m_mesh.uv.size()
         && std::all_of(m_mesh.vertex.begin(), m_mesh.vertex.end(),
                        [points](Vertex_index v) { return v < points; })
-        && are_below(m_mesh.progressive_mesh.triangles, m_mesh.uv.size())
+        && indices_are_below(m_mesh.progressive_mesh.triangles, m_mesh.uv.size())
         && are_within_floats(m_mesh.points, m_mesh.uv);
   }
 

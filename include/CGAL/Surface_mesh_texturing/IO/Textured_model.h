@@ -4,8 +4,8 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_IO_TEXTURED_MODEL_H
 #define CGAL_SURFACE_MESH_TEXTURING_IO_TEXTURED_MODEL_H
 
-#include <CGAL/Indexed_mesh/mesh_arrays.h>
 #include <CGAL/Surface_mesh_texturing/Texture_atlas.h>
+#include <CGAL/Surface_mesh_texturing/internal/mesh_of_graph.h>
 #include <CGAL/Surface_mesh_texturing/tangent_frames.h>
 #include <CGAL/Surface_mesh_texturing/vertex_normals.h>
 
@@ -18,7 +18,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 namespace CGAL {
@@ -90,21 +89,14 @@ inline Textured_model textured_model(const Texture_atlas& atlas, const std::stri
 
 namespace internal {
 
-inline bool are_below(const std::vector<Triangle_indices>& triangles, std::size_t bound)
-{
-  return std::all_of(triangles.begin(), triangles.end(), [bound](const Triangle_indices& t) {
-    return t[0] < bound && t[1] < bound && t[2] < bound;
-  });
-}
-
 // Whether the arrays of a textured mesh fit together, with finite numbers.
 inline bool can_be_written(const std::vector<Textured_triangle_mesh::Point_3>& points,
                            const std::vector<Triangle_indices>& triangles,
                            const std::vector<Textured_triangle_mesh::Point_2>& uv,
                            const std::vector<Triangle_indices>& wedges)
 {
-  return triangles.size() == wedges.size() && are_below(triangles, points.size())
-      && are_below(wedges, uv.size())
+  return triangles.size() == wedges.size() && indices_are_below(triangles, points.size())
+      && indices_are_below(wedges, uv.size())
       && std::all_of(points.begin(), points.end(), [](const Textured_triangle_mesh::Point_3& p) {
            return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z());
          })
@@ -125,7 +117,7 @@ inline bool has_valid_frames(const Textured_model& model)
   return (all.normals.empty() || all.normals.size() == points)
       && (all.corners.empty()
           || (all.corners.size() == model.mesh.triangles.size() && !all.normals.empty()
-              && are_below(all.corners, all.frames.size())))
+              && indices_are_below(all.corners, all.frames.size())))
       && std::all_of(all.frames.begin(), all.frames.end(), [&](const Tangent_frame& f) {
            return f.vertex < points && f.wedge < uv;
          });
@@ -155,69 +147,14 @@ inline std::uint32_t page_of(const Textured_model& model, std::size_t triangle)
 
 inline std::string material_name(std::size_t page) { return "page_" + std::to_string(page + 1); }
 
-template <class Point>
-Textured_triangle_mesh::Point_2 to_uv(const Point& p)
-{
-  return {to_double(p[0]), to_double(p[1])};
-}
-
-// Sets `wedges` to one for each vertex, whose texture coordinate is that of the vertex.
-template <class TriangleMesh, class VertexUVMap>
-void set_uv_of_vertices(const TriangleMesh& mesh, const VertexUVMap& uvmap,
-                        Textured_triangle_mesh& result)
-{
-  for(const auto v : vertices(mesh))
-    result.uv.push_back(to_uv(get(uvmap, v)));
-  result.wedges = result.triangles;
-}
-
-// Sets `wedges` to one for the corners of a vertex between one seam and the next.
-template <class TriangleMesh, class HalfedgeUVMap>
-void set_uv_of_corners(const TriangleMesh& mesh, const HalfedgeUVMap& uvmap,
-                       Textured_triangle_mesh& result)
-{
-  for(const auto f : faces(mesh)) {
-    auto h = halfedge(f, mesh);
-    Triangle_indices wedges;
-    for(Vertex_index& wedge : wedges) {
-      wedge = Vertex_index(result.uv.size());
-      result.uv.push_back(to_uv(get(uvmap, h)));
-      h = next(h, mesh);
-    }
-    result.wedges.push_back(wedges);
-  }
-  result = Surface_mesh_multiresolution::with_wedges(result);
-}
-
 // A mesh of any type with its texture coordinates, those of halfedges at their targets. Empty if
 // not all faces are triangles.
 template <class TriangleMesh, class UVMap, class NamedParameters>
 Textured_triangle_mesh textured_mesh_of(const TriangleMesh& mesh, const UVMap& uvmap,
                                         const NamedParameters& np)
 {
-  typedef boost::graph_traits<TriangleMesh> Graph_traits;
-  typedef typename boost::property_traits<UVMap>::key_type Key;
-  Textured_triangle_mesh result;
-  if(!is_triangle_mesh(mesh))
-    return result;
-  const auto position = get(dynamic_vertex_property_t<Vertex_index>(), mesh);
-  Indexed_mesh::number_vertices(mesh, position);
-  const auto vpm = parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
-                                                get_const_property_map(CGAL::vertex_point, mesh));
-  for(const auto v : vertices(mesh)) {
-    const auto& p = get(vpm, v);
-    result.points.emplace_back(to_double(p[0]), to_double(p[1]), to_double(p[2]));
-  }
-  result.triangles = Indexed_mesh::copy_triangles(mesh, position);
-  // A map for the vertices of a `Seam_mesh` has as its key what they are converted to.
-  constexpr bool is_of_vertices
-    = !std::is_same<Key, typename Graph_traits::halfedge_descriptor>::value
-   && std::is_convertible<typename Graph_traits::vertex_descriptor, Key>::value;
-  if constexpr(is_of_vertices)
-    set_uv_of_vertices(mesh, uvmap, result);
-  else
-    set_uv_of_corners(mesh, uvmap, result);
-  return result;
+  return is_triangle_mesh(mesh) ? textured_arrays_of_graph(mesh, uvmap, np)
+                                : Textured_triangle_mesh();
 }
 
 } // namespace internal

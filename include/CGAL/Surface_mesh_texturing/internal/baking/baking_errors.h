@@ -6,10 +6,10 @@
 
 #include <CGAL/Surface_mesh_texturing/Baking_options.h>
 #include <CGAL/Surface_mesh_texturing/Surface_point.h>
+#include <CGAL/Surface_mesh_texturing/tangent_frames.h>
 
 #include <algorithm>
 #include <string>
-#include <utility>
 
 namespace CGAL {
 namespace Surface_mesh_texturing {
@@ -30,6 +30,37 @@ inline std::string atlas_error(const Textured_triangle_mesh& mesh, const std::st
   return {};
 }
 
+// What is wrong with an array that has `size` entries where there should be `n`, or nothing.
+inline std::string size_error(std::size_t size, std::size_t n, const std::string& what)
+{
+  return size == n ? std::string()
+                   : "there are " + std::to_string(size) + " " + what + " instead of "
+                       + std::to_string(n);
+}
+
+// What is wrong with frames that are said to be those of a mesh, or nothing.
+inline std::string frame_error(const Tangent_frames& frames, const Textured_triangle_mesh& light)
+{
+  std::string error = size_error(frames.normals.size(), light.points.size(),
+                                 "normals in the frames of the light model");
+  if(error.empty())
+    error = size_error(frames.corners.size(), light.triangles.size(),
+                       "triangles in the frames of the light model");
+  for(std::size_t t = 0; t < frames.corners.size() && error.empty(); ++t)
+    for(const Vertex_index f : frames.corners[t])
+      if(f >= frames.frames.size())
+        error = "triangle " + std::to_string(t) + " has a corner without frame";
+  return error;
+}
+
+inline std::string image_error(const Texture_image& image, const std::string& name)
+{
+  if(image.width == 0 || image.height == 0 || image.channels == 0)
+    return name + " has no texels";
+  return size_error(image.texels.size(), image.width * image.height * image.channels,
+                    "values in " + name);
+}
+
 inline std::string options_error(const Baking_options& options)
 {
   if(options.width == 0 || options.height == 0)
@@ -42,19 +73,25 @@ inline std::string options_error(const Baking_options& options)
   return {};
 }
 
+// What is wrong with the model that gets the image, or nothing.
+inline std::string light_error(const Textured_triangle_mesh& light, const Baking_options& options)
+{
+  std::string error = options_error(options);
+  if(error.empty())
+    error = mesh_error(light, "the light model");
+  return error.empty() ? atlas_error(light, "the light model") : error;
+}
+
 // What is wrong with the two meshes of a bake at equal texture coordinates, or nothing.
 inline std::string baking_error(const Textured_triangle_mesh& fine,
                                 const Textured_triangle_mesh& light, const Baking_options& options)
 {
   std::string error = options_error(options);
-  for(const auto& [mesh, name] : {std::make_pair(&fine, "the fine mesh"),
-                                  std::make_pair(&light, "the light model")}) {
-    if(error.empty())
-      error = mesh_error(*mesh, name);
-    if(error.empty())
-      error = atlas_error(*mesh, name);
-  }
-  return error;
+  if(error.empty())
+    error = mesh_error(fine, "the fine mesh");
+  if(error.empty())
+    error = atlas_error(fine, "the fine mesh");
+  return error.empty() ? light_error(light, options) : error;
 }
 
 // What is wrong with the two meshes of a bake by rays, or nothing.
@@ -65,11 +102,7 @@ inline std::string ray_baking_error(const Indexed_triangle_mesh& fine,
   std::string error = options_error(options);
   if(error.empty())
     error = mesh_error(fine, "the fine mesh");
-  if(error.empty())
-    error = mesh_error(light, "the light model");
-  if(error.empty())
-    error = atlas_error(light, "the light model");
-  return error;
+  return error.empty() ? light_error(light, options) : error;
 }
 
 } // namespace internal

@@ -4,17 +4,13 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_MAP_CHART_H
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_MAP_CHART_H
 
-#include <CGAL/Surface_mesh_parameterization/border_first_map.h>
-#include <CGAL/Surface_mesh_parameterization/conformal_map.h>
 #include <CGAL/Surface_mesh_parameterization/repair_flipped_faces.h>
 #include <CGAL/Surface_mesh_parameterization/self_overlap.h>
-#include <CGAL/Surface_mesh_texturing/Face_charts.h>
-#include <CGAL/Surface_mesh_texturing/Texture_atlas_options.h>
-#include <CGAL/Surface_mesh_texturing/Texture_atlas_report.h>
+#include <CGAL/Surface_mesh_texturing/Texture_atlas.h>
 
 #include <algorithm>
 #include <cmath>
-#include <string>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -23,6 +19,16 @@ namespace Surface_mesh_texturing {
 namespace internal {
 
 typedef Simple_cartesian<double>::Point_2 Point_2;
+
+// How charts are mapped, and what becomes of those whose maps fail.
+struct Chart_mapping
+{
+  std::function<std::vector<Point_2>(const Indexed_triangle_mesh&)> parameterize;
+  Distortion_bound bound;
+  bool is_bounded = true; // if not, charts beyond the bound are not cut for that
+  double least_fill = 0.75;
+  std::size_t coarse_faces = 4000;
+};
 
 // A chart with its map, in units of length of the surface, and whether it may stay as it is.
 struct Mapped_chart
@@ -96,20 +102,6 @@ inline double border_length(const Indexed_triangle_mesh& mesh,
   return sum;
 }
 
-// The map by the method of the options; empty if there is none.
-inline std::vector<Point_2> conformal_uv(const Indexed_triangle_mesh& mesh,
-                                         const Texture_atlas_options& options)
-{
-  namespace SMP = Surface_mesh_parameterization;
-  if(!options.method)
-    return SMP::border_first_map(mesh).uv;
-  SMP::HLSCM_options solver;
-  solver.method = mesh.triangles.size() < options.direct_faces ? SMP::Conformal_method::DIRECT
-                                                               : *options.method;
-  solver.tolerance = options.tolerance;
-  return SMP::conformal_map(mesh, solver).uv;
-}
-
 // For each of n vertices whether it is on the border.
 inline std::vector<bool> border_vertices(std::size_t n, const std::vector<Border_edge>& border)
 {
@@ -139,7 +131,7 @@ inline std::pair<std::size_t, std::size_t> repair_flips(const Indexed_triangle_m
 }
 
 // Maps a chart and says whether the map is one-to-one and within the bound.
-inline Mapped_chart map_chart(Chart_mesh chart, const Texture_atlas_options& options)
+inline Mapped_chart map_chart(Chart_mesh chart, const Chart_mapping& mapping)
 {
   Mapped_chart result;
   result.chart = std::move(chart);
@@ -154,13 +146,15 @@ inline Mapped_chart map_chart(Chart_mesh chart, const Texture_atlas_options& opt
     return result;
   }
   result.report.is_one_to_one = false;
-  result.uv = conformal_uv(mesh, options);
-  if(result.uv.empty())
+  result.uv = mapping.parameterize(mesh);
+  if(result.uv.size() != mesh.points.size())
     return result;
   result.report.distortion = measure_chart_distortion(mesh, result.uv);
-  const bool is_free = bool(options.charts); // of the bound
+  const auto is_allowed = [&mapping](const Chart_distortion& distortion) {
+    return !mapping.is_bounded || distortion.is_within(mapping.bound);
+  };
   if(!scale_to_surface(result.report.distortion, result.uv)
-     || !(is_free || result.report.distortion.is_within(options.bound)))
+     || !is_allowed(result.report.distortion))
     return result;
   const auto flips = count_flips(mesh.triangles, result.uv);
   auto left = flips;
@@ -169,10 +163,9 @@ inline Mapped_chart map_chart(Chart_mesh chart, const Texture_atlas_options& opt
     result.report.distortion = measure_chart_distortion(mesh, result.uv);
   }
   result.report.repaired_flips = flips.first - (std::min)(flips.first, left.first);
-  result.report.is_one_to_one = left.first == 0 
-                              && Surface_mesh_parameterization::is_simple_border(border, result.uv);
-  result.is_valid = result.report.is_one_to_one
-                 && (is_free || result.report.distortion.is_within(options.bound));
+  result.report.is_one_to_one
+    = left.first == 0 && Surface_mesh_parameterization::is_simple_border(border, result.uv);
+  result.is_valid = result.report.is_one_to_one && is_allowed(result.report.distortion);
   return result;
 }
 

@@ -55,7 +55,7 @@ inline Face_charts halve_chart(const Indexed_triangle_mesh& mesh)
 // Maps charts: the large ones one after the other, each in parallel within, then the others side by
 // side.
 inline std::vector<Mapped_chart> map_each(std::vector<Chart_mesh> charts,
-                                          const Texture_atlas_options& options)
+                                          const Chart_mapping& mapping)
 {
   constexpr std::size_t large = 50000; // triangles
   std::vector<Mapped_chart> result(charts.size());
@@ -64,33 +64,33 @@ inline std::vector<Mapped_chart> map_each(std::vector<Chart_mesh> charts,
     if(charts[i].mesh.triangles.size() < large)
       small.push_back(i);
     else
-      result[i] = map_chart(std::move(charts[i]), options);
+      result[i] = map_chart(std::move(charts[i]), mapping);
   std::stable_sort(small.begin(), small.end(), [&charts](std::size_t i, std::size_t j) {
     return charts[i].mesh.triangles.size() > charts[j].mesh.triangles.size();
   });
   Blocked_execution::blocked_for(small.size(), 1, [&](std::size_t begin, std::size_t end) {
     for(std::size_t i = begin; i < end; ++i)
-      result[small[i]] = map_chart(std::move(charts[small[i]]), options);
+      result[small[i]] = map_chart(std::move(charts[small[i]]), mapping);
   });
   return result;
 }
 
 // Cuts a chart that may not stay as it is into smaller ones, given as parts of the whole mesh.
 inline std::vector<Chart_mesh> cut_again(const Mapped_chart& mapped,
-                                         const Texture_atlas_options& options)
+                                         const Chart_mapping& mapping)
 {
   constexpr double margin = 0.9; // below the bound, which the chart just missed
   constexpr double effort = 20.; // a few charts are soon found
   constexpr std::size_t coarse_faces = 1500;
   const Chart_mesh& chart = mapped.chart;
   Chart_growth_options growth;
-  growth.bound = options.bound;
-  growth.bound.area_scale = (std::max)(1.1, margin * options.bound.area_scale);
+  growth.bound = mapping.bound;
+  growth.bound.area_scale = (std::max)(1.1, margin * mapping.bound.area_scale);
   growth.least_charts = 2;
-  growth.least_fill = options.least_fill;
+  growth.least_fill = mapping.least_fill;
   growth.effort = effort;
   Segmentation_options segmentation;
-  segmentation.coarse_faces = (std::min)(coarse_faces, options.coarse_faces);
+  segmentation.coarse_faces = (std::min)(coarse_faces, mapping.coarse_faces);
   Segmentation_result cut = segment_into_charts(chart.mesh, segmentation, growth);
   if(!cut.error.empty() || cut.charts.number_of_charts < 2)
     cut.charts = halve_chart(chart.mesh);
@@ -107,20 +107,20 @@ inline std::vector<Chart_mesh> cut_again(const Mapped_chart& mapped,
 // The charts and their maps; those that fail are cut until all are valid, which single triangles
 // always are. In the order of their first triangles. `proceed(part done)` says whether to go on.
 inline std::vector<Mapped_chart> map_charts(std::vector<Chart_mesh> charts,
-                                            const Texture_atlas_options& options,
+                                            const Chart_mapping& mapping,
                                             const std::function<bool(double)>& proceed,
                                             std::size_t& recut)
 {
   std::vector<Mapped_chart> done;
   recut = 0;
   for(int round = 0; !charts.empty(); ++round) {
-    std::vector<Mapped_chart> mapped = map_each(std::move(charts), options);
+    std::vector<Mapped_chart> mapped = map_each(std::move(charts), mapping);
     charts.clear();
     std::vector<std::vector<Chart_mesh>> parts(mapped.size());
     Blocked_execution::blocked_for(mapped.size(), 1, [&](std::size_t begin, std::size_t end) {
       for(std::size_t i = begin; i < end; ++i)
         if(!mapped[i].is_valid)
-          parts[i] = cut_again(mapped[i], options);
+          parts[i] = cut_again(mapped[i], mapping);
     });
     for(std::size_t i = 0; i < mapped.size(); ++i) {
       recut += round == 0 && !mapped[i].is_valid ? 1 : 0;

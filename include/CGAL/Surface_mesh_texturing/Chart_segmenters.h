@@ -1,0 +1,149 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_CHART_SEGMENTERS_H
+#define CGAL_SURFACE_MESH_TEXTURING_CHART_SEGMENTERS_H
+
+#include <CGAL/Surface_mesh_texturing/Texture_atlas.h>
+#include <CGAL/Surface_mesh_texturing/segment_into_charts.h>
+
+#include <CGAL/tags.h>
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+The class `Chart_growth_segmenter` finds few charts within the bound on distortion, the default of
+`build_texture_atlas()`: `segment_into_charts()` on a level of `Texture_atlas_options::coarse_faces`
+triangles.
+
+\cgalModels{ChartSegmenter}
+*/
+struct Chart_growth_segmenter
+{
+  typedef Tag_true Is_bounded;      ///< charts beyond the bound are cut again
+  typedef Tag_true Is_for_any_mesh; ///< it may be tried on a coarser mesh first
+
+  /// Returns the charts.
+  Segmentation_result operator()(const Indexed_triangle_mesh& mesh,
+                                 const Texture_atlas_options& options) const
+  {
+    Chart_growth_options growth;
+    growth.bound = options.bound;
+    growth.max_charts = options.max_charts;
+    growth.least_fill = options.least_fill;
+    Segmentation_options segmentation;
+    segmentation.coarse_faces = options.coarse_faces;
+    segmentation.progress = options.progress;
+    return segment_into_charts(mesh, segmentation, growth);
+  }
+};
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+The class `Given_charts_segmenter` takes the charts that the user has, from `charts_of_labels()`,
+`charts_of_texture()` or `charts_between()`. Those that are no disks are cut, and those whose maps
+are not one-to-one.
+
+\cgalModels{ChartSegmenter}
+*/
+class Given_charts_segmenter
+{
+public:
+  typedef Tag_false Is_bounded;      ///< charts stay, however much they are distorted
+  typedef Tag_false Is_for_any_mesh; ///< they are those of one mesh
+
+  /// `charts` are those of the mesh.
+  explicit Given_charts_segmenter(Face_charts charts = Face_charts()) : m_charts(std::move(charts))
+  {}
+
+  /// Returns the charts. Error: they have not as many triangles as the mesh.
+  Segmentation_result operator()(const Indexed_triangle_mesh& mesh,
+                                 const Texture_atlas_options&) const
+  {
+    Segmentation_result result;
+    result.error = internal::error_of_foreign_seams(mesh, m_charts.seams);
+    if(result.error.empty())
+      result.charts = m_charts;
+    return result;
+  }
+
+private:
+  Face_charts m_charts;
+};
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+The class `Component_segmenter` makes one chart of each connected component, cut to a disk where it
+is none; see `one_disk_per_component()`.
+
+\cgalModels{ChartSegmenter}
+*/
+struct Component_segmenter
+{
+  typedef Tag_false Is_bounded;     ///< charts stay, however much they are distorted
+  typedef Tag_true Is_for_any_mesh; ///< any mesh has components
+
+  Disk_cut_options cut; ///< how components are cut
+
+  /// Returns the charts.
+  Segmentation_result operator()(const Indexed_triangle_mesh& mesh,
+                                 const Texture_atlas_options&) const
+  {
+    Segmentation_result result;
+    result.charts = one_disk_per_component(mesh, cut);
+    return result;
+  }
+};
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+The class `Constrained_segmenter` puts seams on edges that shall have them, and lets another
+segmenter add the others.
+
+\tparam Segmenter a model of `ChartSegmenter`
+
+\cgalModels{ChartSegmenter}
+*/
+template <class Segmenter = Chart_growth_segmenter>
+class Constrained_segmenter
+{
+public:
+  typedef typename Segmenter::Is_bounded Is_bounded; ///< as the other segmenter
+  typedef Tag_false Is_for_any_mesh;                 ///< edges are those of one mesh
+
+  /// Bit \f$ c \f$ of `seams[t]` says that the edge between the corners \f$ c \f$ and
+  /// \f$ (c + 1) \bmod 3 \f$ of triangle \f$ t \f$ shall be a seam; one of its two triangles will do.
+  /// An edge alone, both ends of which are within a chart, cuts nothing and is left out.
+  explicit Constrained_segmenter(std::vector<std::uint8_t> seams, Segmenter segmenter = Segmenter())
+    : m_seams(std::move(seams)), m_segmenter(std::move(segmenter))
+  {}
+
+  /// Returns the charts. Errors: there are not as many entries of `seams` as triangles, and those of
+  /// the other segmenter.
+  Segmentation_result operator()(const Indexed_triangle_mesh& mesh,
+                                 const Texture_atlas_options& options) const
+  {
+    return internal::segment_between(mesh, m_seams, [&](const Indexed_triangle_mesh& cut) {
+      return m_segmenter(cut, options);
+    });
+  }
+
+private:
+  std::vector<std::uint8_t> m_seams;
+  Segmenter m_segmenter;
+};
+
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_CHART_SEGMENTERS_H

@@ -1,0 +1,306 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_TEXTURE_ATLAS_BUILDER_H
+#define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_TEXTURE_ATLAS_BUILDER_H
+
+#include <CGAL/Blocked_execution/Progress.h>
+#include <CGAL/Surface_mesh_texturing/Chart_segmenters.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/map_charts.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+namespace internal {
+
+// The length of the seams between triangles, each once.
+inline double seam_length(const Indexed_triangle_mesh& mesh, const Face_charts& charts)
+{
+  const Triangle_adjacency adjacency(mesh.triangles);
+  double sum = 0.;
+  for(std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    for(int c = 0; c < 3; ++c) {
+      const std::uint32_t opposite = adjacency.opposite(t, c);
+      if(opposite != no_halfedge && 3 * t + std::uint32_t(c) < opposite && charts.is_seam(t, c))
+        sum += std::sqrt(squared_distance(mesh.points[mesh.triangles[t][c]],
+                                          mesh.points[mesh.triangles[t][(c + 1) % 3]]));
+    }
+  return sum;
+}
+
+// The charts whose triangles these are, with all seams between wedges.
+inline Face_charts charts_of_maps(const Indexed_triangle_mesh& mesh,
+                                  const std::vector<Mapped_chart>& maps)
+{
+  std::vector<std::uint8_t> seams(mesh.triangles.size());
+  for(const Mapped_chart& map : maps)
+    for(const Halfedge h : map.chart.border)
+      mark(seams, 3 * map.chart.triangles[triangle_of(h)] + corner_of(h));
+  return charts_between(mesh.triangles, std::move(seams));
+}
+
+// Makes the charts as large as their density asks for.
+inline void scale_by_density(const std::vector<float>& density, Mapped_chart& map)
+{
+  if(density.empty())
+    return;
+  double sum = 0., all = 0.;
+  const Indexed_triangle_mesh& mesh = map.chart.mesh;
+  for(std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Triangle_indices& vs = mesh.triangles[t];
+    const double area
+      = std::sqrt(squared_area(mesh.points[vs[0]], mesh.points[vs[1]], mesh.points[vs[2]]));
+    sum += area * density[map.chart.triangles[t]];
+    all += area;
+  }
+  const double scale = all > 0. ? sum / all : 1.;
+  for(Point_2& p : map.uv)
+    p = Point_2(scale * p.x(), scale * p.y());
+}
+
+// Measures the whole atlas, in texels.
+inline void measure_atlas(const Texture_atlas& atlas, Texture_atlas_report& report)
+{
+  namespace SMP = Surface_mesh_parameterization;
+  SMP::internal::Distortion_summary summary;
+  const Textured_triangle_mesh& mesh = atlas.mesh;
+  const double width = double(atlas.width), height = double(atlas.height);
+  double area = 0.;
+  for(std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    std::array<SMP::Conformal_triangle::Point_3, 3> corner;
+    SMP::Uv_triangle uv;
+    for(int c = 0; c < 3; ++c) {
+      const auto d = mesh.points[mesh.triangles[t][c]] - mesh.points[mesh.triangles[t][0]];
+      corner[c] = CGAL::ORIGIN + report.texels_per_unit * d;
+      const Point_2& p = mesh.uv[mesh.wedges[t][c]];
+      uv[c] = SMP::Uv_point(p.x() * width, p.y() * height);
+    }
+    area += 0.5 * CGAL::abs((uv[1].x() - uv[0].x()) * (uv[2].y() - uv[0].y())
+                            - (uv[1].y() - uv[0].y()) * (uv[2].x() - uv[0].x()));
+    summary.add(SMP::Conformal_triangle(corner[0], corner[1], corner[2]), uv,
+                SMP::orientation_of(uv));
+  }
+  report.distortion = summary.result();
+  report.utilisation = area / (width * height * double(atlas.number_of_pages));
+}
+
+// What finds, maps and packs the charts of an atlas. The types of the models end here: what follows
+// is compiled once.
+struct Atlas_models
+{
+  std::function<Segmentation_result(const Indexed_triangle_mesh&, const Texture_atlas_options&)>
+    segment;
+  bool is_bounded = true;      // ChartSegmenter::Is_bounded
+  bool is_for_any_mesh = true; // ChartSegmenter::Is_for_any_mesh
+  bool is_own = true;          // the default segmenter, which checks meshes and cuts charts to disks
+  std::function<std::vector<Point_2>(const Indexed_triangle_mesh&)> parameterize;
+  std::function<Packing_result(const std::vector<Chart_shape>&, const Packing_options&)> pack;
+};
+
+// The steps of `build_texture_atlas()`.
+class Texture_atlas_builder
+{
+public:
+  Texture_atlas_builder(const Indexed_triangle_mesh& mesh, const Texture_atlas_options& options,
+                        const Atlas_models& models)
+    : m_mesh(mesh), m_options(options), m_models(models)
+  {}
+
+  Texture_atlas_result run()
+  {
+    if(check() && segment() && map() && pack())
+      fill();
+    m_result.report.seconds_total = m_watch.seconds();
+    return std::move(m_result);
+  }
+
+private:
+  bool check();
+  bool segment();
+  Segmentation_result find_charts(const Indexed_triangle_mesh& mesh, double begin, double end);
+  Segmentation_result try_charts(const Indexed_triangle_mesh& mesh);
+  bool map();
+  Chart_mapping chart_mapping(const Distortion_bound& bound) const
+  {
+    return {m_models.parameterize, bound, m_models.is_bounded, m_options.least_fill,
+            m_options.coarse_faces};
+  }
+  void map_charts_within(const Distortion_bound& bound, double begin, double end);
+  bool pack();
+  void fill();
+
+  // The charts of a segmentation, whose error, if any, becomes that of the atlas.
+  Face_charts found(Segmentation_result result)
+  {
+    if(m_result.error.empty())
+      m_result.error = std::move(result.error);
+    return std::move(result.charts);
+  }
+
+  // Tells that a part of a stage, which begins and ends at these parts of the whole, is done.
+  bool proceed(double begin, double end, double part)
+  {
+    if(!m_options.progress || m_options.progress(begin + part * (end - begin)))
+      return true;
+    m_result.report.cancelled = true;
+    m_result.error = "cancelled";
+    return false;
+  }
+
+  const Indexed_triangle_mesh& m_mesh;
+  const Texture_atlas_options& m_options;
+  const Atlas_models& m_models;
+  Face_charts m_charts;
+  std::vector<Mapped_chart> m_maps;
+  Packing_result m_packing;
+  Texture_atlas_result m_result;
+  Blocked_execution::Stopwatch m_watch;
+};
+
+inline bool Texture_atlas_builder::check()
+{
+  const std::vector<float>& density = m_options.density;
+  if(!density.empty() && density.size() != m_mesh.triangles.size())
+    m_result.error = "there are " + std::to_string(density.size()) + " densities for "
+                     + std::to_string(m_mesh.triangles.size()) + " triangles";
+  for(std::size_t t = 0; t < density.size() && m_result.error.empty(); ++t)
+    if(!std::isfinite(density[t]) || density[t] < 0.f)
+      m_result.error
+        = "the density of triangle " + std::to_string(t) + " is not a finite number from 0 on";
+  if(m_result.error.empty() && !m_models.is_own)
+    m_result.error = manifold_error(m_mesh);
+  return m_result.error.empty();
+}
+
+inline bool Texture_atlas_builder::segment()
+{
+  const Blocked_execution::Stopwatch watch;
+  if(!m_models.is_bounded || !m_models.is_for_any_mesh || m_options.max_charts > 0
+     || m_mesh.triangles.size() <= 4 * m_options.trial_faces) {
+    m_charts = found(find_charts(m_mesh, 0., 0.4));
+  } else {
+    Segmentation_options to_trial;
+    to_trial.coarse_faces = m_options.trial_faces;
+    to_trial.progress = [this](double part) { // the level is there at half of it
+      return part <= 0.5 ? proceed(0., 0.2, 2. * part) : proceed(0.4, 0.4, 1.);
+    };
+    m_charts = found(segment_coarse_to_fine(
+      m_mesh, to_trial, [this](const Indexed_triangle_mesh& trial) { return try_charts(trial); }));
+  }
+  m_result.report.seconds_segment = watch.seconds();
+  return m_result.error.empty() && proceed(0.4, 0.4, 0.);
+}
+
+inline Segmentation_result Texture_atlas_builder::find_charts(const Indexed_triangle_mesh& mesh,
+                                                              double begin, double end)
+{
+  Texture_atlas_options options = m_options;
+  options.progress = [=](double part) { return proceed(begin, end, part); };
+  Segmentation_result result = m_models.segment(mesh, options);
+  if(m_models.is_own || !result.error.empty())
+    return result;
+  result.error = error_of_foreign_seams(mesh, result.charts.seams);
+  if(result.error.empty()) // whatever the charts say beside their seams
+    result.charts
+      = cut_to_disks(mesh, charts_between(mesh.triangles, std::move(result.charts.seams)));
+  return result;
+}
+
+// The charts of a coarser mesh after those that are not valid there have been cut again.
+inline Segmentation_result Texture_atlas_builder::try_charts(const Indexed_triangle_mesh& mesh)
+{
+  constexpr double margin = 0.95; // for what the fine mesh adds
+  Segmentation_result result = find_charts(mesh, 0.2, 0.3);
+  if(!result.error.empty())
+    return result;
+  Distortion_bound bound = m_options.bound;
+  bound.area_scale = (std::max)(1., margin * bound.area_scale);
+  std::size_t recut;
+  result.charts = charts_of_maps(
+    mesh, map_charts(chart_meshes(mesh, result.charts), chart_mapping(bound),
+                     [this](double part) { return proceed(0.3, 0.4, part); }, recut));
+  result.error = m_result.error;
+  return result;
+}
+
+inline bool Texture_atlas_builder::map()
+{
+  const Blocked_execution::Stopwatch watch;
+  const std::size_t most = m_models.is_bounded ? m_options.max_charts : 0;
+  const bool is_full = most > 0 && m_charts.number_of_charts >= most;
+  if(!is_full)
+    map_charts_within(m_options.bound, 0.4, most > 0 ? 0.6 : 0.8);
+  if(is_full || (most > 0 && m_maps.size() > most)) { // no charts are left for the bound
+    constexpr double any = (std::numeric_limits<double>::max)();
+    map_charts_within({any, any}, 0.6, 0.8);
+  }
+  for(Mapped_chart& chart : m_maps)
+    scale_by_density(m_options.density, chart);
+  m_result.report.seconds_map = watch.seconds();
+  return m_result.error.empty();
+}
+
+inline void Texture_atlas_builder::map_charts_within(const Distortion_bound& bound, double begin,
+                                                     double end)
+{
+  m_maps = map_charts(chart_meshes(m_mesh, m_charts), chart_mapping(bound),
+                      [&](double part) { return proceed(begin, end, part); },
+                      m_result.report.recut_charts);
+}
+
+inline bool Texture_atlas_builder::pack()
+{
+  const Blocked_execution::Stopwatch watch;
+  std::vector<Chart_shape> shapes;
+  for(const Mapped_chart& map : m_maps)
+    shapes.push_back({map.uv, map.chart.mesh.triangles});
+  Packing_options packing = m_options.packing;
+  packing.progress = [this](double part) { return proceed(0.8, 1., part); };
+  m_packing = m_models.pack(shapes, packing);
+  if(m_result.error.empty())
+    m_result.error = m_packing.error;
+  m_result.report.seconds_pack = watch.seconds();
+  return m_result.error.empty() && proceed(1., 1., 1.);
+}
+
+inline void Texture_atlas_builder::fill()
+{
+  Texture_atlas& atlas = m_result.atlas;
+  Texture_atlas_report& report = m_result.report;
+  atlas.width = m_options.packing.width;
+  atlas.height = m_options.packing.height;
+  atlas.number_of_pages = m_packing.pages;
+  atlas.mesh.points = m_mesh.points;
+  atlas.mesh.triangles = m_mesh.triangles;
+  atlas.mesh.wedges.resize(m_mesh.triangles.size());
+  atlas.charts = charts_of_maps(m_mesh, m_maps);
+  for(std::size_t i = 0; i < m_maps.size(); ++i) {
+    const Mapped_chart& map = m_maps[i];
+    const Vertex_index first = Vertex_index(atlas.mesh.uv.size());
+    for(const Point_2& p : map.uv) {
+      const Point_2 q = m_packing.placements[i](p);
+      atlas.mesh.uv.emplace_back(q.x() / double(atlas.width), q.y() / double(atlas.height));
+    }
+    for(std::size_t t = 0; t < map.chart.triangles.size(); ++t)
+      for(int c = 0; c < 3; ++c)
+        atlas.mesh.wedges[map.chart.triangles[t]][c] = first + map.chart.mesh.triangles[t][c];
+    atlas.page.push_back(m_packing.placements[i].page);
+    report.charts.push_back(map.report);
+    report.charts.back().page = atlas.page.back();
+  }
+  report.texels_per_unit = m_packing.texels_per_unit;
+  report.seam_length = seam_length(m_mesh, atlas.charts);
+  measure_atlas(atlas, report);
+}
+
+} // namespace internal
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_TEXTURE_ATLAS_BUILDER_H

@@ -1,0 +1,361 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Bad input at the doors of texturing: each gives a sentence, no result and no signal.
+
+#include <support/chart_generators.h>
+#include <support/textured_meshes.h>
+
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/Surface_mesh_multiresolution/build_textured_progressive_mesh.h>
+#include <CGAL/Surface_mesh_texturing/AABB_tree_ray_caster.h>
+#include <CGAL/Surface_mesh_texturing/Horizon_packer.h>
+#include <CGAL/Surface_mesh_texturing/bake_by_rays.h>
+#include <CGAL/Surface_mesh_texturing/bake_colors.h>
+#include <CGAL/Surface_mesh_texturing/bake_displacement.h>
+#include <CGAL/Surface_mesh_texturing/build_texture_atlas.h>
+#include <CGAL/Surface_mesh_texturing/rendering_error.h>
+#include <CGAL/boost/graph/generators.h>
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace bad_texturing_input_test {
+
+namespace SMM = CGAL::Surface_mesh_multiresolution;
+namespace SMT = CGAL::Surface_mesh_texturing;
+using namespace test_support;
+
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Meshes that no door takes.
+std::vector<Named_mesh> bad_meshes()
+{
+  const Indexed_triangle_mesh good = grid(4, 4);
+  std::vector<Named_mesh> result = {{"empty", {}}, {"points only", good}, {"NaN", good},
+                                    {"infinite", good}, {"index out of range", good},
+                                    {"largest index", good}};
+  result[1].mesh.triangles.clear();
+  result[2].mesh.points[7] = Indexed_triangle_mesh::Point_3(0., nan, 0.);
+  result[3].mesh.points[7] = Indexed_triangle_mesh::Point_3(0., 0., infinity);
+  result[4].mesh.triangles[5][1] = Vertex_index(good.points.size());
+  result[5].mesh.triangles[5][1] = Vertex_index(-1);
+  return result;
+}
+
+// Those that have no charts, either.
+std::vector<Named_mesh> meshes_without_charts()
+{
+  std::vector<Named_mesh> result = bad_meshes();
+  const Indexed_triangle_mesh good = grid(4, 4);
+  result.push_back({"isolated vertex", good});
+  result.back().mesh.points.emplace_back(0., 0., 1.);
+  result.push_back({"vertex twice", good});
+  result.back().mesh.triangles[3][1] = result.back().mesh.triangles[3][0];
+  result.push_back({"three triangles at an edge", good});
+  result.back().mesh.points.emplace_back(0., 0., 1.);
+  result.back().mesh.triangles.push_back({good.triangles[6][0], good.triangles[6][1],
+                                          Vertex_index(good.points.size())});
+  return result;
+}
+
+Textured_triangle_mesh textured(const Indexed_triangle_mesh& mesh)
+{
+  Textured_triangle_mesh result;
+  result.points = mesh.points;
+  result.triangles = result.wedges = mesh.triangles;
+  for(const auto& p : grid(4, 4).points)
+    result.uv.emplace_back(p.x() / 4., p.y() / 4.);
+  result.uv.resize((std::max)(mesh.points.size(), result.uv.size()));
+  return result;
+}
+
+// The meshes above, and such with bad texture coordinates.
+std::vector<Named_textured_mesh> bad_textured_meshes()
+{
+  std::vector<Named_textured_mesh> result;
+  for(const auto& [name, mesh] : bad_meshes())
+    result.push_back({name, textured(mesh)});
+  const Textured_triangle_mesh good = textured(grid(4, 4));
+  for(const std::string name : {"uv NaN", "wedge out of range", "no wedges", "too few wedges"})
+    result.push_back({name, good});
+  const std::size_t n = result.size();
+  result[n - 4].mesh.uv[3] = Textured_triangle_mesh::Point_2(nan, 0.);
+  result[n - 3].mesh.wedges[3][2] = Vertex_index(good.uv.size());
+  result[n - 2].mesh.wedges.clear();
+  result[n - 1].mesh.wedges.pop_back();
+  return result;
+}
+
+SMT::Texture_atlas_options small_texture()
+{
+  SMT::Texture_atlas_options options;
+  options.packing.width = options.packing.height = 64;
+  return options;
+}
+
+SMT::Baking_by_rays_options small_image()
+{
+  SMT::Baking_by_rays_options options;
+  options.width = options.height = 16;
+  return options;
+}
+
+SMT::Given_charts_segmenter one_chart(std::size_t triangles)
+{
+  SMT::Face_charts charts;
+  charts.chart.assign(triangles, 0);
+  charts.seams.assign(triangles, 0);
+  charts.number_of_charts = 1;
+  return SMT::Given_charts_segmenter(charts);
+}
+
+typedef std::pair<std::string, std::function<std::string(const Indexed_triangle_mesh&)>> Mesh_door;
+
+// What takes a mesh and finds charts.
+std::vector<Mesh_door> charting_doors()
+{
+  return {
+    {"build_texture_atlas",
+     [](const auto& m) { return SMT::build_texture_atlas(m, small_texture()).error; }},
+    {"build_texture_atlas with given charts",
+     [](const auto& m) {
+       return SMT::build_texture_atlas(m, small_texture(), one_chart(m.triangles.size())).error;
+     }},
+    {"build_texture_atlas with components",
+     [](const auto& m) {
+       return SMT::build_texture_atlas(m, small_texture(), SMT::Component_segmenter()).error;
+     }},
+    {"build_texture_atlas with constrained edges",
+     [](const auto& m) {
+       const SMT::Constrained_segmenter<> segmenter(
+         std::vector<std::uint8_t>(m.triangles.size(), 0));
+       return SMT::build_texture_atlas(m, small_texture(), segmenter).error;
+     }},
+    {"segment_into_charts", [](const auto& m) { return SMT::segment_into_charts(m).error; }},
+    {"segment_coarse_to_fine",
+     [](const auto& m) {
+       return SMT::segment_coarse_to_fine(m, {}, [](const Indexed_triangle_mesh& coarse) {
+                return SMT::one_disk_per_component(coarse);
+              }).error;
+     }}};
+}
+
+TEST(Bad_texturing_input, meshes_without_charts_give_a_sentence)
+{
+  for(const auto& [mesh_name, mesh] : meshes_without_charts())
+    for(const auto& [door_name, door] : charting_doors())
+      EXPECT_FALSE(door(mesh).empty()) << door_name << ", " << mesh_name;
+  for(const auto& [door_name, door] : charting_doors())
+    EXPECT_EQ(door(grid(4, 4)), "") << door_name;
+}
+
+typedef std::function<std::string(const Textured_triangle_mesh&, const Textured_triangle_mesh&)>
+  Two_meshes;
+
+// What takes a fine mesh and a light model that share an atlas.
+std::vector<std::pair<std::string, Two_meshes>> baking_doors()
+{
+  return {{"bake_normal_map",
+           [](const auto& fine, const auto& light) {
+             return SMT::bake_normal_map(fine, light, small_image()).error;
+           }},
+          {"bake_displacement",
+           [](const auto& fine, const auto& light) {
+             return SMT::bake_displacement(fine, light, small_image()).map.error;
+           }},
+          {"bake_vertex_colors",
+           [](const auto& fine, const auto& light) {
+             const std::vector<float> values(fine.points.size(), 1.f);
+             return SMT::bake_vertex_colors(fine, values, 1, light, small_image()).error;
+           }},
+          {"bake_image", [](const auto& fine, const auto& light) {
+             const SMT::Texture_image image = {1, 1, 1, {1.f}};
+             return SMT::bake_image(fine, fine, image, light, small_image()).error;
+           }}};
+}
+
+TEST(Bad_texturing_input, bad_meshes_are_not_baked)
+{
+  const Textured_triangle_mesh good = textured(grid(4, 4));
+  for(const auto& [door_name, door] : baking_doors()) {
+    EXPECT_EQ(door(good, good), "") << door_name;
+    for(const auto& [mesh_name, mesh] : bad_textured_meshes()) {
+      EXPECT_FALSE(door(mesh, good).empty()) << door_name << ", fine mesh: " << mesh_name;
+      EXPECT_FALSE(door(good, mesh).empty()) << door_name << ", light model: " << mesh_name;
+    }
+  }
+}
+
+TEST(Bad_texturing_input, bad_meshes_are_not_baked_by_rays)
+{
+  typedef SMT::AABB_tree_ray_caster Caster;
+  const Textured_triangle_mesh light = textured(grid(4, 4));
+  for(const auto& [name, mesh] : bad_meshes())
+    EXPECT_FALSE(SMT::bake_normal_map_by_rays<Caster>(mesh, light, small_image()).error.empty())
+      << name;
+  for(const auto& [name, mesh] : bad_textured_meshes())
+    EXPECT_FALSE(
+      SMT::bake_normal_map_by_rays<Caster>(grid(4, 4), mesh, small_image()).error.empty())
+      << name;
+  for(const double distance : {0., -1., nan, infinity}) {
+    SMT::Baking_by_rays_options options = small_image();
+    options.max_distance = distance;
+    EXPECT_FALSE(SMT::bake_normal_map_by_rays<Caster>(grid(4, 4), light, options).error.empty())
+      << distance;
+  }
+}
+
+TEST(Bad_texturing_input, bad_meshes_have_no_levels_no_frames_and_no_rendering_error)
+{
+  const Textured_triangle_mesh good = textured(grid(4, 4));
+  const SMT::Tangent_frames frames = SMT::tangent_frames(good, SMT::vertex_normals(good));
+  const SMT::Texture_image map = {1, 1, 3, {0.f, 0.f, 1.f}};
+  const auto error = [&](const auto& original, const auto& light) {
+    return SMT::rendering_error(original, light, frames, map, SMT::Normal_space::TANGENT, 8).error;
+  };
+  EXPECT_EQ(error(good, good), "");
+  for(const auto& [name, mesh] : bad_textured_meshes()) {
+    EXPECT_FALSE(SMM::build_textured_progressive_mesh(mesh).error.empty()) << name;
+    EXPECT_FALSE(error(good, mesh).empty()) << name;
+    SMT::tangent_frames(mesh, SMT::vertex_normals(mesh)); // no signal
+  }
+  for(const auto& [name, mesh] : bad_meshes())
+    EXPECT_FALSE(error(textured(mesh), good).empty()) << name;
+  Indexed_triangle_mesh beyond = grid(4, 4);
+  beyond.triangles[5][1] = Vertex_index(beyond.points.size());
+  EXPECT_TRUE(SMT::vertex_normals(beyond.points, beyond.triangles).empty());
+}
+
+TEST(Bad_texturing_input, arrays_of_another_length_give_a_sentence)
+{
+  const Textured_triangle_mesh mesh = textured(grid(4, 4));
+  const std::vector<SMT::Vector_3> normals = SMT::vertex_normals(mesh);
+  const SMT::Tangent_frames frames = SMT::tangent_frames(mesh, normals);
+  const std::vector<SMT::Vector_3> few(normals.begin(), normals.end() - 1);
+  std::vector<SMT::Tangent_frames> bad_frames = {{}, frames, frames, frames};
+  bad_frames[1].normals.pop_back();
+  bad_frames[2].corners.pop_back();
+  bad_frames[3].corners[0][0] = Vertex_index(frames.frames.size());
+  const SMT::Baking_by_rays_options options = small_image();
+  EXPECT_NE(SMT::bake_normal_map(mesh, few, mesh, frames, options).error, "");
+  EXPECT_NE(SMT::bake_displacement(mesh, mesh, few, options).map.error, "");
+  for(const SMT::Tangent_frames& bad : bad_frames) {
+    EXPECT_NE(SMT::bake_normal_map(mesh, normals, mesh, bad, options).error, "");
+    EXPECT_NE(SMT::bake_normal_map_by_rays<SMT::AABB_tree_ray_caster>(grid(4, 4), normals, mesh,
+                                                                     bad, options).error, "");
+  }
+  EXPECT_NE(SMT::bake_vertex_colors(mesh, {1.f}, 3, mesh, options).error, "");
+  EXPECT_NE(SMT::bake_vertex_colors(mesh, {}, 0, mesh, options).error, "");
+  EXPECT_NE(SMT::bake_image(mesh, mesh, {2, 2, 3, {1.f}}, mesh, options).error, "");
+  EXPECT_NE(SMT::bake_image(mesh, mesh, {}, mesh, options).error, "");
+  Textured_triangle_mesh former = mesh;
+  former.triangles.pop_back();
+  former.wedges.pop_back();
+  EXPECT_NE(SMT::bake_image(mesh, former, {1, 1, 1, {1.f}}, mesh, options).error, "");
+}
+
+TEST(Bad_texturing_input, options_without_sense_give_a_sentence)
+{
+  const Textured_triangle_mesh mesh = textured(grid(4, 4));
+  const auto bake = [&mesh](std::size_t width, std::size_t height, std::size_t samples) {
+    SMT::Baking_options options;
+    options.width = width;
+    options.height = height;
+    options.samples = samples;
+    return SMT::bake_normal_map(mesh, mesh, options).error;
+  };
+  EXPECT_NE(bake(0, 16, 1), "");
+  EXPECT_NE(bake(16, 0, 1), "");
+  EXPECT_NE(bake(16, 16, 0), "");
+  EXPECT_NE(bake(16, 16, std::size_t(-1)), "");
+  const auto expect_error = [](const std::string& name, auto change) {
+    SMT::Texture_atlas_options options = small_texture();
+    change(options);
+    const SMT::Texture_atlas_result result = SMT::build_texture_atlas(grid(4, 4), options);
+    EXPECT_NE(result.error, "") << name;
+    EXPECT_TRUE(result.atlas.mesh.uv.empty()) << name;
+  };
+  expect_error("width", [](auto& o) { o.packing.width = 0; });
+  expect_error("padding", [](auto& o) { o.packing.padding = 1000; });
+  expect_error("mip levels", [](auto& o) { o.packing.mip_levels = 100; });
+  expect_error("rotations", [](auto& o) { o.packing.rotations = -1; });
+  expect_error("texels", [](auto& o) { o.packing.texels_per_unit = nan; });
+  expect_error("bound", [](auto& o) { o.bound.area_scale = nan; });
+  expect_error("ratio", [](auto& o) { o.bound.quasi_conformal = 0.; });
+  expect_error("densities", [](auto& o) { o.density = {1.f}; });
+  expect_error("negative density", [](auto& o) { o.density.assign(32, -1.f); });
+  expect_error("NaN density", [](auto& o) { o.density.assign(32, float(nan)); });
+  for(const std::size_t faces : {std::size_t(0), std::size_t(1)}) { // as coarse as can be
+    SMT::Texture_atlas_options options = small_texture();
+    options.coarse_faces = options.trial_faces = faces;
+    EXPECT_EQ(SMT::build_texture_atlas(grid(4, 4), options).error, "") << faces;
+  }
+}
+
+TEST(Bad_texturing_input, charts_of_another_mesh_give_a_sentence)
+{
+  for(const std::size_t triangles : {0, 1, 31, 33}) {
+    EXPECT_NE(
+      SMT::build_texture_atlas(grid(4, 4), small_texture(), one_chart(triangles)).error, "");
+    const SMT::Constrained_segmenter<> segmenter(std::vector<std::uint8_t>(triangles, 7));
+    EXPECT_NE(SMT::build_texture_atlas(grid(4, 4), small_texture(), segmenter).error, "");
+  }
+  SMT::Face_charts charts; // whose numbers make no sense: their seams count
+  charts.seams.assign(32, 0xff);
+  charts.chart.assign(5, 77);
+  const SMT::Texture_atlas_result result
+    = SMT::build_texture_atlas(grid(4, 4), small_texture(), SMT::Given_charts_segmenter(charts));
+  EXPECT_EQ(result.error, "");
+  EXPECT_EQ(result.atlas.charts.number_of_charts, 32u);
+}
+
+TEST(Bad_texturing_input, charts_that_cannot_be_packed_give_a_sentence)
+{
+  const SMT::Chart_shape good = {{{0., 0.}, {1., 0.}, {0., 1.}}, {{0, 1, 2}}};
+  std::vector<SMT::Chart_shape> bad(4, good);
+  bad[0].uv[1] = SMT::Chart_shape::Point_2(nan, 0.);
+  bad[1].uv[1] = SMT::Chart_shape::Point_2(infinity, 0.);
+  bad[2].uv[1] = SMT::Chart_shape::Point_2(1e308, -1e308);
+  bad[2].uv[2] = SMT::Chart_shape::Point_2(-1e308, 1e308);
+  bad[3].triangles[0][2] = 3;
+  for(const SMT::Chart_shape& chart : bad) {
+    EXPECT_NE(SMT::pack_charts({good, chart}).error, "");
+    EXPECT_NE(SMT::pack_charts<SMT::Horizon_packer>({good, chart}).error, "");
+  }
+  EXPECT_EQ(SMT::pack_charts({}).error, "");
+  EXPECT_EQ(SMT::pack_charts({SMT::Chart_shape()}).error, "");
+  EXPECT_EQ(SMT::pack_charts<SMT::Horizon_packer>({SMT::Chart_shape()}).error, "");
+}
+
+TEST(Bad_texturing_input, meshes_of_any_type_give_a_sentence)
+{
+  typedef CGAL::Simple_cartesian<double> Kernel;
+  typedef CGAL::Surface_mesh<Kernel::Point_3> Mesh;
+  Mesh empty, quad;
+  CGAL::make_quad(Kernel::Point_3(0., 0., 0.), Kernel::Point_3(1., 0., 0.),
+                  Kernel::Point_3(1., 1., 0.), Kernel::Point_3(0., 1., 0.), quad);
+  for(Mesh* mesh : {&empty, &quad}) {
+    const auto uv = mesh->add_property_map<Mesh::Halfedge_index, Kernel::Point_2>("h:uv").first;
+    const auto chart = mesh->add_property_map<Mesh::Face_index, std::size_t>("f:chart").first;
+    const auto color
+      = mesh->add_property_map<Mesh::Vertex_index, std::array<float, 3>>("v:color").first;
+    EXPECT_NE(SMT::build_texture_atlas(*mesh, uv, chart).error, "");
+    EXPECT_NE(SMT::segment_into_charts(*mesh, chart).error, "");
+    EXPECT_NE(SMT::bake_normal_map(*mesh, uv, *mesh, uv).error, "");
+    EXPECT_NE(SMT::bake_displacement(*mesh, uv, *mesh, uv).map.error, "");
+    EXPECT_NE(SMT::bake_vertex_colors(*mesh, uv, color, 3, *mesh, uv).error, "");
+    EXPECT_NE(SMT::bake_normal_map_by_rays<SMT::AABB_tree_ray_caster>(*mesh, *mesh, uv).error, "");
+    EXPECT_FALSE(SMT::mark_seams(*mesh, SMT::Face_charts{{7, 7}, {0, 0}, 1},
+                                 mesh->add_property_map<Mesh::Edge_index, bool>("e:seam").first));
+  }
+}
+
+} // namespace bad_texturing_input_test

@@ -1,0 +1,460 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Models of the concepts of texturing that users may write, and the least that a model may have.
+
+#include <support/texture_atlas_properties.h>
+#include <support/textured_meshes.h>
+
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/Surface_mesh_texturing/AABB_tree_ray_caster.h>
+#include <CGAL/Surface_mesh_texturing/Horizon_packer.h>
+#include <CGAL/Surface_mesh_texturing/bake_by_rays.h>
+#include <CGAL/Surface_mesh_texturing/bake_colors.h>
+#include <CGAL/Surface_mesh_texturing/bake_displacement.h>
+#include <CGAL/Surface_mesh_texturing/build_texture_atlas.h>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace texturing_models_test {
+
+namespace SMT = CGAL::Surface_mesh_texturing;
+using namespace test_support;
+typedef CGAL::Simple_cartesian<double>::Point_2 Point_2;
+typedef CGAL::Simple_cartesian<double>::Point_3 Point_3;
+
+// What has nothing but what a concept asks for: it is neither made without arguments nor copied.
+class Archetype
+{
+public:
+  explicit Archetype(int) {}
+  Archetype(const Archetype&) = delete;
+  Archetype& operator=(const Archetype&) = delete;
+};
+
+// Charts of the octants of space.
+class Octant_segmenter : Archetype
+{
+public:
+  typedef CGAL::Tag_true Is_bounded;
+  typedef CGAL::Tag_true Is_for_any_mesh;
+  using Archetype::Archetype;
+  SMT::Segmentation_result operator()(const Indexed_triangle_mesh& mesh,
+                                      const SMT::Texture_atlas_options&) const
+  {
+    std::vector<std::uint32_t> label;
+    for(const Triangle_indices& t : mesh.triangles) {
+      const Point_3& p = mesh.points[t[0]];
+      label.push_back((p.x() > 0. ? 1 : 0) + (p.y() > 0. ? 2 : 0) + (p.z() > 0. ? 4 : 0));
+    }
+    SMT::Segmentation_result result;
+    result.charts = SMT::charts_of_labels(mesh.triangles, label);
+    return result;
+  }
+};
+
+// The projection along the mean normal.
+class Projecting_parameterizer : Archetype
+{
+public:
+  using Archetype::Archetype;
+  std::vector<Point_2> operator()(const Indexed_triangle_mesh& chart) const
+  {
+    SMT::Vector_3 n(0., 0., 0.);
+    for(const Triangle_indices& t : chart.triangles)
+      n = n + CGAL::cross_product(chart.points[t[1]] - chart.points[t[0]],
+                                  chart.points[t[2]] - chart.points[t[0]]);
+    const SMT::Vector_3 axis = std::abs(n.x()) <= std::abs(n.y()) ? SMT::Vector_3(1., 0., 0.)
+                                                                  : SMT::Vector_3(0., 1., 0.);
+    const SMT::Vector_3 v = CGAL::cross_product(n, axis) / std::sqrt(n * n);
+    const SMT::Vector_3 u = CGAL::cross_product(v, n) / std::sqrt(n * n);
+    std::vector<Point_2> result;
+    for(const Point_3& p : chart.points)
+      result.emplace_back(u * (p - CGAL::ORIGIN), v * (p - CGAL::ORIGIN));
+    return result;
+  }
+};
+
+// Charts in the cells of a square of cells.
+class Cell_packer : Archetype
+{
+public:
+  using Archetype::Archetype;
+  SMT::Packing_result operator()(const std::vector<SMT::Chart_shape>& charts,
+                                 const SMT::Packing_options& options) const
+  {
+    const std::size_t cells = std::size_t(std::ceil(std::sqrt(double(charts.size()))));
+    const double cell = double((std::min)(options.width, options.height) / cells);
+    const double room = cell - double(options.padding) - 2.;
+    std::vector<CGAL::Bbox_2> boxes;
+    double largest = 0.;
+    for(const SMT::Chart_shape& chart : charts) {
+      boxes.push_back(CGAL::bbox_2(chart.uv.begin(), chart.uv.end()));
+      largest = (std::max)({largest, boxes.back().x_span(), boxes.back().y_span()});
+    }
+    SMT::Packing_result result;
+    result.pages = 1;
+    result.texels_per_unit = room / largest;
+    for(std::size_t i = 0; i < charts.size(); ++i) {
+      SMT::Chart_placement place;
+      place.scale = result.texels_per_unit;
+      const double corner = 1. + 0.5 * double(options.padding);
+      place.offset = Point_2(corner + cell * double(i % cells) - place.scale * boxes[i].xmin(),
+                             corner + cell * double(i / cells) - place.scale * boxes[i].ymin());
+      result.placements.push_back(place);
+    }
+    return result;
+  }
+};
+
+SMT::Texture_atlas_options small_texture()
+{
+  SMT::Texture_atlas_options options;
+  options.packing.width = options.packing.height = 256;
+  options.coarse_faces = 500;
+  return options;
+}
+
+TEST(Texturing_models, models_of_the_user_build_an_atlas)
+{
+  const Indexed_triangle_mesh mesh = sphere(3);
+  const Octant_segmenter segmenter(0);
+  const Projecting_parameterizer parameterizer(0);
+  const Cell_packer packer(0);
+  SMT::Texture_atlas_options options = small_texture();
+  options.bound.quasi_conformal = 3.; // an octant reaches 55 degrees from its centre
+  const SMT::Texture_atlas_result result
+    = SMT::build_texture_atlas(mesh, options, segmenter, parameterizer, packer);
+  ASSERT_EQ(result.error, "");
+  EXPECT_EQ(error_in_atlas(mesh, result.atlas), "");
+  EXPECT_GE(result.report.charts.size(), 8u); // triangles across a plane may be alone
+  EXPECT_EQ(result.report.recut_charts, 0u);
+  EXPECT_EQ(result.atlas.charts.chart, segmenter(mesh, options).charts.chart);
+}
+
+TEST(Texturing_models, each_model_goes_with_the_defaults)
+{
+  const Indexed_triangle_mesh mesh = sphere(3);
+  const auto expect_atlas = [&mesh](const SMT::Texture_atlas_result& result) {
+    ASSERT_EQ(result.error, "");
+    EXPECT_EQ(error_in_atlas(mesh, result.atlas), "");
+  };
+  const CGAL::Default none;
+  const SMT::Texture_atlas_options options = small_texture();
+  const Octant_segmenter segmenter(0);
+  const Projecting_parameterizer parameterizer(0);
+  const Cell_packer packer(0);
+  expect_atlas(SMT::build_texture_atlas(mesh, options, segmenter));
+  expect_atlas(SMT::build_texture_atlas(mesh, options, none, parameterizer));
+  expect_atlas(SMT::build_texture_atlas(mesh, options, none, none, packer));
+  expect_atlas(SMT::build_texture_atlas(mesh, options, SMT::Component_segmenter()));
+  expect_atlas(SMT::build_texture_atlas(mesh, options, none, none, SMT::Horizon_packer()));
+  expect_atlas(SMT::build_texture_atlas<CGAL::Sequential_tag>(mesh, options));
+}
+
+// 20,480 triangles, for which the segmenter is first tried on a level of 1,000
+TEST(Texturing_models, a_segmenter_of_the_user_is_tried_on_a_coarser_level)
+{
+  const Indexed_triangle_mesh mesh = sphere(5);
+  SMT::Texture_atlas_options options = small_texture();
+  options.trial_faces = 1000;
+  const SMT::Texture_atlas_result result
+    = SMT::build_texture_atlas(mesh, options, Octant_segmenter(0));
+  ASSERT_EQ(result.error, "");
+  EXPECT_EQ(error_in_atlas(mesh, result.atlas), "");
+}
+
+TEST(Texturing_models, the_default_is_what_its_name_says)
+{
+  const Indexed_triangle_mesh mesh = torus(30, 15);
+  const SMT::Texture_atlas one = SMT::build_texture_atlas(mesh, small_texture()).atlas;
+  const SMT::Texture_atlas other
+    = SMT::build_texture_atlas(mesh, small_texture(), SMT::Chart_growth_segmenter(),
+                               SMT::Border_first_chart_parameterizer(), SMT::Raster_packer())
+        .atlas;
+  EXPECT_EQ(one.charts.seams, other.charts.seams);
+  ASSERT_EQ(one.mesh.uv.size(), other.mesh.uv.size());
+  EXPECT_EQ(std::memcmp(one.mesh.uv.data(), other.mesh.uv.data(),
+                        one.mesh.uv.size() * sizeof(one.mesh.uv[0])), 0);
+}
+
+// A parameterizer that fails: charts are cut until they are single triangles.
+TEST(Texturing_models, an_atlas_of_single_triangles_if_no_map_is_any_good)
+{
+  const Indexed_triangle_mesh mesh = grid(4, 4);
+  for(const std::size_t kind : {0, 1, 2}) {
+    const auto parameterizer = [kind](const Indexed_triangle_mesh& chart) {
+      std::vector<Point_2> uv(chart.points.size(), Point_2(0., 0.));
+      if(kind == 0)
+        uv.clear(); // there is none
+      if(kind == 1)
+        uv.pop_back(); // not as many
+      return uv;       // a point, and no more
+    };
+    const SMT::Texture_atlas_result result
+      = SMT::build_texture_atlas(mesh, small_texture(), CGAL::Default(), parameterizer);
+    ASSERT_EQ(result.error, "") << kind;
+    EXPECT_EQ(result.report.charts.size(), mesh.triangles.size()) << kind;
+  }
+}
+
+TEST(Texturing_models, models_of_the_user_that_are_wrong_give_a_sentence)
+{
+  const Indexed_triangle_mesh mesh = grid(4, 4);
+  const CGAL::Default none;
+  const auto no_places = [](const auto&, const SMT::Packing_options&) {
+    return SMT::Packing_result();
+  };
+  const auto no_page = [](const std::vector<SMT::Chart_shape>& charts,
+                          const SMT::Packing_options&) {
+    SMT::Packing_result result;
+    result.placements.resize(charts.size());
+    return result;
+  };
+  EXPECT_NE(SMT::build_texture_atlas(mesh, small_texture(), none, none, no_places).error, "");
+  EXPECT_NE(SMT::build_texture_atlas(mesh, small_texture(), none, none, no_page).error, "");
+}
+
+typedef CGAL::Simple_cartesian<double> Kernel;
+typedef CGAL::Surface_mesh<Kernel::Point_3> Mesh;
+
+Mesh surface_mesh(const Indexed_triangle_mesh& arrays)
+{
+  Mesh mesh;
+  for(const Point_3& p : arrays.points)
+    mesh.add_vertex(Kernel::Point_3(p.x(), p.y(), p.z()));
+  for(const Triangle_indices& t : arrays.triangles)
+    mesh.add_face(Mesh::Vertex_index(t[0]), Mesh::Vertex_index(t[1]), Mesh::Vertex_index(t[2]));
+  return mesh;
+}
+
+// A sphere with constrained edges around its equator, as charts of a mesh of any type.
+TEST(Texturing_models, constrained_edges_are_seams)
+{
+  const Indexed_triangle_mesh arrays = sphere(4);
+  Mesh mesh = surface_mesh(arrays);
+  const auto chart = mesh.add_property_map<Mesh::Face_index, std::size_t>("f:chart").first;
+  const auto uv = mesh.add_property_map<Mesh::Halfedge_index, Kernel::Point_2>("h:uv").first;
+  const auto wanted = mesh.add_property_map<Mesh::Edge_index, bool>("e:wanted", false).first;
+  const auto edge_seam = mesh.add_property_map<Mesh::Edge_index, bool>("e:seam", false).first;
+  const auto half_seam = mesh.add_property_map<Mesh::Halfedge_index, bool>("h:seam", false).first;
+  const auto is_above = [&mesh](Mesh::Face_index f) {
+    double z = 0.;
+    for(const auto v : vertices_around_face(halfedge(f, mesh), mesh))
+      z += mesh.point(v).z();
+    return z > 1e-9;
+  };
+  std::size_t number = 0;
+  for(const auto e : edges(mesh)) {
+    wanted[e] = is_above(mesh.face(mesh.halfedge(e, 0))) != is_above(mesh.face(mesh.halfedge(e, 1)));
+    number += wanted[e] ? 1 : 0;
+  }
+  ASSERT_GT(number, 10u);
+  const auto np = CGAL::parameters::edge_is_constrained_map(wanted);
+  const auto expect_seams = [&](const SMT::Face_charts& charts) {
+    ASSERT_TRUE(SMT::mark_seams(mesh, charts, edge_seam));
+    ASSERT_TRUE(SMT::mark_seams(mesh, charts, half_seam));
+    for(const auto e : edges(mesh)) {
+      const auto h = mesh.halfedge(e, 0);
+      EXPECT_TRUE(edge_seam[e] || !wanted[e]);
+      EXPECT_EQ(half_seam[h], edge_seam[e]);
+      EXPECT_EQ(half_seam[mesh.opposite(h)], edge_seam[e]);
+      EXPECT_TRUE(edge_seam[e] || chart[mesh.face(h)] == chart[mesh.face(mesh.opposite(h))]);
+    }
+    EXPECT_EQ(SMT::error_of_charts(arrays.triangles, charts), "");
+  };
+  const SMT::Segmentation_result segmentation
+    = SMT::segment_into_charts(mesh, chart, SMT::Segmentation_options(),
+                               SMT::Chart_growth_options(), np);
+  ASSERT_EQ(segmentation.error, "");
+  expect_seams(segmentation.charts);
+  const SMT::Texture_atlas_result atlas
+    = SMT::build_texture_atlas(mesh, uv, chart, small_texture(), np);
+  ASSERT_EQ(atlas.error, "");
+  EXPECT_EQ(error_in_atlas(arrays, atlas.atlas), "");
+  expect_seams(atlas.atlas.charts);
+}
+
+TEST(Texturing_models, meshes_of_any_type_take_the_points_of_a_map)
+{
+  const Indexed_triangle_mesh arrays = torus(24, 12);
+  Mesh mesh = surface_mesh(arrays);
+  const auto place = mesh.add_property_map<Mesh::Vertex_index, Kernel::Point_3>("v:place").first;
+  for(const auto v : vertices(mesh)) {
+    place[v] = mesh.point(v);
+    mesh.point(v) = Kernel::Point_3(0., 0., 0.); // so that they would be found to be without extent
+  }
+  const auto np = CGAL::parameters::vertex_point_map(place);
+  const auto chart = mesh.add_property_map<Mesh::Face_index, std::size_t>("f:chart").first;
+  const auto uv = mesh.add_property_map<Mesh::Halfedge_index, Kernel::Point_2>("h:uv").first;
+  EXPECT_NE(SMT::segment_into_charts(mesh, chart).error, "");
+  const SMT::Segmentation_result segmentation = SMT::segment_into_charts<CGAL::Sequential_tag>(
+    mesh, chart, SMT::Segmentation_options(), SMT::Chart_growth_options(), np);
+  ASSERT_EQ(segmentation.error, "");
+  EXPECT_EQ(segmentation.charts.chart, SMT::segment_into_charts(arrays).charts.chart);
+  for(const auto f : faces(mesh))
+    EXPECT_EQ(chart[f], segmentation.charts.chart[std::size_t(f)]);
+  const SMT::Texture_atlas_result atlas
+    = SMT::build_texture_atlas(mesh, uv, chart, small_texture(), np);
+  ASSERT_EQ(atlas.error, "");
+  EXPECT_EQ(error_in_atlas(arrays, atlas.atlas), "");
+}
+
+SMT::Baking_by_rays_options small_image()
+{
+  SMT::Baking_by_rays_options options;
+  options.width = options.height = 32;
+  return options;
+}
+
+// A mesh of any type is baked as its arrays, with texture coordinates of vertices or of halfedges.
+TEST(Texturing_models, meshes_of_any_type_are_baked)
+{
+  const Indexed_triangle_mesh arrays = with_hills(grid(8, 8), 0.5, 7);
+  const Textured_triangle_mesh fine = textured(arrays, [&](std::size_t, Vertex_index v) {
+    return Point_2(arrays.points[v].x() / 8., arrays.points[v].y() / 8.);
+  });
+  const Indexed_triangle_mesh flat = grid(1, 1);
+  const Textured_triangle_mesh light = textured(flat, [&](std::size_t, Vertex_index v) {
+    return Point_2(flat.points[v].x(), flat.points[v].y());
+  });
+  Mesh fine_mesh = surface_mesh(arrays), light_mesh = surface_mesh(flat);
+  const auto of_vertices
+    = fine_mesh.add_property_map<Mesh::Vertex_index, Kernel::Point_2>("v:uv").first;
+  const auto of_halfedges
+    = fine_mesh.add_property_map<Mesh::Halfedge_index, Kernel::Point_2>("h:uv").first;
+  const auto light_uv
+    = light_mesh.add_property_map<Mesh::Vertex_index, Kernel::Point_2>("v:uv").first;
+  const auto color
+    = fine_mesh.add_property_map<Mesh::Vertex_index, std::array<float, 2>>("v:color").first;
+  std::vector<float> values;
+  for(const auto v : vertices(fine_mesh)) {
+    const Kernel::Point_3& p = fine_mesh.point(v);
+    of_vertices[v] = Kernel::Point_2(p.x() / 8., p.y() / 8.);
+    color[v] = {float(p.x()), float(p.z())};
+    values.insert(values.end(), color[v].begin(), color[v].end());
+  }
+  for(const auto h : halfedges(fine_mesh))
+    of_halfedges[h] = of_vertices[target(h, fine_mesh)];
+  for(const auto v : vertices(light_mesh))
+    light_uv[v] = Kernel::Point_2(light_mesh.point(v).x(), light_mesh.point(v).y());
+  const SMT::Baking_by_rays_options options = small_image();
+  const auto expect_equal = [](const SMT::Baked_map& map, const SMT::Baked_map& expected) {
+    EXPECT_EQ(map.error, "");
+    EXPECT_GT(map.number_of_covered_texels, 0u);
+    EXPECT_EQ(map.image.texels, expected.image.texels);
+  };
+  const SMT::Baked_map normals = SMT::bake_normal_map(fine, light, options);
+  expect_equal(SMT::bake_normal_map(fine_mesh, of_vertices, light_mesh, light_uv, options), normals);
+  expect_equal(SMT::bake_normal_map(fine_mesh, of_halfedges, light_mesh, light_uv, options),
+               normals);
+  expect_equal(
+    SMT::bake_displacement(fine_mesh, of_halfedges, light_mesh, light_uv, options).map,
+    SMT::bake_displacement(fine, light, options).map);
+  expect_equal(SMT::bake_vertex_colors(fine_mesh, of_halfedges, color, 2, light_mesh, light_uv,
+                                       options),
+               SMT::bake_vertex_colors(fine, values, 2, light, options));
+}
+
+// A ray caster that tries all triangles.
+class Brute_force_ray_caster : Archetype
+{
+public:
+  Brute_force_ray_caster(const std::vector<Point_3>& points,
+                         const std::vector<Triangle_indices>& triangles)
+    : Archetype(0), m_points(points), m_triangles(triangles)
+  {}
+  std::string error() const { return {}; }
+  SMT::Ray_hit cast(const Point_3& origin, const SMT::Vector_3& direction, double nearest,
+                    double farthest) const
+  {
+    SMT::Ray_hit first;
+    for(std::uint32_t t = 0; t < m_triangles.size(); ++t) {
+      const Point_3& a = m_points[m_triangles[t][0]];
+      const SMT::Vector_3 ab = m_points[m_triangles[t][1]] - a, ac = m_points[m_triangles[t][2]] - a;
+      const SMT::Vector_3 n = CGAL::cross_product(ab, ac), to_a = a - origin;
+      const double distance = (to_a * n) / (direction * n);
+      const SMT::Vector_3 p = distance * direction - to_a;
+      const double v = (CGAL::cross_product(p, ac) * n) / (n * n);
+      const double w = (CGAL::cross_product(ab, p) * n) / (n * n);
+      if(v >= -1e-12 && w >= -1e-12 && v + w <= 1. + 1e-12 && distance >= nearest
+         && distance <= farthest && distance < first.distance) {
+        first.point.triangle = t;
+        first.point.weights = {1. - v - w, v, w};
+        first.distance = distance;
+      }
+    }
+    return first;
+  }
+
+private:
+  const std::vector<Point_3>& m_points;
+  const std::vector<Triangle_indices>& m_triangles;
+};
+
+TEST(Texturing_models, a_ray_caster_of_the_user)
+{
+  const Indexed_triangle_mesh fine = with_hills(grid(8, 8), 0.2, 7);
+  const Textured_triangle_mesh light = textured(grid(8, 8), [](std::size_t, Vertex_index v) {
+    return Point_2(double(v % 9) / 8., double(v / 9) / 8.);
+  });
+  const SMT::Baking_by_rays_options options = small_image();
+  const SMT::Baked_map map
+    = SMT::bake_normal_map_by_rays<Brute_force_ray_caster>(fine, light, options);
+  const SMT::Baked_map expected
+    = SMT::bake_normal_map_by_rays<SMT::AABB_tree_ray_caster>(fine, light, options);
+  EXPECT_EQ(map.error, "");
+  EXPECT_EQ(map.number_of_samples_without, expected.number_of_samples_without);
+  ASSERT_EQ(map.image.texels.size(), expected.image.texels.size());
+  for(std::size_t i = 0; i < map.image.texels.size(); ++i)
+    EXPECT_NEAR(map.image.texels[i], expected.image.texels[i], 1e-6);
+}
+
+// The triangle of the light model, whatever the fine surface; and its number.
+class Same_triangle : Archetype
+{
+public:
+  using Archetype::Archetype;
+  void find(std::size_t, std::vector<SMT::Baking_sample>& samples) const
+  {
+    for(SMT::Baking_sample& sample : samples)
+      sample.fine = sample.light;
+  }
+};
+
+class Number_shader : Archetype
+{
+public:
+  using Archetype::Archetype;
+  std::size_t channels() const { return 1; }
+  void shade(const SMT::Surface_point& fine, const SMT::Surface_point&, double* value) const
+  {
+    *value = double(fine.triangle);
+  }
+  void finish(double* mean) const { *mean += 10.; }
+};
+
+TEST(Texturing_models, a_correspondence_and_a_shader_of_the_user)
+{
+  const Textured_triangle_mesh light = textured(grid(1, 1), [](std::size_t, Vertex_index v) {
+    return Point_2(double(v % 2), double(v / 2));
+  });
+  SMT::Baking_options options;
+  options.width = options.height = 8;
+  options.samples = 1;
+  const SMT::Baked_map map = SMT::bake(light, Same_triangle(0), Number_shader(0), options);
+  ASSERT_EQ(map.error, "");
+  EXPECT_EQ(map.number_of_covered_texels, 64u);
+  const std::set<float> values(map.image.texels.begin(), map.image.texels.end());
+  EXPECT_EQ(values, (std::set<float>{10.f, 11.f}));
+}
+
+} // namespace texturing_models_test
