@@ -3,10 +3,10 @@
 
 #include "error_of_mesh_bytes.h"
 
-#include <Diagnosis.h>
-#include <Mesh.h>
-#include <Mesh_reading.h>
-#include <Program_error.h>
+#include <reading/Diagnosis.h>
+#include <common/Mesh.h>
+#include <reading/Mesh_reading.h>
+#include <common/Program_error.h>
 
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Surface_mesh_parameterization/Distortion_measures.h>
