@@ -131,7 +131,7 @@ TEST(Progressive_surface, points_may_be_in_another_map)
   const auto points = mesh.add_property_map<Surface_mesh::Vertex_index, Point_3>("v:other").first;
   SMM::copy_level(surface, 10, mesh, CGAL::parameters::vertex_point_map(points));
   for(const auto v : mesh.vertices())
-    EXPECT_EQ(mesh.point(v), Point_3(0., 0., 0.));
+    mesh.point(v) = Point_3(0., 0., 0.); // points of CGAL's simple kernels begin with any value
   const SMM::Progressive_surface again
     = SMM::build_progressive_mesh(mesh, {}, CGAL::parameters::vertex_point_map(points));
   EXPECT_EQ(again.error, "");
