@@ -20,8 +20,8 @@
 namespace CGAL {
 namespace Blocked_execution {
 
-// Asks for the cache line of an address. The empty statement is for GCC: it takes a function that
-// does nothing but prefetch for one without effects, and leaves out the calls of it.
+/// Asks for the cache line of an address. The empty statement is for GCC: it takes a function that
+/// does nothing but prefetch for one without effects, and leaves out the calls of it.
 inline void prefetch(const void* address)
 {
 #if defined(__GNUC__)
@@ -53,7 +53,9 @@ inline void* allocate_large_pages(std::size_t bytes)
 
 #else
 
+/// Whether so many bytes are worth large pages.
 inline bool has_large_pages(std::size_t) { return false; }
+/// Asks the system for memory in large pages, if it has some.
 inline void* allocate_large_pages(std::size_t) { return nullptr; }
 
 #endif
@@ -92,13 +94,13 @@ struct Default_init_allocator
   }
 };
 
-// A vector whose values are not set by `resize(n)`: the system gives memory when it is first
-// touched, page by page, and that takes longer than to fill it. Who fills it in a `blocked_for()`
-// shares that among the threads.
+/// A vector whose values are not set by `resize(n)`: the system gives memory when it is first
+/// touched, page by page, and that takes longer than to fill it. Who fills it in a `blocked_for()`
+/// shares that among the threads.
 template <class T>
 using Uninitialized_vector = std::vector<T, Default_init_allocator<T>>;
 
-// Gives a vector n values, where the memory of one that is empty is first touched by all threads.
+/// Gives a vector n values, where the memory of one that is empty is first touched by all threads.
 template <class T, class Allocator>
 void resize_blocked(std::vector<T, Allocator>& v, std::size_t n)
 {

@@ -14,7 +14,7 @@
 namespace CGAL {
 namespace Blocked_execution {
 
-// The parts one after the other.
+/// The parts one after the other.
 template <class T>
 std::vector<T> joined(const std::vector<std::vector<T>>& parts)
 {
@@ -29,7 +29,7 @@ std::vector<T> joined(const std::vector<std::vector<T>>& parts)
   return result;
 }
 
-// The indices below n for which `is_selected(i)`, ascending.
+/// The indices below n for which `is_selected(i)`, ascending.
 template <class Is_selected>
 std::vector<std::uint32_t> select(std::size_t n, const Is_selected& is_selected)
 {
@@ -48,9 +48,10 @@ std::vector<std::uint32_t> select(std::size_t n, const Is_selected& is_selected)
   return joined(parts);
 }
 
+/// Where the things of each key begin, and where those of the last one end.
 typedef Uninitialized_vector<std::uint32_t> Key_begins;
 
-// Calls `use(low, size)` for stretches [low, low + size) that make up [0, n), one for each thread.
+/// Calls `use(low, size)` for stretches [low, low + size) that make up [0, n), one for each thread.
 template <class Use>
 void for_each_stretch_of_keys(std::size_t n, const Use& use)
 {
@@ -61,10 +62,10 @@ void for_each_stretch_of_keys(std::size_t n, const Use& use)
   });
 }
 
-// A stable counting sort by keys below n. `for_each(use)` calls `use(key, thing)` for all things in
-// their order; `place(i, thing)` is told the place i of each thing. Returns the begin of each key,
-// n + 1 places. Each thread looks at all things and takes care of a stretch of the keys: things of
-// meshes in spatial order are nearly sorted already, so that the look is cheap.
+/// A stable counting sort by keys below n. `for_each(use)` calls `use(key, thing)` for all things in
+/// their order; `place(i, thing)` is told the place i of each thing. Returns the begin of each key,
+/// n + 1 places. Each thread looks at all things and takes care of a stretch of the keys: things of
+/// meshes in spatial order are nearly sorted already, so that the look is cheap.
 template <class For_each, class Prepare, class Place>
 Key_begins sort_by_key(std::size_t n, const For_each& for_each, const Prepare& prepare,
                        const Place& place)

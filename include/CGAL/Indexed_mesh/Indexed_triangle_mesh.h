@@ -163,7 +163,7 @@ inline std::vector<Vertex_index> ranks(const std::vector<Vertex_index>& members,
   return result;
 }
 
-// Spreads the low ten bits of x to every third bit.
+/// Spreads the low ten bits of x to every third bit.
 inline std::uint32_t spread_bits(std::uint32_t x)
 {
   x = (x | (x << 16)) & 0x030000FF;
@@ -172,8 +172,8 @@ inline std::uint32_t spread_bits(std::uint32_t x)
   return (x | (x << 2)) & 0x09249249;
 }
 
-// The order of the keys, stable: three passes of a radix sort by eleven bits. Each block of the old
-// order has its own places in the new one for each digit.
+/// The order of the keys, stable: three passes of a radix sort by eleven bits. Each block of the old
+/// order has its own places in the new one for each digit.
 inline std::vector<std::uint32_t> sorted_order(const std::vector<std::uint32_t>& keys)
 {
   constexpr std::size_t block = 65536, digits = 2048;
@@ -203,6 +203,7 @@ inline std::vector<std::uint32_t> sorted_order(const std::vector<std::uint32_t>&
   return order;
 }
 
+/// Points of one block of a loop.
 constexpr std::size_t block_of_points = 16384;
 
 /// \ingroup PkgHLSCMIndexedMesh
@@ -227,7 +228,7 @@ inline double longest_side(const Bbox_3& box)
   return (std::max)({box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin()});
 }
 
-// The Morton code of each point: ten bits an axis in the bounding cube.
+/// The Morton code of each point: ten bits an axis in the bounding cube.
 inline std::vector<std::uint32_t>
 morton_codes(const std::vector<Indexed_triangle_mesh::Point_3>& points)
 {
@@ -246,7 +247,7 @@ morton_codes(const std::vector<Indexed_triangle_mesh::Point_3>& points)
   return codes;
 }
 
-// Sorts triangles by their smallest vertex, which becomes the first.
+/// Sorts triangles by their smallest vertex, which becomes the first.
 inline void sort_by_smallest_vertex(std::size_t number_of_vertices,
                                     std::vector<Triangle_indices>& triangles)
 {

@@ -60,7 +60,7 @@ public:
   // triangle pair is folded onto another.
   bool is_collapse_valid(Vertex_index v, std::uint32_t k) const;
 
-  // Whether the ring of the kept vertex would have to leave its line, which only one thread may do.
+  /// Whether the ring of the kept vertex would have to leave its line, which only one thread may do.
   bool needs_new_spill(Vertex_index v, std::uint32_t k) const
   {
     const Vertex_index t = ring(v)[k];

@@ -22,8 +22,10 @@ using Aabb_tree = AABB_tree<AABB_traits_3<Kernel, Primitive>>;
 template <class Kernel, class Iterator>
 using Aabb_triangle_primitive = AABB_triangle_primitive_3<Kernel, Iterator>;
 #else
+/// CGAL's tree of boxes, whose traits have another name since CGAL 6.
 template <class Kernel, class Primitive>
 using Aabb_tree = AABB_tree<AABB_traits<Kernel, Primitive>>;
+/// Its primitive of triangles.
 template <class Kernel, class Iterator>
 using Aabb_triangle_primitive = AABB_triangle_primitive<Kernel, Iterator>;
 #endif

@@ -21,12 +21,14 @@ namespace Multigrid {
 
 Small real blocks, such as the 2 x 2 ones of an elastic energy in the plane: the entries of a matrix
 are `Eigen::Matrix<Real, N, N>`, those of its vectors `Eigen::Matrix<Real, N, 1>`. A pin is a whole
-row of blocks that are 0.
+row of blocks that are 0. The members are those of the other specializations.
 */
 template <class Real_, int N, int Columns, int Options>
 struct Value_traits<Eigen::Matrix<Real_, N, Columns, Options, N, Columns>>
 {
   static_assert(N > 0 && (Columns == N || Columns == 1), "a square block or its vector");
+
+  /// \cond SKIP_IN_MANUAL
   typedef Eigen::Matrix<Real_, N, Columns, Options, N, Columns> Block;
 
   typedef Real_ Real;
@@ -56,7 +58,7 @@ struct Value_traits<Eigen::Matrix<Real_, N, Columns, Options, N, Columns>>
     return with_eigenvalues(d * d.transpose(), [](double s) { return s > 0. ? std::sqrt(s) : 0.; });
   }
   static bool is_positive(const Block& d) { return d.trace() > 0; }
-  // Of the part that is positive: a component without any entry stays 0.
+  /// Of the part that is positive: a component without any entry stays 0.
   static Block inverse(const Double& d)
   {
     const double least = 1e-14 * d.diagonal().cwiseAbs().maxCoeff(); // rounding of d's entries
@@ -75,6 +77,7 @@ private:
     const Eigen::Matrix<double, N, 1> values = solver.eigenvalues().unaryExpr(f);
     return solver.eigenvectors() * values.asDiagonal() * solver.eigenvectors().transpose();
   }
+  /// \endcond
 };
 
 } // namespace Multigrid

@@ -23,7 +23,7 @@
 namespace CGAL {
 namespace Surface_mesh_parameterization {
 
-// Whether the segments pq and rs have a point in common, up to rounding; `certify_map()` is exact.
+/// Whether the segments pq and rs have a point in common, up to rounding; `certify_map()` is exact.
 template <class Point>
 bool rounded_segments_meet(const Point& p, const Point& q, const Point& r, const Point& s)
 {
@@ -38,9 +38,9 @@ bool rounded_segments_meet(const Point& p, const Point& q, const Point& r, const
       && (std::max)(r.y(), s.y()) >= (std::min)(p.y(), q.y());
 }
 
-// Calls visit(e, f) for each two edges that share no vertex and meet in the plane, up to rounding,
-// until it returns false. Found by a sweep. For maps that are tried and thrown away, and for hints
-// where to repair; what a map is accepted by is exact (`is_simple_border()`, `certify_map()`).
+/// Calls visit(e, f) for each two edges that share no vertex and meet in the plane, up to rounding,
+/// until it returns false. Found by a sweep. For maps that are tried and thrown away, and for hints
+/// where to repair; what a map is accepted by is exact (`is_simple_border()`, `certify_map()`).
 template <class Point, class Visitor>
 void visit_crossing_edges(std::vector<std::array<std::uint32_t, 2>> edges,
                           const std::vector<Point>& points, const Visitor& visit)
@@ -73,9 +73,11 @@ void visit_crossing_edges(std::vector<std::array<std::uint32_t, 2>> edges,
   }
 }
 
-// Parameters as pairs of double, with exact predicates.
+/// Parameters as pairs of double, with exact predicates.
 typedef Exact_predicates_inexact_constructions_kernel Uv_kernel;
+/// A point of the plane.
 typedef Uv_kernel::Point_2 Uv_point;
+/// A triangle of the plane, by its corners.
 typedef std::array<Uv_point, 3> Uv_triangle;
 
 // The parameters of a mesh, by vertex.
@@ -110,6 +112,7 @@ private:
   VertexUVMap m_uvmap;
 };
 
+/// Returns whether all coordinates are finite numbers.
 inline bool is_finite(const Uv_triangle& t)
 {
   double sum = 0.; // times 0: not a number as soon as one term is not finite
@@ -118,14 +121,14 @@ inline bool is_finite(const Uv_triangle& t)
   return sum == 0.;
 }
 
-// The exact sign of the area; 0 if a parameter is not a finite number.
+/// The exact sign of the area; 0 if a parameter is not a finite number.
 inline Orientation orientation_of(const Uv_triangle& t)
 {
   return is_finite(t) ? orientation(t[0], t[1], t[2]) : COLLINEAR;
 }
 
-// Calls visit(a, b) for each two items whose boxes intersect, until it returns false. Returns
-// whether it never did.
+/// Calls visit(a, b) for each two items whose boxes intersect, until it returns false. Returns
+/// whether it never did.
 template <class Item, class Visit>
 bool visit_pairs_of_boxes(const std::vector<std::pair<Bbox_2, Item>>& items, const Visit& visit)
 {
@@ -146,7 +149,7 @@ bool visit_pairs_of_boxes(const std::vector<std::pair<Bbox_2, Item>>& items, con
   return true;
 }
 
-// Whether a line along a side of the counterclockwise triangle `a` has `b` on its right side.
+/// Whether a line along a side of the counterclockwise triangle `a` has `b` on its right side.
 inline bool is_separated_by_side(const Uv_triangle& a, const Uv_triangle& b)
 {
   for(int i = 0; i < 3; ++i) {
@@ -172,8 +175,8 @@ struct Uv_face
   }
 };
 
-// Calls visit(a, b) for each two faces whose images have interiors that intersect, by definition,
-// until it returns false. Returns whether it never did.
+/// Calls visit(a, b) for each two faces whose images have interiors that intersect, by definition,
+/// until it returns false. Returns whether it never did.
 template <class View, class Visit>
 bool visit_overlapping_faces(const View& view, const Visit& visit)
 {
@@ -194,14 +197,15 @@ bool visit_overlapping_faces(const View& view, const Visit& visit)
   });
 }
 
+/// Returns whether two triangles of a view of a map have a common area.
 template <class View>
 bool has_overlapping_triangles(const View& view)
 {
   return !visit_overlapping_faces(view, [](const Uv_face&, const Uv_face&) { return false; });
 }
 
-// Whether a face that lies on its back has a neighbour that does not: they overlap.
-// `count` gets the number of faces of each orientation: -1, 0, 1.
+/// Whether a face that lies on its back has a neighbour that does not: they overlap.
+/// `count` gets the number of faces of each orientation: -1, 0, 1.
 template <class View>
 bool has_fold(const View& view, std::array<std::size_t, 3>& count)
 {
@@ -221,13 +225,13 @@ bool has_fold(const View& view, std::array<std::size_t, 3>& count)
   return false;
 }
 
-// Whether the segments ab and bc have more than b in common.
+/// Whether the segments ab and bc have more than b in common.
 inline bool successive_segments_meet(const Uv_point& a, const Uv_point& b, const Uv_point& c)
 {
   return collinear(a, b, c) && !collinear_are_strictly_ordered_along_line(a, b, c);
 }
 
-// Whether the segments ab and cd, whose boxes intersect, have a point in common.
+/// Whether the segments ab and cd, whose boxes intersect, have a point in common.
 inline bool segments_meet(const Uv_point& a, const Uv_point& b, const Uv_point& c,
                           const Uv_point& d)
 {
@@ -239,8 +243,8 @@ inline bool segments_meet(const Uv_point& a, const Uv_point& b, const Uv_point& 
   return !separates(a, b, c, d) && !separates(c, d, a, b);
 }
 
-// Whether the images of two border edges, each given by its ends in order, have a point in common,
-// the vertex between two successive ones aside. `point` gives the image of an end.
+/// Whether the images of two border edges, each given by its ends in order, have a point in common,
+/// the vertex between two successive ones aside. `point` gives the image of an end.
 template <class Edge, class PointOf>
 bool border_edges_meet(const Edge& e, const Edge& f, const PointOf& point)
 {
@@ -251,9 +255,9 @@ bool border_edges_meet(const Edge& e, const Edge& f, const PointOf& point)
   return segments_meet(point(e[0]), point(e[1]), point(f[0]), point(f[1]));
 }
 
-// Whether the images of no two border edges of a mesh, all of which are given by the indices of
-// their ends, meet. Then a map of a disk whose triangles all have a positive area is one-to-one:
-// see `certify_map()`.
+/// Whether the images of no two border edges of a mesh, all of which are given by the indices of
+/// their ends, meet. Then a map of a disk whose triangles all have a positive area is one-to-one:
+/// see `certify_map()`.
 template <class Point>
 bool is_simple_border(const std::vector<std::array<std::uint32_t, 2>>& border,
                       const std::vector<Point>& uv)
@@ -268,8 +272,8 @@ bool is_simple_border(const std::vector<std::array<std::uint32_t, 2>>& border,
   });
 }
 
-// The orientation of the border cycle of `h`, whose image is simple: that at its leftmost vertex.
-// `visited` gets the cycle's halfedges.
+/// The orientation of the border cycle of `h`, whose image is simple: that at its leftmost vertex.
+/// `visited` gets the cycle's halfedges.
 template <class View, class Visited>
 Orientation orientation_of_border(const View& view, typename View::halfedge_descriptor h,
                                   Visited& visited)
@@ -285,10 +289,10 @@ Orientation orientation_of_border(const View& view, typename View::halfedge_desc
                      view.point(target(next(leftmost, mesh), mesh)));
 }
 
-// Whether the map covers no point twice because of its border. Precondition: all faces have the
-// orientation `sign`. Then a point outside the image of the border is covered as often as the
-// border winds around it. If the border cycles are simple and disjoint and one of them is an outer
-// one, that is 0 or 1 times.
+/// Whether the map covers no point twice because of its border. Precondition: all faces have the
+/// orientation `sign`. Then a point outside the image of the border is covered as often as the
+/// border winds around it. If the border cycles are simple and disjoint and one of them is an outer
+/// one, that is 0 or 1 times.
 template <class View>
 bool is_one_to_one_by_border(const View& view, Orientation sign)
 {
@@ -314,6 +318,7 @@ bool is_one_to_one_by_border(const View& view, Orientation sign)
   return outer_cycles <= 1;
 }
 
+/// Returns whether a view of a map covers a part of the plane twice.
 template <class View>
 bool has_global_overlap(const View& view)
 {
