@@ -166,9 +166,7 @@ Baked_map bake_vertex_colors(const FineMesh& fine, FineUVMap fine_uv,
 {
   const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   Baked_map result;
-  result.error = internal::polygon_error(fine, "the fine mesh");
-  if(result.error.empty())
-    result.error = internal::polygon_error(light, "the light model");
+  result.error = internal::polygon_error_of_models(fine, light);
   if(!result.error.empty())
     return result;
   std::vector<float> arrays;

@@ -139,9 +139,7 @@ Baked_displacement bake_displacement(const FineMesh& fine, FineUVMap fine_uv,
 {
   const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   Baked_displacement result;
-  result.map.error = internal::polygon_error(fine, "the fine mesh");
-  if(result.map.error.empty())
-    result.map.error = internal::polygon_error(light, "the light model");
+  result.map.error = internal::polygon_error_of_models(fine, light);
   if(!result.map.error.empty())
     return result;
   return bake_displacement(internal::textured_arrays_of_graph(fine, fine_uv, np_fine),

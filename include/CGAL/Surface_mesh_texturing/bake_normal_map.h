@@ -187,9 +187,7 @@ Baked_map bake_normal_map(const FineMesh& fine, FineUVMap fine_uv,
 {
   const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   Baked_map result;
-  result.error = internal::polygon_error(fine, "the fine mesh");
-  if(result.error.empty())
-    result.error = internal::polygon_error(light, "the light model");
+  result.error = internal::polygon_error_of_models(fine, light);
   if(!result.error.empty())
     return result;
   return bake_normal_map(internal::textured_arrays_of_graph(fine, fine_uv, np_fine),

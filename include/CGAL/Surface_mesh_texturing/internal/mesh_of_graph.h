@@ -34,6 +34,14 @@ std::string polygon_error(const FaceGraph& mesh, const std::string& name)
          : "not all faces of " + name + " are triangles; triangulate it first";
 }
 
+// What keeps these two from being baked; empty if nothing does.
+template <class FineMesh, class LightMesh>
+std::string polygon_error_of_models(const FineMesh& fine, const LightMesh& light)
+{
+  const std::string error = polygon_error(fine, "the fine mesh");
+  return error.empty() ? polygon_error(light, "the light model") : error;
+}
+
 // The arrays of a mesh in the order of vertices(mesh) and faces(mesh), with the points of the named
 // parameter `vertex_point_map`. Precondition: all faces are triangles.
 template <class FaceGraph, class NamedParameters>
