@@ -4,6 +4,8 @@
 #ifndef CGAL_BLOCKED_EXECUTION_BLOCKED_FOR_H
 #define CGAL_BLOCKED_EXECUTION_BLOCKED_FOR_H
 
+#include <CGAL/Blocked_execution/compile_once.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <vector>
@@ -21,33 +23,8 @@ namespace CGAL {
 namespace Blocked_execution {
 namespace internal {
 
-// What is done with each block: a function object by its address, so that what runs blocks is compiled
-// once and not for each loop.
-class Block_function
-{
-public:
-  template <class Body>
-  explicit Block_function(const Body& body) : m_body(&body), m_call(&call<Body>) {}
-
-  void operator()(std::size_t block) const { m_call(m_body, block); }
-
-private:
-  // One copy of the machine code for all callers: copies inlined in different places may round
-  // differently, where compilers contract products and sums.
-  template <class Body>
-#if defined(__GNUC__)
-  __attribute__((noinline))
-#elif defined(_MSC_VER)
-  __declspec(noinline)
-#endif
-  static void call(const void* body, std::size_t block)
-  {
-    (*static_cast<const Body*>(body))(block);
-  }
-
-  const void* m_body;
-  void (*m_call)(const void*, std::size_t);
-};
+// What is done with each block. What runs blocks is compiled once.
+typedef Function_ref<void(std::size_t)> Block_function;
 
 // The threads of a `Thread_scope`; `run(n, body)` calls `body(block)` for the blocks [0, n) on
 // them.
@@ -164,7 +141,7 @@ public:
 
   /// Runs `body(block)` for the blocks [0, n) in the innermost scope of this thread.
   template <class Body>
-  static void run(std::size_t n, const Body& body) { run_blocks(n, internal::Block_function(body)); }
+  static void run(std::size_t n, const Body& body) { run_blocks(n, body); }
 
 private:
   static void run_blocks(std::size_t n, const internal::Block_function& body)
