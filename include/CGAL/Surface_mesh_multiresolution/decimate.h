@@ -6,7 +6,6 @@
 
 #include <CGAL/Surface_mesh_multiresolution/build_progressive_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/decimation/collapse_in_mesh.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/decimation/named_policies.h>
 
 #include <CGAL/tags.h>
 

@@ -7,7 +7,6 @@
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
 #include <CGAL/Surface_mesh_texturing/Surface_point.h>
 #include <CGAL/Surface_mesh_texturing/bake.h>
-#include <CGAL/Surface_mesh_texturing/internal/baking/Nearest_covered.h>
 #include <CGAL/Surface_mesh_texturing/internal/baking/Uv_rasterizer.h>
 
 #include <algorithm>

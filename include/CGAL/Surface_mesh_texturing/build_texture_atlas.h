@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_BUILD_TEXTURE_ATLAS_H
 #define CGAL_SURFACE_MESH_TEXTURING_BUILD_TEXTURE_ATLAS_H
 
-#include <CGAL/Blocked_execution/Tagged_threads.h>
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_texturing/Chart_parameterizers.h>
 #include <CGAL/Surface_mesh_texturing/Chart_segmenters.h>
 #include <CGAL/Surface_mesh_texturing/Texture_atlas.h>

@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_MESH_OF_GRAPH_H
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_MESH_OF_GRAPH_H
 
-#include <CGAL/Blocked_execution/Tagged_threads.h>
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Indexed_mesh/mesh_arrays.h>
 #include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
 
