@@ -6,7 +6,6 @@
 
 #include <CGAL/Surface_mesh_texturing/internal/packing/Raster_packing_search.h>
 
-#include <string>
 #include <vector>
 
 namespace CGAL {

@@ -11,7 +11,6 @@
 #include <CGAL/Surface_mesh_texturing/vertex_normals.h>
 
 #include <array>
-#include <cmath>
 #include <vector>
 
 namespace CGAL {

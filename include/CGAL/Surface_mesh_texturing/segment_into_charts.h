@@ -124,7 +124,7 @@ Segmentation_result segment_into_charts(const FaceGraph& mesh, FaceChartMap char
   result.error = internal::polygon_error(mesh, "the mesh");
   if(!result.error.empty())
     return result;
-  const Indexed_triangle_mesh arrays = internal::arrays_of_graph(mesh, np);
+  const Indexed_triangle_mesh arrays = Indexed_mesh::copy_mesh(mesh, np);
   const auto segment
     = [&](const Indexed_triangle_mesh& m) { return segment_into_charts(m, options, growth); };
   if constexpr(internal::has_constrained_edges<NamedParameters>)

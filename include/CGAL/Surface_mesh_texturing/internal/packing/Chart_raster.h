@@ -8,12 +8,10 @@
 #include <CGAL/Surface_mesh_texturing/internal/packing/rasterize_outline.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace CGAL {

@@ -12,7 +12,6 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <string>
 #include <utility>
 #include <vector>
 
