@@ -6,7 +6,6 @@
 
 #include <CGAL/Surface_mesh_multiresolution/Textured_progressive_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/levels/triangle_numbers.h>
 
 #include <CGAL/assertions.h>
 

@@ -7,7 +7,7 @@
 #include <CGAL/Surface_mesh_multiresolution/Level_extractor.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/deviation/Deviation_meter.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/deviation/Uv_walk.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/levels/triangle_numbers.h>
+#include <CGAL/Surface_mesh_multiresolution/Textured_progressive_mesh.h>
 
 #include <CGAL/assertions.h>
 #include <CGAL/number_utils.h>

@@ -6,7 +6,7 @@
 
 #include <CGAL/Surface_mesh_texturing/Along_rays.h>
 #include <CGAL/Surface_mesh_texturing/bake_normal_map.h>
-#include <CGAL/Surface_mesh_texturing/internal/baking/Bounding_ball.h>
+#include <CGAL/Surface_mesh_texturing/Surface_point.h>
 #include <CGAL/Surface_mesh_texturing/internal/mesh_of_graph.h>
 
 #include <cmath>

@@ -18,6 +18,21 @@
 
 namespace CGAL {
 namespace Surface_mesh_texturing {
+
+/// \ingroup PkgHLSCMTexturing
+/// The options of `cut_to_disks()`.
+struct Disk_cut_options
+{
+  /// The number of extremities, vertices far from each other, that the cut of a closed chart goes
+  /// to at most: the tips of limbs, which would be tiny in the plane otherwise.
+  std::size_t extremities = 8;
+  /// The distance of an extremity from the cut, as a part of that of the first, below which no more
+  /// are added.
+  double least_distance = 0.3;
+  /// What is taken to be short.
+  Crease_weights creases;
+};
+
 namespace internal {
 
 // Cuts one connected manifold mesh to a disk.

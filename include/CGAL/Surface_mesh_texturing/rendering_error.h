@@ -7,7 +7,6 @@
 #include <CGAL/Surface_mesh_texturing/Surface_point.h>
 #include <CGAL/Surface_mesh_texturing/Texture_image.h>
 #include <CGAL/Surface_mesh_texturing/bake_normal_map.h>
-#include <CGAL/Surface_mesh_texturing/internal/baking/Bounding_ball.h>
 #include <CGAL/Surface_mesh_texturing/internal/baking/Uv_rasterizer.h>
 #include <CGAL/Surface_mesh_texturing/tangent_frames.h>
 

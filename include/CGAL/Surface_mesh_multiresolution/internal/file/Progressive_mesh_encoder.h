@@ -9,7 +9,6 @@
 #include <CGAL/Surface_mesh_multiresolution/internal/file/base_section.h>
 #include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/file/split_prediction.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/levels/triangle_numbers.h>
 
 #include <algorithm>
 #include <array>
