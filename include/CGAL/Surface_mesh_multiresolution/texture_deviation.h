@@ -202,22 +202,6 @@ inline bool is_within_distance(const Textured_progressive_mesh& mesh, std::size_
   return internal::is_within(internal::Fine_surface(view), mesh, k, Level_error::DISTANCE, bound);
 }
 
-namespace internal {
-
-// The first whole position with at most this many triangles; `numbers` are the
-// `triangle_numbers()`.
-inline std::size_t position_with(const Textured_progressive_mesh& mesh,
-                                 const std::vector<std::uint32_t>& numbers, double triangles)
-{
-  const auto beyond = std::partition_point(numbers.begin(), numbers.end(), [&](std::size_t number) {
-    return double(number) <= triangles;
-  });
-  const std::size_t collapses = std::size_t(numbers.end() - beyond);
-  return mesh.whole_position((std::min)(collapses, mesh.number_of_collapses()));
-}
-
-} // namespace internal
-
 /*!
 \ingroup PkgHLSCMLevelsOfDetail
 
@@ -254,7 +238,7 @@ inline std::size_t coarsest_level_within(const Textured_progressive_mesh& mesh, 
     return beyond;
   while(triangles(within) > precision * triangles(beyond)) {
     const double middle = std::sqrt(triangles(within) * triangles(beyond));
-    const std::size_t k = internal::position_with(mesh, numbers, middle);
+    const std::size_t k = internal::position_with(mesh, numbers, std::size_t(middle));
     if(k <= within || k >= beyond)
       break;
     (is_within(k) ? within : beyond) = k;
