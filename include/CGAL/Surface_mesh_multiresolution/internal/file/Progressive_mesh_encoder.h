@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_FILE_PROGRESSIVE_MESH_ENCODER_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_FILE_PROGRESSIVE_MESH_ENCODER_H
 
+#include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/Textured_progressive_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/file/Corner_rings.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/file/base_section.h>
