@@ -6,8 +6,10 @@
 
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
 
+#include <CGAL/Named_function_parameters.h>
 #include <CGAL/assertions.h>
 #include <CGAL/boost/graph/iterator.h>
+#include <CGAL/boost/graph/named_params_helper.h>
 #include <CGAL/boost/graph/properties.h>
 #include <CGAL/number_utils.h>
 
@@ -46,18 +48,34 @@ std::vector<Triangle_indices> copy_triangles(const TriangleMesh& mesh,
 }
 
 /// \ingroup PkgHLSCMIndexedMesh
-/// Returns the points of the vertices in the order of `vertices(mesh)`, in double precision.
-template <class TriangleMesh>
-std::vector<Indexed_triangle_mesh::Point_3> copy_points(const TriangleMesh& mesh)
+/// Returns the points of the vertices in the order of `vertices(mesh)`, in double precision: those
+/// of the named parameter `vertex_point_map`, `get(vertex_point, mesh)` by default.
+template <class TriangleMesh, class NamedParameters = parameters::Default_named_parameters>
+std::vector<Indexed_triangle_mesh::Point_3>
+copy_points(const TriangleMesh& mesh, const NamedParameters& np = parameters::default_values())
 {
   std::vector<Indexed_triangle_mesh::Point_3> result;
   result.reserve(num_vertices(mesh));
-  const auto vpm = get(CGAL::vertex_point, mesh);
+  const auto vpm
+    = parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
+                                   get_const_property_map(CGAL::vertex_point, mesh));
   for(const auto v : vertices(mesh)) {
     const auto& p = get(vpm, v);
     result.emplace_back(to_double(p[0]), to_double(p[1]), to_double(p[2]));
   }
   return result;
+}
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// Returns the points and the faces of a mesh as arrays, with the named parameters of
+/// `copy_points()`. Precondition: the faces are triangles.
+template <class TriangleMesh, class NamedParameters = parameters::Default_named_parameters>
+Indexed_triangle_mesh copy_mesh(const TriangleMesh& mesh,
+                                const NamedParameters& np = parameters::default_values())
+{
+  const auto position = get(dynamic_vertex_property_t<Vertex_index>(), mesh);
+  number_vertices(mesh, position);
+  return {copy_points(mesh, np), copy_triangles(mesh, position)};
 }
 
 } // namespace Indexed_mesh

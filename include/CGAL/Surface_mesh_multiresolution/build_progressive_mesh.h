@@ -13,9 +13,7 @@
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/named_params_helper.h>
 
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_multiresolution {
@@ -23,34 +21,21 @@ namespace Surface_mesh_multiresolution {
 namespace internal {
 
 // The arrays of a mesh without its collapses, or what is wrong with it.
-template <class TriangleMesh, class VertexPointMap>
-Progressive_surface copy_surface(const TriangleMesh& mesh, const VertexPointMap& vpm)
-{
-  Progressive_surface result;
-  for(const auto v : vertices(mesh)) {
-    const auto& p = get(vpm, v);
-    result.points.emplace_back(to_double(p[0]), to_double(p[1]), to_double(p[2]));
-  }
-  result.error = point_error(result.points);
-  result.progressive_mesh.number_of_vertices = result.points.size();
-  if(is_triangle_mesh(mesh)) {
-    const auto position = get(dynamic_vertex_property_t<Vertex_index>(), mesh);
-    number_vertices(mesh, position);
-    result.progressive_mesh.triangles = copy_triangles(mesh, position);
-  } else {
-    result.error = "not all faces are triangles; triangulate the mesh first";
-  }
-  return result;
-}
-
-// The same with the points and faces that named parameters tell.
 template <class TriangleMesh, class NamedParameters>
 Progressive_surface copy_surface_of(const TriangleMesh& mesh, const NamedParameters& np)
 {
-  using parameters::choose_parameter;
-  using parameters::get_parameter;
-  return copy_surface(mesh, choose_parameter(get_parameter(np, internal_np::vertex_point),
-                                             get_const_property_map(vertex_point, mesh)));
+  Progressive_surface result;
+  if(is_triangle_mesh(mesh)) {
+    Indexed_triangle_mesh arrays = Indexed_mesh::copy_mesh(mesh, np);
+    result.points = std::move(arrays.points);
+    result.progressive_mesh.triangles = std::move(arrays.triangles);
+    result.error = point_error(result.points);
+  } else {
+    result.points = Indexed_mesh::copy_points(mesh, np);
+    result.error = "not all faces are triangles; triangulate the mesh first";
+  }
+  result.progressive_mesh.number_of_vertices = result.points.size();
+  return result;
 }
 
 inline Progressive_surface copy_surface(const Indexed_triangle_mesh& mesh)

@@ -13,8 +13,6 @@
 #include <CGAL/Surface_mesh_multiresolution/internal/textured/Texture_layer.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/textured/replay_collapses.h>
 
-#include <algorithm>
-#include <functional>
 #include <numeric>
 #include <string>
 #include <utility>

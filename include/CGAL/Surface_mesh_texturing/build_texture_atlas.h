@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_BUILD_TEXTURE_ATLAS_H
 #define CGAL_SURFACE_MESH_TEXTURING_BUILD_TEXTURE_ATLAS_H
 
-#include <CGAL/Blocked_execution/Tagged_threads.h>
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_texturing/Chart_parameterizers.h>
 #include <CGAL/Surface_mesh_texturing/Chart_segmenters.h>
 #include <CGAL/Surface_mesh_texturing/Texture_atlas.h>
@@ -131,7 +131,7 @@ Texture_atlas_result build_texture_atlas(const FaceGraph& mesh, HalfedgeUVMap uv
   result.error = internal::polygon_error(mesh, "the mesh");
   if(!result.error.empty())
     return result;
-  const Indexed_triangle_mesh arrays = internal::arrays_of_graph(mesh, np);
+  const Indexed_triangle_mesh arrays = Indexed_mesh::copy_mesh(mesh, np);
   if constexpr(internal::has_constrained_edges<NamedParameters>) {
     typedef typename Default::Get<Segmenter, Chart_growth_segmenter>::type Used_segmenter;
     result = build_texture_atlas<ConcurrencyTag>(

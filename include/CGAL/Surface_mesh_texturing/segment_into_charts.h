@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_SEGMENT_INTO_CHARTS_H
 #define CGAL_SURFACE_MESH_TEXTURING_SEGMENT_INTO_CHARTS_H
 
-#include <CGAL/Blocked_execution/Tagged_threads.h>
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_texturing/grow_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/mesh_of_graph.h>
 #include <CGAL/Surface_mesh_texturing/segment_coarse_to_fine.h>
@@ -130,7 +130,7 @@ Segmentation_result segment_into_charts(const FaceGraph& mesh, FaceChartMap char
   result.error = internal::polygon_error(mesh, "the mesh");
   if(!result.error.empty())
     return result;
-  const Indexed_triangle_mesh arrays = internal::arrays_of_graph(mesh, np);
+  const Indexed_triangle_mesh arrays = Indexed_mesh::copy_mesh(mesh, np);
   const auto segment
     = [&](const Indexed_triangle_mesh& m) { return segment_into_charts(m, options, growth); };
   if constexpr(internal::has_constrained_edges<NamedParameters>)

@@ -10,7 +10,6 @@
 #include <CGAL/assertions.h>
 
 #include <cmath>
-#include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_texturing {

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,9 +22,9 @@ namespace Surface_mesh_texturing {
 namespace internal {
 
 // The length of the seams between triangles, each once.
-inline double seam_length(const Indexed_triangle_mesh& mesh, const Face_charts& charts)
+inline double seam_length(const Indexed_triangle_mesh& mesh, const Triangle_adjacency& adjacency,
+                          const Face_charts& charts)
 {
-  const Triangle_adjacency adjacency(mesh.triangles);
   double sum = 0.;
   for(std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
     for(int c = 0; c < 3; ++c) {
@@ -36,14 +37,14 @@ inline double seam_length(const Indexed_triangle_mesh& mesh, const Face_charts& 
 }
 
 // The charts whose triangles these are, with all seams between wedges.
-inline Face_charts charts_of_maps(const Indexed_triangle_mesh& mesh,
+inline Face_charts charts_of_maps(const Triangle_adjacency& adjacency,
                                   const std::vector<Mapped_chart>& maps)
 {
-  std::vector<std::uint8_t> seams(mesh.triangles.size());
+  std::vector<std::uint8_t> seams(adjacency.number_of_halfedges() / 3);
   for(const Mapped_chart& map : maps)
     for(const Halfedge h : map.chart.border)
       mark(seams, 3 * map.chart.triangles[triangle_of(h)] + corner_of(h));
-  return charts_between(mesh.triangles, std::move(seams));
+  return charts_between(adjacency, std::move(seams));
 }
 
 // Makes the charts as large as their density asks for.
@@ -164,6 +165,7 @@ private:
   const Indexed_triangle_mesh& m_mesh;
   const Texture_atlas_options& m_options;
   const Atlas_models& m_models;
+  std::optional<Triangle_adjacency> m_adjacency; // of the mesh, from the maps on
   Face_charts m_charts;
   std::vector<Mapped_chart> m_maps;
   Packing_result m_packing;
@@ -229,10 +231,11 @@ inline Segmentation_result Texture_atlas_builder::try_charts(const Indexed_trian
     return result;
   Distortion_bound bound = m_options.bound;
   bound.area_scale = (std::max)(1., margin * bound.area_scale);
+  const Triangle_adjacency adjacency(mesh.triangles);
   std::size_t recut;
   result.charts = charts_of_maps(
-    mesh, map_charts(chart_meshes(mesh, result.charts), chart_mapping(bound),
-                     [this](double part) { return proceed(0.3, 0.4, part); }, recut));
+    adjacency, map_charts(chart_meshes(mesh, adjacency, result.charts), chart_mapping(bound),
+                          [this](double part) { return proceed(0.3, 0.4, part); }, recut));
   result.error = m_result.error;
   return result;
 }
@@ -242,6 +245,7 @@ inline bool Texture_atlas_builder::map()
   const Blocked_execution::Stopwatch watch;
   const std::size_t most = m_models.is_bounded ? m_options.max_charts : 0;
   const bool is_full = most > 0 && m_charts.number_of_charts >= most;
+  m_adjacency.emplace(m_mesh.triangles);
   if(!is_full)
     map_charts_within(m_options.bound, 0.4, most > 0 ? 0.6 : 0.8);
   if(is_full || (most > 0 && m_maps.size() > most)) { // no charts are left for the bound
@@ -257,7 +261,7 @@ inline bool Texture_atlas_builder::map()
 inline void Texture_atlas_builder::map_charts_within(const Distortion_bound& bound, double begin,
                                                      double end)
 {
-  m_maps = map_charts(chart_meshes(m_mesh, m_charts), chart_mapping(bound),
+  m_maps = map_charts(chart_meshes(m_mesh, *m_adjacency, m_charts), chart_mapping(bound),
                       [&](double part) { return proceed(begin, end, part); },
                       m_result.report.recut_charts);
 }
@@ -287,7 +291,7 @@ inline void Texture_atlas_builder::fill()
   atlas.mesh.points = m_mesh.points;
   atlas.mesh.triangles = m_mesh.triangles;
   atlas.mesh.wedges.resize(m_mesh.triangles.size());
-  atlas.charts = charts_of_maps(m_mesh, m_maps);
+  atlas.charts = charts_of_maps(*m_adjacency, m_maps);
   for(std::size_t i = 0; i < m_maps.size(); ++i) {
     const Mapped_chart& map = m_maps[i];
     const Vertex_index first = Vertex_index(atlas.mesh.uv.size());
@@ -303,7 +307,7 @@ inline void Texture_atlas_builder::fill()
     report.charts.back().page = atlas.page.back();
   }
   report.texels_per_unit = m_packing.texels_per_unit;
-  report.seam_length = seam_length(m_mesh, atlas.charts);
+  report.seam_length = seam_length(m_mesh, *m_adjacency, atlas.charts);
   measure_atlas(atlas, report);
 }
 
