@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_BUILD_TEXTURED_PROGRESSIVE_MESH_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_BUILD_TEXTURED_PROGRESSIVE_MESH_H
 
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Indexed_mesh/prepare_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
 #include <CGAL/Surface_mesh_multiresolution/Textured_progressive_mesh.h>
@@ -58,6 +59,8 @@ struct Wedge_collapses
   std::string error;
 };
 
+#ifdef CGAL_HLSCM_DEFINITIONS
+
 // Decimates a mesh that has its wedges from `with_wedges()`.
 inline Wedge_collapses decimate_textured(const Textured_triangle_mesh& mesh,
                                          const Textured_progressive_mesh_options& options)
@@ -89,6 +92,8 @@ inline Wedge_collapses decimate_textured(const Textured_triangle_mesh& mesh,
   return result;
 }
 
+#endif // CGAL_HLSCM_DEFINITIONS
+
 } // namespace internal
 
 /*!
@@ -108,10 +113,15 @@ face or with several fans of faces, coordinates that are not finite) give a resu
 
 Expected linear time; see `Flat_collapse_engine`.
 */
-inline Textured_progressive_mesh_result
+CGAL_HLSCM_INLINE Textured_progressive_mesh_result
 build_textured_progressive_mesh(const Textured_triangle_mesh& mesh,
                                 const Textured_progressive_mesh_options& options
-                                = Textured_progressive_mesh_options())
+                                = Textured_progressive_mesh_options());
+
+#ifdef CGAL_HLSCM_DEFINITIONS
+CGAL_HLSCM_INLINE Textured_progressive_mesh_result
+build_textured_progressive_mesh(const Textured_triangle_mesh& mesh,
+                                const Textured_progressive_mesh_options& options)
 {
   CGAL_precondition(options.is_locked.empty() || options.is_locked.size() == mesh.points.size());
   Textured_progressive_mesh_result result;
@@ -139,6 +149,7 @@ build_textured_progressive_mesh(const Textured_triangle_mesh& mesh,
   result.mesh = coarse_first(fine);
   return result;
 }
+#endif
 
 /*!
 \ingroup PkgHLSCMLevelsOfDetail
@@ -154,12 +165,19 @@ part only.
 
 Bad data: as above. Linear time.
 */
-inline Textured_progressive_mesh_result
+CGAL_HLSCM_INLINE Textured_progressive_mesh_result
 build_textured_progressive_mesh(const Progressive_mesh& pm,
                                 std::vector<Textured_triangle_mesh::Point_3> points,
                                 std::vector<Textured_triangle_mesh::Point_2> uv,
                                 const Textured_progressive_mesh_options& options
-                                = Textured_progressive_mesh_options())
+                                = Textured_progressive_mesh_options());
+
+#ifdef CGAL_HLSCM_DEFINITIONS
+CGAL_HLSCM_INLINE Textured_progressive_mesh_result
+build_textured_progressive_mesh(const Progressive_mesh& pm,
+                                std::vector<Textured_triangle_mesh::Point_3> points,
+                                std::vector<Textured_triangle_mesh::Point_2> uv,
+                                const Textured_progressive_mesh_options& options)
 {
   CGAL_precondition(points.size() == pm.number_of_vertices && uv.size() == pm.number_of_vertices);
   Textured_progressive_mesh_result result;
@@ -206,6 +224,7 @@ build_textured_progressive_mesh(const Progressive_mesh& pm,
   result.mesh = coarse_first(fine);
   return result;
 }
+#endif
 
 } // namespace Surface_mesh_multiresolution
 } // namespace CGAL

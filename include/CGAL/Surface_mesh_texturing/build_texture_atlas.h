@@ -90,7 +90,7 @@ Texture_atlas_result build_texture_atlas(const Indexed_triangle_mesh& mesh,
   models.pack = [&](const std::vector<Chart_shape>& charts, const Packing_options& o) {
     return pack_charts(charts, o, used_packer);
   };
-  return internal::Texture_atlas_builder(mesh, options, models).run();
+  return internal::build_atlas(mesh, options, models);
 }
 
 /*!

@@ -81,15 +81,21 @@ Segmentation_result segment_between(const Indexed_triangle_mesh& mesh,
 Returns charts of `mesh`, which are disks with straight seams, within a bound on their distortion:
 `segment_coarse_to_fine()` with `grow_charts()` on the coarse mesh. Errors: those of both.
 */
-inline Segmentation_result
+CGAL_HLSCM_INLINE Segmentation_result
 segment_into_charts(const Indexed_triangle_mesh& mesh,
                     const Segmentation_options& options = Segmentation_options(),
-                    const Chart_growth_options& growth = Chart_growth_options())
+                    const Chart_growth_options& growth = Chart_growth_options());
+
+#ifdef CGAL_HLSCM_DEFINITIONS
+CGAL_HLSCM_INLINE Segmentation_result
+segment_into_charts(const Indexed_triangle_mesh& mesh, const Segmentation_options& options,
+                    const Chart_growth_options& growth)
 {
   return segment_coarse_to_fine(mesh, options, [&growth](const Indexed_triangle_mesh& coarse) {
     return grow_charts(coarse, growth);
   });
 }
+#endif
 
 /*!
 \ingroup PkgHLSCMTexturing

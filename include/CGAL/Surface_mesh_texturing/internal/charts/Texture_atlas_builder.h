@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_TEXTURE_ATLAS_BUILDER_H
 
 #include <CGAL/Blocked_execution/Progress.h>
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Surface_mesh_texturing/Chart_segmenters.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/map_charts.h>
 
@@ -102,6 +103,13 @@ struct Atlas_models
   std::function<std::vector<Point_2>(const Indexed_triangle_mesh&)> parameterize;
   std::function<Packing_result(const std::vector<Chart_shape>&, const Packing_options&)> pack;
 };
+
+// Builds an atlas by these models.
+CGAL_HLSCM_INLINE Texture_atlas_result build_atlas(const Indexed_triangle_mesh& mesh,
+                                                   const Texture_atlas_options& options,
+                                                   const Atlas_models& models);
+
+#ifdef CGAL_HLSCM_DEFINITIONS
 
 // The steps of `build_texture_atlas()`.
 class Texture_atlas_builder
@@ -298,6 +306,15 @@ inline void Texture_atlas_builder::fill()
   report.seam_length = seam_length(m_mesh, atlas.charts);
   measure_atlas(atlas, report);
 }
+
+CGAL_HLSCM_INLINE Texture_atlas_result build_atlas(const Indexed_triangle_mesh& mesh,
+                                                   const Texture_atlas_options& options,
+                                                   const Atlas_models& models)
+{
+  return Texture_atlas_builder(mesh, options, models).run();
+}
+
+#endif // CGAL_HLSCM_DEFINITIONS
 
 } // namespace internal
 } // namespace Surface_mesh_texturing
