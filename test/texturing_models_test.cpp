@@ -219,8 +219,18 @@ TEST(Texturing_models, models_of_the_user_that_are_wrong_give_a_sentence)
     result.placements.resize(charts.size());
     return result;
   };
-  EXPECT_NE(SMT::build_texture_atlas(mesh, small_texture(), none, none, no_places).error, "");
-  EXPECT_NE(SMT::build_texture_atlas(mesh, small_texture(), none, none, no_page).error, "");
+  const auto sentence_only = [](const auto&, const SMT::Packing_options&) {
+    SMT::Packing_result result;
+    result.error = "there is no room";
+    return result;
+  };
+  for(const SMT::Texture_atlas_result& result :
+      {SMT::build_texture_atlas(mesh, small_texture(), none, none, no_places),
+       SMT::build_texture_atlas(mesh, small_texture(), none, none, no_page),
+       SMT::build_texture_atlas(mesh, small_texture(), none, none, sentence_only)}) {
+    EXPECT_NE(result.error, "");
+    EXPECT_EQ(result.status, CGAL::Indexed_mesh::Mesh_status::FAILED);
+  }
 }
 
 typedef CGAL::Simple_cartesian<double> Kernel;

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_PROGRESSIVE_SURFACE_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_PROGRESSIVE_SURFACE_H
 
+#include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/Textured_progressive_mesh.h>
 
@@ -13,7 +14,6 @@
 
 #include <array>
 #include <numeric>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -23,19 +23,19 @@ namespace Surface_mesh_multiresolution {
 /*!
 \ingroup PkgHLSCMMultiresolution
 
-The struct `Progressive_surface` is a progressive mesh with its points.
+The struct `Progressive_surface` is a progressive mesh with its points. If the mesh was bad, it has no
+collapses; if it was cancelled, those so far.
 
 \sa `level_after()`, `copy_level()`: its levels as meshes
 \sa `coarse_first()`: with a numbering for files and for levels in no time
 */
 struct Progressive_surface
+  : Indexed_mesh::Mesh_outcome
 {
   /// The collapses. Vertices are numbered as in `vertices(mesh)`, triangles as in `faces(mesh)`.
   Progressive_mesh progressive_mesh;
   /// The position of each vertex.
   std::vector<Indexed_triangle_mesh::Point_3> points;
-  /// Why there are no collapses, as a sentence; empty if all is well.
-  std::string error;
 };
 
 /// \ingroup PkgHLSCMMultiresolution

@@ -135,8 +135,11 @@ build_textured_progressive_mesh(const TriangleMesh& mesh, const CornerUv& corner
                                 const Textured_progressive_mesh_options& options,
                                 const NamedParameters& np = parameters::default_values())
 {
-  if(!is_triangle_mesh(mesh))
-    return {{}, "not all faces are triangles; triangulate the mesh first"};
+  Textured_progressive_mesh_result result;
+  if(!is_triangle_mesh(mesh)) {
+    result.fail(Mesh_status::BAD_MESH, "not all faces are triangles; triangulate the mesh first");
+    return result;
+  }
   return build_textured_progressive_mesh(textured_triangle_mesh(mesh, corner_uv, np), options);
 }
 

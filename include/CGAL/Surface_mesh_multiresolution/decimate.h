@@ -52,10 +52,10 @@ struct Decimation_options
 /// \ingroup PkgHLSCMMultiresolution
 /// What `decimate()` returns.
 struct Decimation_result
+  : Indexed_mesh::Mesh_outcome
 {
-  Decimation_status status = Decimation_status::STOPPED; ///< why it ended
-  std::string error;                     ///< if it is `BAD_INPUT` what is wrong, as a sentence
   std::size_t number_of_collapses = 0;   ///< what `edge_collapse()` returns: the vertices removed
+  bool is_exhausted = false;             ///< whether nothing more could be collapsed before `stop`
   /// For arrays the old number of each vertex that is left, ascending; empty for other meshes, whose
   /// vertices stay what they are.
   std::vector<Vertex_index> source_vertex;
@@ -71,8 +71,8 @@ A vertex is removed by moving it onto a neighbour: the vertices that are left, w
 descriptors, points and properties, are vertices of `mesh` that never moved, and the same holds for
 faces and their properties; properties of halfedges are not kept at edges that were joined. Removed
 elements are removed as by the Euler operations of CGAL: a `Surface_mesh` or a mesh of OpenMesh then
-has garbage to collect. If there is an error the mesh is not changed. The result does not depend on
-the number of threads.
+has garbage to collect. If the input is bad the mesh is not changed; if it was cancelled, as far as
+that. The result does not depend on the number of threads.
 
 \tparam ConcurrencyTag `Sequential_tag` (default; what the caller's `Blocked_execution::Thread_scope`
         allows), `Parallel_tag` or `Parallel_if_available_tag` (all threads of the machine)
@@ -114,12 +114,12 @@ Decimation_result decimate(TriangleMesh& mesh, const StopPredicate& stop,
 {
   Progressive_surface surface = internal::copy_surface_of(mesh, np);
   Decimation_result result;
-  if(surface.error.empty())
-    result.status = internal::run_with_threads<ConcurrencyTag>([&] {
+  if(surface.is_ok())
+    result.is_exhausted = internal::run_with_threads<ConcurrencyTag>([&] {
       return internal::decimate_by(stop, np, internal::locked_vertices(mesh, np), surface);
     });
-  if(!surface.error.empty())
-    return {Decimation_status::BAD_INPUT, surface.error, 0, {}};
+  if(result.fail(surface) && result.status != Mesh_status::CANCELLED)
+    return result;
   result.number_of_collapses = surface.progressive_mesh.collapses.size();
   internal::collapse_in_mesh(surface.progressive_mesh.collapses, mesh);
   return result;
@@ -139,12 +139,12 @@ Decimation_result decimate(Indexed_triangle_mesh& mesh, const StopPredicate& sto
 {
   Progressive_surface surface = internal::copy_surface(mesh);
   Decimation_result result;
-  if(surface.error.empty())
-    result.status = internal::run_with_threads<ConcurrencyTag>([&] {
+  if(surface.is_ok())
+    result.is_exhausted = internal::run_with_threads<ConcurrencyTag>([&] {
       return internal::decimate_by(stop, np, {}, surface);
     });
-  if(!surface.error.empty())
-    return {Decimation_status::BAD_INPUT, surface.error, 0, {}};
+  if(result.fail(surface) && result.status != Mesh_status::CANCELLED)
+    return result;
   const Progressive_mesh& pm = surface.progressive_mesh;
   result.number_of_collapses = pm.collapses.size();
   mesh = level_after(surface, pm.collapses.size(), result.source_vertex);

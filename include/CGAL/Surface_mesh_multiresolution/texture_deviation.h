@@ -70,7 +70,8 @@ struct Texture_deviation
 };
 
 /// \ingroup PkgHLSCMLevelsOfDetail
-/// The errors that `coarsest_level_within()` bounds; each is a maximum of `Texture_deviation`.
+/// The geometric errors that `coarsest_level_within()` bounds; each is a maximum of
+/// `Texture_deviation`.
 enum class Level_error
 {
   TEXTURE_DEVIATION, ///< `deviation`, a length in space

@@ -4,9 +4,9 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_BORDER_FIRST_MAP_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_BORDER_FIRST_MAP_H
 
+#include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Surface_mesh_parameterization/internal/border_first/Border_first_flattening.h>
 
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -16,10 +16,10 @@ namespace Surface_mesh_parameterization {
 /// \ingroup PkgHLSCMParameterizer
 /// What `border_first_map()` returns.
 struct Border_first_map
+  : Indexed_mesh::Mesh_outcome
 {
   /// The parameter of each vertex; (0, 0) for vertices without a face; empty if there is an error.
   std::vector<Simple_cartesian<double>::Point_2> uv;
-  std::string error; ///< why there is no map, as a sentence; empty if all is well
 };
 
 /*!
@@ -48,14 +48,13 @@ inline Border_first_map border_first_map(Indexed_mesh::Indexed_triangle_mesh mes
   const std::size_t n = mesh.points.size();
   const internal::Prepared_chart prepared = internal::chart_of_arrays(std::move(mesh));
   const internal::Chart& chart = prepared.chart;
-  result.error = prepared.status.message;
   if(prepared.status.is_ok() && chart.borders.size() != 1)
-    result.error = "the surface has several borders; cut it to a disk first";
-  if(!result.error.empty())
+    result.fail(Mesh_status::BAD_MESH, "the surface has several borders; cut it to a disk first");
+  if(result.fail(Mesh_status::BAD_MESH, prepared.status.message))
     return result;
   const auto z = internal::Border_first_flattening(chart).run();
   if(z.empty())
-    result.error = "the matrix cannot be factorized";
+    result.fail(Mesh_status::FAILED, "the matrix cannot be factorized");
   else
     result.uv = internal::points_of_values(chart.source, z, n);
   return result;

@@ -4,11 +4,11 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_BAKING_OPTIONS_H
 #define CGAL_SURFACE_MESH_TEXTURING_BAKING_OPTIONS_H
 
+#include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Surface_mesh_texturing/Texture_image.h>
 
 #include <cstddef>
 #include <functional>
-#include <string>
 #include <vector>
 
 namespace CGAL {
@@ -46,8 +46,9 @@ struct Baking_options
 };
 
 /// \ingroup PkgHLSCMTexturing
-/// An image that has been baked.
+/// An image that has been baked; none if there is an error.
 struct Baked_map
+  : Indexed_mesh::Mesh_outcome
 {
   /// Texels beyond the charts and out of reach of the dilation are 0 in all channels.
   Texture_image image;
@@ -60,7 +61,6 @@ struct Baked_map
   /// the value of the nearest sample that does not; see `Equal_uv`.
   std::size_t number_of_samples_beside = 0;
   std::size_t number_of_samples_without = 0; ///< Of these, those that found no point at all.
-  std::string error; ///< why there is no image, as a sentence; empty if all is well
 };
 
 } // namespace Surface_mesh_texturing

@@ -69,8 +69,7 @@ public:
                                  const Texture_atlas_options&) const
   {
     Segmentation_result result;
-    result.error = internal::error_of_foreign_seams(mesh, m_charts.seams);
-    if(result.error.empty())
+    if(!result.fail(internal::foreign_seams_error(mesh, m_charts.seams)))
       result.charts = m_charts;
     return result;
   }

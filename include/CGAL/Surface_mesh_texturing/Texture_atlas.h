@@ -13,7 +13,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <string>
 #include <vector>
 
 namespace CGAL {
@@ -103,16 +102,15 @@ struct Texture_atlas_report
   double seconds_map = 0.;     ///< time of the maps, their validation, and of cutting charts again
   double seconds_pack = 0.;    ///< time of the packing
   double seconds_total = 0.;   ///< time of all
-  bool cancelled = false;      ///< whether the progress function said stop
 };
 
 /// \ingroup PkgHLSCMTexturing
 /// What `build_texture_atlas()` returns.
 struct Texture_atlas_result
+  : Indexed_mesh::Mesh_outcome
 {
-  Texture_atlas atlas;         ///< empty if there is an error or it was cancelled
+  Texture_atlas atlas;         ///< empty if there is an error
   Texture_atlas_report report; ///< what was done
-  std::string error;           ///< why there is no atlas, as a sentence; empty if all is well
 };
 
 } // namespace Surface_mesh_texturing

@@ -167,8 +167,7 @@ Baked_map bake(const Textured_triangle_mesh& light, const Correspondence& corres
   typedef internal::Band_baker<Correspondence, Shader> Baker;
   const std::size_t texel_rows = 8, bands_between_progress = 16;
   Baked_map map;
-  map.error = internal::light_error(light, options);
-  if(!map.error.empty())
+  if(map.fail(internal::light_error(light, options)))
     return map;
   map.image = {options.width, options.height, shader.channels(), {}};
   map.image.texels.assign(options.width * options.height * shader.channels(), 0.f);
@@ -181,7 +180,7 @@ Baked_map bake(const Textured_triangle_mesh& light, const Correspondence& corres
   const std::size_t bands = raster.number_of_bands();
   for(std::size_t first = 0; first < bands; first += bands_between_progress) {
     if(options.progress && !options.progress(double(first) / double(bands))) {
-      map.error = "cancelled";
+      map.cancel();
       map.image = Texture_image();
       return map;
     }

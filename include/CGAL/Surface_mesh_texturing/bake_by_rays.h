@@ -45,19 +45,17 @@ Baked_map bake_normal_map_by_rays(const Indexed_triangle_mesh& fine,
                                   const Baking_by_rays_options& options = Baking_by_rays_options())
 {
   Baked_map result;
-  result.error = internal::ray_baking_error(fine, light, options);
-  if(result.error.empty())
-    result.error = internal::size_error(fine_normals.size(), fine.points.size(),
-                                        "normals of the fine mesh");
-  if(result.error.empty())
-    result.error = internal::frame_error(frames, light);
-  if(result.error.empty() && !(options.max_distance > 0. && std::isfinite(options.max_distance)))
-    result.error = "the distance that rays go is not a positive number";
-  if(!result.error.empty())
+  if(result.fail(internal::ray_baking_error(fine, light, options))
+     || result.fail(internal::size_error(fine_normals.size(), fine.points.size(),
+                                         "normals of the fine mesh"))
+     || result.fail(internal::frame_error(frames, light)))
     return result;
+  if(!(options.max_distance > 0. && std::isfinite(options.max_distance))) {
+    result.fail(Mesh_status::BAD_OPTIONS, "the distance that rays go is not a positive number");
+    return result;
+  }
   const RayCaster_ caster(fine.points, fine.triangles);
-  result.error = caster.error();
-  if(!result.error.empty())
+  if(result.fail(Mesh_status::FAILED, caster.error()))
     return result;
   const double radius = internal::Bounding_ball({&light.points}).radius;
   const Along_rays<RayCaster_> correspondence(caster, fine.points, fine.triangles, light,
@@ -76,8 +74,7 @@ Baked_map bake_normal_map_by_rays(const Indexed_triangle_mesh& fine,
                                   const Baking_by_rays_options& options = Baking_by_rays_options())
 {
   Baked_map result;
-  result.error = internal::ray_baking_error(fine, light, options);
-  if(!result.error.empty())
+  if(result.fail(internal::ray_baking_error(fine, light, options)))
     return result;
   return bake_normal_map_by_rays<RayCaster_>(fine, vertex_normals(fine.points, fine.triangles),
                                             light, tangent_frames(light, vertex_normals(light)),
@@ -111,8 +108,7 @@ Baked_map bake_normal_map_by_rays(const FineMesh& fine,
 {
   const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   Baked_map result;
-  result.error = internal::polygon_error_of_models(fine, light);
-  if(!result.error.empty())
+  if(result.fail(internal::polygon_error_of_models(fine, light)))
     return result;
   return bake_normal_map_by_rays<RayCaster_>(
     internal::arrays_of_graph(fine, np_fine),

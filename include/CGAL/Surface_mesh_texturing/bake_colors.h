@@ -96,13 +96,10 @@ inline Baked_map bake_vertex_colors(const Textured_triangle_mesh& fine,
                                     const Baking_options& options = Baking_options())
 {
   Baked_map result;
-  result.error = internal::baking_error(fine, light, options);
-  if(result.error.empty() && channels == 0)
-    result.error = "the vertices have no values";
-  if(result.error.empty())
-    result.error = internal::size_error(values.size(), channels * fine.points.size(),
-                                        "values of the vertices of the fine mesh");
-  if(!result.error.empty())
+  if(result.fail(internal::baking_error(fine, light, options))
+     || result.fail(Mesh_status::BAD_OPTIONS, channels == 0 ? "the vertices have no values" : "")
+     || result.fail(internal::size_error(values.size(), channels * fine.points.size(),
+                                         "values of the vertices of the fine mesh")))
     return result;
   return bake(light, Equal_uv(fine, light, options),
               Vertex_value_shader(fine.triangles, values, channels), options);
@@ -121,15 +118,11 @@ inline Baked_map bake_image(const Textured_triangle_mesh& fine,
                             const Baking_options& options = Baking_options())
 {
   Baked_map result;
-  result.error = internal::baking_error(fine, light, options);
-  if(result.error.empty())
-    result.error = internal::image_error(image, "the former image");
-  if(result.error.empty())
-    result.error = internal::size_error(former.wedges.size(), fine.triangles.size(),
-                                        "triangles of the former texture");
-  if(result.error.empty())
-    result.error = texture_error(former, "the former texture");
-  if(!result.error.empty())
+  if(result.fail(internal::baking_error(fine, light, options))
+     || result.fail(internal::image_error(image, "the former image"))
+     || result.fail(internal::size_error(former.wedges.size(), fine.triangles.size(),
+                                         "triangles of the former texture"))
+     || result.fail(Mesh_status::BAD_MESH, texture_error(former, "the former texture")))
     return result;
   return bake(light, Equal_uv(fine, light, options), Image_shader(former, image), options);
 }
@@ -166,8 +159,7 @@ Baked_map bake_vertex_colors(const FineMesh& fine, FineUVMap fine_uv,
 {
   const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   Baked_map result;
-  result.error = internal::polygon_error_of_models(fine, light);
-  if(!result.error.empty())
+  if(result.fail(internal::polygon_error_of_models(fine, light)))
     return result;
   std::vector<float> arrays;
   for(const auto v : vertices(fine)) {

@@ -62,7 +62,7 @@ private:
 /// What `bake_displacement()` returns: one channel, in units of length.
 struct Baked_displacement
 {
-  Baked_map map;      ///< the image and what is known of it
+  Baked_map map;      ///< the image and what is known of it, errors too
   double lowest = 0.; ///< of all covered texels; `encode_values()` asks for it
   double highest = 0.; ///< of all covered texels
 };
@@ -80,11 +80,9 @@ inline Baked_displacement bake_displacement(const Textured_triangle_mesh& fine,
                                             const Baking_options& options = Baking_options())
 {
   Baked_displacement result;
-  result.map.error = internal::baking_error(fine, light, options);
-  if(result.map.error.empty())
-    result.map.error = internal::size_error(normals.size(), light.points.size(),
-                                            "normals of the light model");
-  if(!result.map.error.empty())
+  if(result.map.fail(internal::baking_error(fine, light, options))
+     || result.map.fail(internal::size_error(normals.size(), light.points.size(),
+                                             "normals of the light model")))
     return result;
   result.map = bake(light, Equal_uv(fine, light, options),
                     Displacement_shader(fine.points, fine.triangles, light, normals), options);
@@ -107,9 +105,9 @@ inline Baked_displacement bake_displacement(const Textured_triangle_mesh& fine,
                                             const Baking_options& options = Baking_options())
 {
   Baked_displacement result;
-  result.map.error = internal::baking_error(fine, light, options);
-  return result.map.error.empty() ? bake_displacement(fine, light, vertex_normals(light), options)
-                                  : result;
+  if(result.map.fail(internal::baking_error(fine, light, options)))
+    return result;
+  return bake_displacement(fine, light, vertex_normals(light), options);
 }
 
 /*!
@@ -139,8 +137,7 @@ Baked_displacement bake_displacement(const FineMesh& fine, FineUVMap fine_uv,
 {
   const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   Baked_displacement result;
-  result.map.error = internal::polygon_error_of_models(fine, light);
-  if(!result.map.error.empty())
+  if(result.map.fail(internal::polygon_error_of_models(fine, light)))
     return result;
   return bake_displacement(internal::textured_arrays_of_graph(fine, fine_uv, np_fine),
                            internal::textured_arrays_of_graph(light, light_uv, np_light), options);

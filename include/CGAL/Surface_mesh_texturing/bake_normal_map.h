@@ -121,7 +121,7 @@ of `light`, which a renderer must use in the same way. The texels are unit vecto
 
 `normals` has a vector for each vertex of `fine`, `frames` are those of `light`. Bad data (no
 triangles, indices out of range, coordinates that are not finite, arrays of another length, an image
-without texels) give a result with `error` set. Linear time.
+without texels) give a result with an error. Linear time.
 */
 inline Baked_map bake_normal_map(const Textured_triangle_mesh& fine,
                                  const std::vector<Vector_3>& normals,
@@ -129,13 +129,10 @@ inline Baked_map bake_normal_map(const Textured_triangle_mesh& fine,
                                  const Baking_options& options = Baking_options())
 {
   Baked_map result;
-  result.error = internal::baking_error(fine, light, options);
-  if(result.error.empty())
-    result.error = internal::size_error(normals.size(), fine.points.size(),
-                                        "normals of the fine mesh");
-  if(result.error.empty())
-    result.error = internal::frame_error(frames, light);
-  if(!result.error.empty())
+  if(result.fail(internal::baking_error(fine, light, options))
+     || result.fail(internal::size_error(normals.size(), fine.points.size(),
+                                         "normals of the fine mesh"))
+     || result.fail(internal::frame_error(frames, light)))
     return result;
   return bake(light, Equal_uv(fine, light, options),
               Normal_shader(fine.triangles, normals, light.triangles, frames, options.space),
@@ -153,8 +150,7 @@ inline Baked_map bake_normal_map(const Textured_triangle_mesh& fine,
                                  const Baking_options& options = Baking_options())
 {
   Baked_map result;
-  result.error = internal::baking_error(fine, light, options);
-  if(!result.error.empty())
+  if(result.fail(internal::baking_error(fine, light, options)))
     return result;
   return bake_normal_map(fine, vertex_normals(fine), light,
                          tangent_frames(light, vertex_normals(light)), options);
@@ -187,8 +183,7 @@ Baked_map bake_normal_map(const FineMesh& fine, FineUVMap fine_uv,
 {
   const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   Baked_map result;
-  result.error = internal::polygon_error_of_models(fine, light);
-  if(!result.error.empty())
+  if(result.fail(internal::polygon_error_of_models(fine, light)))
     return result;
   return bake_normal_map(internal::textured_arrays_of_graph(fine, fine_uv, np_fine),
                          internal::textured_arrays_of_graph(light, light_uv, np_light), options);

@@ -55,8 +55,8 @@ cut where their maps are not one-to-one. The atlas does not depend on the unit o
 
 `mesh` may be closed, of any genus, and have several components and borders. Bad data (no triangles,
 an index without vertex, vertices without a face or with several fans of faces, coordinates that are
-not finite, options that make no sense, charts or densities of another mesh) give a result with
-`error` set.
+not finite, options that make no sense, charts or densities of another mesh) give a result with an
+error.
 
 Expected linear time. About 250 bytes a triangle of temporary memory.
 */
@@ -72,8 +72,7 @@ Texture_atlas_result build_texture_atlas(const Indexed_triangle_mesh& mesh,
   typedef typename Default::Get<Segmenter, Chart_growth_segmenter>::type Used_segmenter;
   const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   Texture_atlas_result result;
-  result.error = internal::packing_options_error(options.packing);
-  if(!result.error.empty())
+  if(result.fail(Mesh_status::BAD_OPTIONS, internal::packing_options_error(options.packing)))
     return result;
   const auto& used_segmenter = internal::model_or_default<Chart_growth_segmenter>(segmenter);
   const auto& used_parameterizer
@@ -128,8 +127,7 @@ Texture_atlas_result build_texture_atlas(const FaceGraph& mesh, HalfedgeUVMap uv
 {
   typedef typename boost::property_traits<HalfedgeUVMap>::value_type Uv;
   Texture_atlas_result result;
-  result.error = internal::polygon_error(mesh, "the mesh");
-  if(!result.error.empty())
+  if(result.fail(internal::polygon_error(mesh, "the mesh")))
     return result;
   const Indexed_triangle_mesh arrays = internal::arrays_of_graph(mesh, np);
   if constexpr(internal::has_constrained_edges<NamedParameters>) {
@@ -143,7 +141,7 @@ Texture_atlas_result build_texture_atlas(const FaceGraph& mesh, HalfedgeUVMap uv
   } else {
     result = build_texture_atlas<ConcurrencyTag>(arrays, options, segmenter, parameterizer, packer);
   }
-  if(!result.error.empty())
+  if(!result.is_ok())
     return result;
   std::size_t t = 0;
   for(const auto f : faces(mesh)) {

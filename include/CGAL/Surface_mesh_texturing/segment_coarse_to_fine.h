@@ -13,6 +13,7 @@
 
 #include <functional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -37,24 +38,41 @@ struct Segmentation_options
 /// \ingroup PkgHLSCMTexturing
 /// What `segment_coarse_to_fine()` returns.
 struct Segmentation_result
+  : Indexed_mesh::Mesh_outcome
 {
   Face_charts charts;           ///< of the mesh; all are disks
   std::size_t coarse_faces = 0; ///< triangles of the coarse mesh
   double decimation_seconds = 0.; ///< time to make the coarse mesh
   double coarse_seconds = 0.;   ///< time to find charts there
   double refinement_seconds = 0.; ///< time to carry them to the mesh and to make seams straight
-  std::string error;            ///< why there are no charts, as a sentence; empty if all is well
 };
 
 namespace internal {
 
 // What the policy of `segment_coarse_to_fine()` returns.
-inline std::string error_of(const Face_charts&) { return {}; }
+inline Mesh_outcome outcome_of(const Face_charts&) { return {}; }
 inline const Face_charts& charts_of(const Face_charts& charts) { return charts; }
 template <class Result>
-std::string error_of(const Result& result) { return result.error; }
+Mesh_outcome outcome_of(const Result& result)
+{
+  if constexpr(std::is_base_of<Mesh_outcome, Result>::value)
+    return result;
+  else
+    return {Mesh_status::OK, result.error};
+}
 template <class Result>
 const Face_charts& charts_of(const Result& result) { return result.charts; }
+
+// What is wrong with charts that somebody else found.
+inline Mesh_outcome foreign_seams_error(const Indexed_triangle_mesh& mesh,
+                                        const std::vector<std::uint8_t>& seams)
+{
+  const std::size_t n = mesh.triangles.size();
+  if(seams.size() == n)
+    return {};
+  return {Mesh_status::BAD_OPTIONS, "the charts have seams for " + std::to_string(seams.size())
+                                      + " triangles, but the mesh has " + std::to_string(n)};
+}
 
 inline std::string segmentation_error(const Indexed_triangle_mesh& mesh)
 {
@@ -142,21 +160,19 @@ public:
 
   Segmentation_result run()
   {
-    m_result.error = segmentation_error(m_original);
-    if(!m_result.error.empty())
+    if(m_result.fail(Mesh_status::BAD_MESH, segmentation_error(m_original)))
       return m_result;
     Prepared_mesh prepared = prepare_mesh(m_original);
     const Indexed_triangle_mesh& mesh = prepared.mesh;
-    m_result.error = prepared.error;
-    if(!m_result.error.empty())
+    if(m_result.fail(prepared))
       return m_result;
     const Progressive_mesh pm = decimate(mesh, std::move(prepared.rings));
     m_result.decimation_seconds = m_watch.lap();
-    if(!m_result.error.empty() || is_cancelled(0.5))
+    if(!m_result.is_ok() || is_cancelled(0.5))
       return m_result;
     const Face_charts coarse = segment(coarse_mesh(mesh, pm));
     m_result.coarse_seconds = m_watch.lap();
-    if(!m_result.error.empty() || is_cancelled(0.7))
+    if(!m_result.is_ok() || is_cancelled(0.7))
       return m_result;
     m_result.charts = charts_of_original(
       m_original.triangles, prepared,
@@ -170,7 +186,7 @@ private:
   {
     if(!m_options.progress || m_options.progress(part))
       return false;
-    m_result.error = "cancelled";
+    m_result.cancel();
     return true;
   }
 
@@ -196,10 +212,9 @@ private:
   {
     m_result.coarse_faces = coarse.triangles.size();
     const auto found = m_segment_coarse(coarse);
-    m_result.error = error_of(found);
-    if(!m_result.error.empty())
+    if(m_result.fail(outcome_of(found))
+       || m_result.fail(foreign_seams_error(coarse, charts_of(found).seams)))
       return {};
-    CGAL_precondition(charts_of(found).seams.size() == coarse.triangles.size());
     return cut_to_disks(coarse, charts_of(found), m_options.cut);
   }
 
@@ -221,12 +236,14 @@ found there, and their seams are carried back and made straight.
 \param mesh any number of components, closed or not, of any genus, size and place
 \param options see there
 \param segment_coarse finds the charts of the coarse mesh, an `Indexed_triangle_mesh`: a function
-       object that returns `Face_charts`, or a struct with `charts` and `error`. Charts that are no
+       object that returns `Face_charts`, or a struct with `charts` and `error`, which may be a
+       `Mesh_outcome`. Charts that are no
        disks are cut. `one_disk_per_component()` is one.
 
 Bad data (an index that is no vertex, a triangle that has a vertex twice, coordinates that are not
 finite, vertices without a triangle or with several fans of triangles, all edges without length)
-give a result with `error` set and no charts.
+give a result with an error and no charts, as does `segment_coarse` if it finds charts of another
+mesh.
 
 Expected linear time beside that of `segment_coarse`.
 */

@@ -27,16 +27,6 @@ inline std::string manifold_error(const Indexed_triangle_mesh& mesh)
   return error.empty() ? ring_error(Indexed_mesh::Vertex_rings(mesh)) : error;
 }
 
-// What is wrong with charts that somebody else found, as a sentence.
-inline std::string error_of_foreign_seams(const Indexed_triangle_mesh& mesh,
-                                          const std::vector<std::uint8_t>& seams)
-{
-  const std::size_t n = mesh.triangles.size();
-  return seams.size() == n ? std::string()
-                           : "the charts have seams for " + std::to_string(seams.size())
-                               + " triangles, but the mesh has " + std::to_string(n);
-}
-
 // The mesh cut open along the seams of its charts, with its triangles in the same order.
 inline Indexed_triangle_mesh cut_along(const Indexed_triangle_mesh& mesh,
                                        const Face_charts& charts)
@@ -60,15 +50,11 @@ Segmentation_result segment_between(const Indexed_triangle_mesh& mesh,
                                     std::vector<std::uint8_t> seams, const Segment& segment)
 {
   Segmentation_result result;
-  result.error = manifold_error(mesh);
-  if(result.error.empty())
-    result.error = error_of_foreign_seams(mesh, seams);
-  if(!result.error.empty())
+  if(result.fail(Mesh_status::BAD_MESH, manifold_error(mesh))
+     || result.fail(foreign_seams_error(mesh, seams)))
     return result;
   result = segment(cut_along(mesh, charts_between(mesh.triangles, std::move(seams))));
-  if(result.error.empty())
-    result.error = error_of_foreign_seams(mesh, result.charts.seams);
-  if(result.error.empty())
+  if(result.is_ok() && !result.fail(foreign_seams_error(mesh, result.charts.seams)))
     result.charts = charts_between(mesh.triangles, std::move(result.charts.seams));
   return result;
 }
@@ -121,8 +107,7 @@ Segmentation_result segment_into_charts(const FaceGraph& mesh, FaceChartMap char
 {
   const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   Segmentation_result result;
-  result.error = internal::polygon_error(mesh, "the mesh");
-  if(!result.error.empty())
+  if(result.fail(internal::polygon_error(mesh, "the mesh")))
     return result;
   const Indexed_triangle_mesh arrays = internal::arrays_of_graph(mesh, np);
   const auto segment
@@ -132,7 +117,7 @@ Segmentation_result segment_into_charts(const FaceGraph& mesh, FaceChartMap char
   else
     result = segment(arrays);
   std::size_t t = 0;
-  if(result.error.empty())
+  if(result.is_ok())
     for(const auto f : faces(mesh))
       put(chartmap, f, std::size_t(result.charts.chart[t++]));
   return result;

@@ -6,6 +6,7 @@
 
 #include <CGAL/Blocked_execution/Tagged_threads.h>
 #include <CGAL/Indexed_mesh/mesh_arrays.h>
+#include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
 
 #include <CGAL/Default.h>
@@ -27,19 +28,20 @@ using Surface_mesh_multiresolution::Textured_triangle_mesh;
 namespace internal {
 
 template <class FaceGraph>
-std::string polygon_error(const FaceGraph& mesh, const std::string& name)
+Mesh_outcome polygon_error(const FaceGraph& mesh, const std::string& name)
 {
-  return is_triangle_mesh(mesh)
-         ? std::string()
-         : "not all faces of " + name + " are triangles; triangulate it first";
+  if(is_triangle_mesh(mesh))
+    return {};
+  return {Mesh_status::BAD_MESH,
+          "not all faces of " + name + " are triangles; triangulate it first"};
 }
 
 // What keeps these two from being baked; empty if nothing does.
 template <class FineMesh, class LightMesh>
-std::string polygon_error_of_models(const FineMesh& fine, const LightMesh& light)
+Mesh_outcome polygon_error_of_models(const FineMesh& fine, const LightMesh& light)
 {
-  const std::string error = polygon_error(fine, "the fine mesh");
-  return error.empty() ? polygon_error(light, "the light model") : error;
+  const Mesh_outcome result = polygon_error(fine, "the fine mesh");
+  return result.is_ok() ? polygon_error(light, "the light model") : result;
 }
 
 // The arrays of a mesh in the order of vertices(mesh) and faces(mesh), with the points of the named

@@ -27,7 +27,7 @@ public:
   {}
 
   // Appends the collapses.
-  Decimation_status run(Progressive_mesh& pm);
+  Decimation_end run(Progressive_mesh& pm);
 
 private:
   static constexpr std::size_t steps_between_reports = 16384;
@@ -63,7 +63,7 @@ private:
 };
 
 template <class Surface, class Stop>
-Decimation_status Strict_collapses<Surface, Stop>::run(Progressive_mesh& pm)
+Decimation_end Strict_collapses<Surface, Stop>::run(Progressive_mesh& pm)
 {
   const std::size_t n = m_surface.number_of_vertices();
   if constexpr(Stop::asks_for_costs)
@@ -97,9 +97,8 @@ Decimation_status Strict_collapses<Surface, Stop>::run(Progressive_mesh& pm)
       enqueue(r[i]);
     has_stopped = m_stop.is_over(pm);
   }
-  if(m_progress.is_cancelled())
-    return Decimation_status::CANCELLED;
-  return has_stopped ? Decimation_status::STOPPED : Decimation_status::EXHAUSTED;
+  const bool is_cancelled = m_progress.is_cancelled();
+  return {!has_stopped && !is_cancelled, is_cancelled};
 }
 
 } // namespace internal

@@ -138,8 +138,7 @@ private:
   // The charts of a segmentation, whose error, if any, becomes that of the atlas.
   Face_charts found(Segmentation_result result)
   {
-    if(m_result.error.empty())
-      m_result.error = std::move(result.error);
+    m_result.fail(result);
     return std::move(result.charts);
   }
 
@@ -148,8 +147,7 @@ private:
   {
     if(!m_options.progress || m_options.progress(begin + part * (end - begin)))
       return true;
-    m_result.report.cancelled = true;
-    m_result.error = "cancelled";
+    m_result.cancel();
     return false;
   }
 
@@ -167,15 +165,16 @@ inline bool Texture_atlas_builder::check()
 {
   const std::vector<float>& density = m_options.density;
   if(!density.empty() && density.size() != m_mesh.triangles.size())
-    m_result.error = "there are " + std::to_string(density.size()) + " densities for "
-                     + std::to_string(m_mesh.triangles.size()) + " triangles";
-  for(std::size_t t = 0; t < density.size() && m_result.error.empty(); ++t)
+    m_result.fail(Mesh_status::BAD_OPTIONS,
+                  "there are " + std::to_string(density.size()) + " densities for "
+                    + std::to_string(m_mesh.triangles.size()) + " triangles");
+  for(std::size_t t = 0; t < density.size() && m_result.is_ok(); ++t)
     if(!std::isfinite(density[t]) || density[t] < 0.f)
-      m_result.error
-        = "the density of triangle " + std::to_string(t) + " is not a finite number from 0 on";
-  if(m_result.error.empty() && !m_models.is_own)
-    m_result.error = manifold_error(m_mesh);
-  return m_result.error.empty();
+      m_result.fail(Mesh_status::BAD_OPTIONS, "the density of triangle " + std::to_string(t)
+                                                + " is not a finite number from 0 on");
+  if(m_result.is_ok() && !m_models.is_own)
+    m_result.fail(Mesh_status::BAD_MESH, manifold_error(m_mesh));
+  return m_result.is_ok();
 }
 
 inline bool Texture_atlas_builder::segment()
@@ -194,7 +193,7 @@ inline bool Texture_atlas_builder::segment()
       m_mesh, to_trial, [this](const Indexed_triangle_mesh& trial) { return try_charts(trial); }));
   }
   m_result.report.seconds_segment = watch.seconds();
-  return m_result.error.empty() && proceed(0.4, 0.4, 0.);
+  return m_result.is_ok() && proceed(0.4, 0.4, 0.);
 }
 
 inline Segmentation_result Texture_atlas_builder::find_charts(const Indexed_triangle_mesh& mesh,
@@ -203,10 +202,9 @@ inline Segmentation_result Texture_atlas_builder::find_charts(const Indexed_tria
   Texture_atlas_options options = m_options;
   options.progress = [=](double part) { return proceed(begin, end, part); };
   Segmentation_result result = m_models.segment(mesh, options);
-  if(m_models.is_own || !result.error.empty())
+  if(m_models.is_own || !result.is_ok())
     return result;
-  result.error = error_of_foreign_seams(mesh, result.charts.seams);
-  if(result.error.empty()) // whatever the charts say beside their seams
+  if(!result.fail(foreign_seams_error(mesh, result.charts.seams))) // whatever the charts say beside their seams
     result.charts
       = cut_to_disks(mesh, charts_between(mesh.triangles, std::move(result.charts.seams)));
   return result;
@@ -217,7 +215,7 @@ inline Segmentation_result Texture_atlas_builder::try_charts(const Indexed_trian
 {
   constexpr double margin = 0.95; // for what the fine mesh adds
   Segmentation_result result = find_charts(mesh, 0.2, 0.3);
-  if(!result.error.empty())
+  if(!result.is_ok())
     return result;
   Distortion_bound bound = m_options.bound;
   bound.area_scale = (std::max)(1., margin * bound.area_scale);
@@ -225,7 +223,7 @@ inline Segmentation_result Texture_atlas_builder::try_charts(const Indexed_trian
   result.charts = charts_of_maps(
     mesh, map_charts(chart_meshes(mesh, result.charts), chart_mapping(bound),
                      [this](double part) { return proceed(0.3, 0.4, part); }, recut));
-  result.error = m_result.error;
+  result.fail(m_result);
   return result;
 }
 
@@ -243,7 +241,7 @@ inline bool Texture_atlas_builder::map()
   for(Mapped_chart& chart : m_maps)
     scale_by_density(m_options.density, chart);
   m_result.report.seconds_map = watch.seconds();
-  return m_result.error.empty();
+  return m_result.is_ok();
 }
 
 inline void Texture_atlas_builder::map_charts_within(const Distortion_bound& bound, double begin,
@@ -263,10 +261,9 @@ inline bool Texture_atlas_builder::pack()
   Packing_options packing = m_options.packing;
   packing.progress = [this](double part) { return proceed(0.8, 1., part); };
   m_packing = m_models.pack(shapes, packing);
-  if(m_result.error.empty())
-    m_result.error = m_packing.error;
+  m_result.fail(m_packing);
   m_result.report.seconds_pack = watch.seconds();
-  return m_result.error.empty() && proceed(1., 1., 1.);
+  return m_result.is_ok() && proceed(1., 1., 1.);
 }
 
 inline void Texture_atlas_builder::fill()

@@ -92,7 +92,7 @@ inline std::vector<Chart_mesh> cut_again(const Mapped_chart& mapped,
   Segmentation_options segmentation;
   segmentation.coarse_faces = (std::min)(coarse_faces, mapping.coarse_faces);
   Segmentation_result cut = segment_into_charts(chart.mesh, segmentation, growth);
-  if(!cut.error.empty() || cut.charts.number_of_charts < 2)
+  if(!cut.is_ok() || cut.charts.number_of_charts < 2)
     cut.charts = halve_chart(chart.mesh);
   std::vector<Chart_mesh> parts = chart_meshes(chart.mesh, cut.charts);
   for(Chart_mesh& part : parts) {
