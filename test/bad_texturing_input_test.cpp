@@ -14,6 +14,7 @@
 #include <CGAL/Surface_mesh_texturing/bake_colors.h>
 #include <CGAL/Surface_mesh_texturing/bake_displacement.h>
 #include <CGAL/Surface_mesh_texturing/build_texture_atlas.h>
+#include <CGAL/Surface_mesh_texturing/charts_of_texture.h>
 #include <CGAL/Surface_mesh_texturing/rendering_error.h>
 #include <CGAL/boost/graph/generators.h>
 
@@ -165,6 +166,7 @@ std::vector<Mesh_door> charting_doors()
          std::vector<std::uint8_t>(m.triangles.size(), 0));
        return SMT::build_texture_atlas(m, small_texture(), segmenter);
      }},
+    {"grow_charts", [](const auto& m) { return SMT::grow_charts(m); }},
     {"segment_into_charts", [](const auto& m) { return SMT::segment_into_charts(m); }},
     {"segment_coarse_to_fine",
      [](const auto& m) {
@@ -339,6 +341,62 @@ TEST(Bad_texturing_input, charts_of_another_mesh_give_a_sentence)
     = SMT::build_texture_atlas(grid(4, 4), small_texture(), SMT::Given_charts_segmenter(charts));
   EXPECT_EQ(result.error, "");
   EXPECT_EQ(result.atlas.charts.number_of_charts, 32u);
+}
+
+// Functions of charts have no place for a sentence: they return none, and charts_error() has it.
+void expect_no_charts(const Indexed_triangle_mesh& mesh, const SMT::Face_charts& charts,
+                      Mesh_status status, const std::string& where)
+{
+  expect_error(SMT::charts_error(mesh, charts), status, where);
+  EXPECT_EQ(SMT::straighten_charts(mesh, charts).number_of_charts, 0u) << where;
+  EXPECT_EQ(SMT::cut_to_disks(mesh, charts).number_of_charts, 0u) << where;
+  EXPECT_EQ(SMT::measure_seams(mesh, charts).edges, 0u) << where;
+  EXPECT_TRUE(SMT::chart_meshes(mesh, charts).empty()) << where;
+}
+
+TEST(Bad_texturing_input, functions_of_charts_return_none)
+{
+  const Indexed_triangle_mesh good = grid(4, 4);
+  for(const auto& [name, mesh] : meshes_without_charts()) {
+    const std::size_t n = mesh.triangles.size();
+    const SMT::Face_charts charts
+      = SMT::charts_between(mesh.triangles, std::vector<std::uint8_t>(n, 0)); // no signal
+    EXPECT_EQ(SMT::charts_of_labels(mesh.triangles, std::vector<std::uint32_t>(n, 0)).seams,
+              charts.seams) << name;
+    EXPECT_EQ(SMT::straighten_charts(mesh, charts).number_of_charts, 0u) << name;
+    // Charts know no vertices, and two triangles with one direction of an edge are no neighbours
+    if(name == "isolated vertex" || name == "three triangles at an edge")
+      expect_good(SMT::charts_error(mesh, charts), name);
+    else
+      expect_no_charts(mesh, charts, Mesh_status::BAD_MESH, name);
+  }
+  Indexed_triangle_mesh thrice = good;
+  thrice.triangles.push_back(good.triangles[9]);
+  expect_no_charts(thrice,
+                   SMT::charts_between(thrice.triangles, std::vector<std::uint8_t>(33, 0)),
+                   Mesh_status::BAD_MESH, "edges of three triangles");
+  for(const auto& [name, mesh] : bad_textured_meshes())
+    EXPECT_EQ(SMT::charts_of_texture(mesh).number_of_charts, 0u) << name;
+  const SMT::Face_charts charts
+    = SMT::charts_between(good.triangles, std::vector<std::uint8_t>(32, 0));
+  expect_good(SMT::charts_error(good, charts), "one chart");
+  EXPECT_EQ(SMT::straighten_charts(good, charts).seams, charts.seams);
+  EXPECT_EQ(SMT::cut_to_disks(good, charts).seams, charts.seams);
+  std::vector<SMT::Face_charts> bad(6, charts);
+  bad[0].seams.pop_back();
+  bad[1].chart.pop_back();
+  bad[2].chart[3] = 1;
+  bad[3].number_of_charts = 2;
+  bad[3].chart[3] = 1;                           // in spite of what is no seam
+  bad[4].seams.assign(32, 0);                    // not even the border
+  bad[5].seams[10] = std::uint8_t(~bad[5].seams[10] & 7); // on one side
+  for(std::size_t i = 0; i < bad.size(); ++i)
+    expect_no_charts(good, bad[i], Mesh_status::BAD_OPTIONS, "bad charts " + std::to_string(i));
+  EXPECT_EQ(SMT::charts_between(good.triangles, {}).number_of_charts, 0u);
+  EXPECT_EQ(SMT::charts_of_labels(good.triangles, {1, 2}).number_of_charts, 0u);
+  EXPECT_TRUE(SMT::chart_topologies(good.triangles, SMT::Face_charts()).empty());
+  expect_bad_options(SMT::segment_coarse_to_fine(
+    good, {}, [](const Indexed_triangle_mesh&) { return SMT::Face_charts(); }));
 }
 
 TEST(Bad_texturing_input, charts_that_cannot_be_packed_give_a_sentence)

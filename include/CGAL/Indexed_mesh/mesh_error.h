@@ -143,6 +143,23 @@ inline std::string ring_error(const Vertex_rings& rings,
   return "the faces at " + vertex + " do not form one fan; split the vertex first";
 }
 
+/// \ingroup PkgHLSCMIndexedMesh
+/// Says what is wrong with the arrays of a mesh, or which triangle has a vertex twice. Linear time.
+inline std::string surface_error(const Indexed_triangle_mesh& mesh)
+{
+  const std::string error = mesh_error(mesh);
+  return error.empty() ? repeated_vertex_error(mesh.triangles) : error;
+}
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// Says what keeps a mesh from being an oriented manifold, with or without border, all vertices of
+/// which have triangles. Linear time.
+inline std::string manifold_error(const Indexed_triangle_mesh& mesh)
+{
+  const std::string error = surface_error(mesh);
+  return error.empty() ? ring_error(Vertex_rings(mesh)) : error;
+}
+
 } // namespace Indexed_mesh
 } // namespace CGAL
 

@@ -19,11 +19,13 @@ using Surface_mesh_multiresolution::Textured_triangle_mesh;
 \ingroup PkgHLSCMTexturing
 
 Returns the charts of a texture: an edge is a seam unless the texture coordinates of both its ends
-are equal on both sides, whatever their indices. Charts need not be disks; see `cut_to_disks()`.
-Linear time.
+are equal on both sides, whatever their indices. Charts need not be disks; see `cut_to_disks()`. None
+for a mesh with a `mesh_error()` or `texture_error()`. Linear time.
 */
 inline Face_charts charts_of_texture(const Textured_triangle_mesh& mesh)
 {
+  if(!mesh_error(mesh).empty() || !texture_error(mesh).empty())
+    return {};
   const Indexed_mesh::Triangle_adjacency adjacency(mesh.triangles);
   std::vector<std::uint8_t> seams(mesh.triangles.size(), 0);
   for(Halfedge h = 0; h < adjacency.number_of_halfedges(); ++h)

@@ -8,8 +8,6 @@
 #include <CGAL/Surface_mesh_texturing/chart_topology.h>
 #include <CGAL/Surface_mesh_texturing/internal/seams/Disk_cutter.h>
 
-#include <CGAL/assertions.h>
-
 #include <utility>
 #include <vector>
 
@@ -23,19 +21,23 @@ Returns `charts` with seams added within those charts that are no disks, until a
 short and prefer creases, concave ones above all. A chart with several borders gets seams between
 them, a chart with handles seams along these, and a closed chart a tree of seams to its extremities.
 
-Any surface that `Face_charts` can describe will do. Time \f$ O(n \log n) \f$ for the charts that
+Any surface that `Face_charts` can describe will do; if there is a `charts_error()` there are no
+charts. Time \f$ O(n \log n) \f$ for the charts that
 are no disks, linear for the others.
 */
 inline Face_charts cut_to_disks(const Indexed_triangle_mesh& mesh, Face_charts charts,
                                 const Disk_cut_options& options = Disk_cut_options())
 {
-  CGAL_precondition(charts.seams.size() == mesh.triangles.size());
+  if(!surface_error(mesh).empty())
+    return {};
   const Indexed_mesh::Triangle_adjacency adjacency(mesh.triangles);
+  if(!internal::adjacency_error(mesh, adjacency, charts).is_ok())
+    return {};
   charts.seams = internal::without_lonely_seams(adjacency, std::move(charts.seams));
   const std::vector<Chart_topology> topologies = chart_topologies(adjacency, charts);
   if(error_of_charts(topologies).empty())
     return charts;
-  const std::vector<Chart_mesh> meshes = chart_meshes(mesh, adjacency, charts);
+  const std::vector<Chart_mesh> meshes = internal::cut_out_charts(mesh, adjacency, charts);
   for(std::size_t c = 0; c < meshes.size(); ++c) {
     if(topologies[c].is_disk())
       continue;
@@ -50,7 +52,8 @@ inline Face_charts cut_to_disks(const Indexed_triangle_mesh& mesh, Face_charts c
 \ingroup PkgHLSCMTexturing
 
 Returns the connected components of `mesh` as charts, each cut to one disk. On a mesh of many
-triangles it is faster to cut a coarse one and to refine the cut; see `segment_coarse_to_fine()`.
+triangles it is faster to cut a coarse one and to refine the cut; see `segment_coarse_to_fine()`. None
+if there is a `charts_error()`.
 */
 inline Face_charts one_disk_per_component(const Indexed_triangle_mesh& mesh,
                                           const Disk_cut_options& options = Disk_cut_options())

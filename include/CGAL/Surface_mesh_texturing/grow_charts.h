@@ -69,7 +69,7 @@ inline Mesh_outcome growth_error(const Indexed_triangle_mesh& mesh,
                                  const Chart_growth_options& options)
 {
   Mesh_outcome result;
-  if(result.fail(Mesh_status::BAD_MESH, mesh_error(mesh)))
+  if(result.fail(Mesh_status::BAD_MESH, manifold_error(mesh)))
     return result;
   if(!(options.bound.area_scale > 1.) || !(options.bound.quasi_conformal > 1.))
     return {Mesh_status::BAD_OPTIONS, "a distortion bound is not larger than 1"};
@@ -121,8 +121,8 @@ sharp features of the surface. Other than there, they are then merged across the
 as long as the map of the union, which is computed, is within the bound; a search takes small charts
 and their neighbours apart and merges them in other ways to get along with fewer.
 
-Errors: a mesh without triangles or extent, a coordinate that is not finite, a bound not larger than
-1 or a part of it not in (0, 1], and "cancelled".
+Errors: a mesh that is no manifold or has no extent, a bound not larger than 1 or a part of it not in
+(0, 1], and "cancelled".
 
 Meant for coarse meshes of 1K to 10K triangles. Time about linear, in proportion to
 `Chart_growth_options::effort`. Trial maps are computed in parallel; the result does not depend on

@@ -63,23 +63,6 @@ Mesh_outcome outcome_of(const Result& result)
 template <class Result>
 const Face_charts& charts_of(const Result& result) { return result.charts; }
 
-// What is wrong with charts that somebody else found.
-inline Mesh_outcome foreign_seams_error(const Indexed_triangle_mesh& mesh,
-                                        const std::vector<std::uint8_t>& seams)
-{
-  const std::size_t n = mesh.triangles.size();
-  if(seams.size() == n)
-    return {};
-  return {Mesh_status::BAD_OPTIONS, "the charts have seams for " + std::to_string(seams.size())
-                                      + " triangles, but the mesh has " + std::to_string(n)};
-}
-
-inline std::string segmentation_error(const Indexed_triangle_mesh& mesh)
-{
-  const std::string error = mesh_error(mesh);
-  return error.empty() ? repeated_vertex_error(mesh.triangles) : error;
-}
-
 // The mesh after the collapses, with the vertices that are left.
 inline Indexed_triangle_mesh coarse_mesh(const Indexed_triangle_mesh& mesh,
                                          const Progressive_mesh& pm)
@@ -160,7 +143,7 @@ public:
 
   Segmentation_result run()
   {
-    if(m_result.fail(Mesh_status::BAD_MESH, segmentation_error(m_original)))
+    if(m_result.fail(Mesh_status::BAD_MESH, surface_error(m_original)))
       return m_result;
     Prepared_mesh prepared = prepare_mesh(m_original);
     const Indexed_triangle_mesh& mesh = prepared.mesh;
@@ -213,7 +196,7 @@ private:
     m_result.coarse_faces = coarse.triangles.size();
     const auto found = m_segment_coarse(coarse);
     if(m_result.fail(outcome_of(found))
-       || m_result.fail(foreign_seams_error(coarse, charts_of(found).seams)))
+       || m_result.fail(charts_error(coarse, charts_of(found))))
       return {};
     return cut_to_disks(coarse, charts_of(found), m_options.cut);
   }

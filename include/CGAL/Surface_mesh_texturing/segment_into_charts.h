@@ -20,13 +20,6 @@ namespace CGAL {
 namespace Surface_mesh_texturing {
 namespace internal {
 
-// What keeps a mesh from having charts that are disks, as a sentence.
-inline std::string manifold_error(const Indexed_triangle_mesh& mesh)
-{
-  const std::string error = segmentation_error(mesh);
-  return error.empty() ? ring_error(Indexed_mesh::Vertex_rings(mesh)) : error;
-}
-
 // The mesh cut open along the seams of its charts, with its triangles in the same order.
 inline Indexed_triangle_mesh cut_along(const Indexed_triangle_mesh& mesh,
                                        const Face_charts& charts)

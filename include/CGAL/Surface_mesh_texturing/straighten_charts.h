@@ -7,8 +7,6 @@
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/seams/Seam_straightener.h>
 
-#include <CGAL/assertions.h>
-
 #include <cmath>
 #include <vector>
 
@@ -48,10 +46,13 @@ struct Seam_length
 };
 
 /// \ingroup PkgHLSCMTexturing
-/// Returns the length of the seams of `mesh` inside the surface. Linear time.
+/// Returns the length of the seams of `mesh` inside the surface; 0 if there is a `charts_error()`.
+/// Linear time.
 inline Seam_length measure_seams(const Indexed_triangle_mesh& mesh, const Face_charts& charts,
                                  const Crease_weights& creases = Crease_weights())
 {
+  if(!charts_error(mesh, charts).is_ok())
+    return {};
   internal::Halfedge_triangles halfedges(mesh.triangles, mesh.points.size());
   internal::Refinable_seam_graph graph(halfedges, mesh.points, creases);
   graph.set_seams(charts.seams);
@@ -73,7 +74,8 @@ inline Seam_length measure_seams(const Indexed_triangle_mesh& mesh, const Face_c
 Returns charts with shorter seams: pieces of `window` edges are replaced by the shortest paths of
 edges in a band of `rings` edges around them, where creases count less, and junctions of seams move
 to where their seams are shortest, those on the border of the surface along it. The ends of seams
-within a chart, and vertices of much curvature, stay. If all charts are disks, they still are, and
+within a chart, and vertices of much curvature, stay. If the mesh is no manifold
+(`Indexed_mesh::manifold_error()`), or there is a `charts_error()`, there are no charts. If all charts are disks, they still are, and
 their number does not change. The weighted length of the seams never grows.
 
 Time linear in the number of triangles, with a small constant, plus that of the seam edges times
@@ -83,7 +85,8 @@ inline Face_charts straighten_charts(const Indexed_triangle_mesh& mesh, const Fa
                                      const Straightening_options& options
                                        = Straightening_options())
 {
-  CGAL_precondition(charts.seams.size() == mesh.triangles.size());
+  if(!manifold_error(mesh).empty() || !charts_error(mesh, charts).is_ok())
+    return {};
   internal::Halfedge_triangles halfedges(mesh.triangles, mesh.points.size());
   internal::Refinable_seam_graph graph(halfedges, mesh.points, options.creases);
   graph.set_seams(charts.seams);
