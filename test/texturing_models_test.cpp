@@ -7,6 +7,7 @@
 #include <support/textured_meshes.h>
 
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/Surface_mesh_multiresolution/build_progressive_mesh.h>
 #include <CGAL/Surface_mesh_texturing/AABB_tree_ray_caster.h>
 #include <CGAL/Surface_mesh_texturing/Horizon_packer.h>
 #include <CGAL/Surface_mesh_texturing/bake_by_rays.h>
@@ -26,6 +27,7 @@
 
 namespace texturing_models_test {
 
+namespace SMM = CGAL::Surface_mesh_multiresolution;
 namespace SMT = CGAL::Surface_mesh_texturing;
 using namespace test_support;
 typedef CGAL::Simple_cartesian<double>::Point_2 Point_2;
@@ -316,6 +318,132 @@ TEST(Texturing_models, meshes_of_any_type_take_the_points_of_a_map)
     = SMT::build_texture_atlas(mesh, uv, chart, small_texture(), np);
   ASSERT_EQ(atlas.error, "");
   EXPECT_EQ(error_in_atlas(arrays, atlas.atlas), "");
+}
+
+// Seams keep off the edges of a part of a torus, and off one edge in three. They cross a ring around
+// its tube once, as they must, and there are few of them on a sphere that is to have none.
+TEST(Texturing_models, edges_that_shall_not_be_seams_are_none)
+{
+  const Indexed_triangle_mesh arrays = torus(60, 30);
+  Mesh mesh = surface_mesh(arrays);
+  const auto chart = mesh.add_property_map<Mesh::Face_index, std::size_t>("f:chart").first;
+  const auto uv = mesh.add_property_map<Mesh::Halfedge_index, Kernel::Point_2>("h:uv").first;
+  const auto free = mesh.add_property_map<Mesh::Edge_index, bool>("e:free", false).first;
+  enum class Kind { PART, THIRD, RING };
+  for(const Kind kind : {Kind::PART, Kind::THIRD, Kind::RING}) {
+    SCOPED_TRACE(int(kind));
+    std::size_t i = 0;
+    for(const auto e : edges(mesh)) {
+      const auto p = mesh.point(source(e, mesh)), q = mesh.point(target(e, mesh));
+      const bool is_near = p.x() > 0. && q.x() > 0. && std::abs(p.y()) < 0.5 && std::abs(q.y()) < 0.5;
+      free[e] = kind == Kind::THIRD ? i++ % 3 == 0
+                                    : is_near && (kind == Kind::RING || (p.z() > 0. && q.z() > 0.));
+    }
+    SMT::Texture_atlas_options options = small_texture();
+    const auto without = SMT::mark_sides(mesh, free);
+    const SMT::Texture_atlas_result before
+      = SMT::build_texture_atlas(mesh, uv, chart, options);
+    ASSERT_EQ(before.error, "");
+    EXPECT_EQ(before.report.unwanted_seams, 0u); // nobody asked
+    EXPECT_GT(SMT::number_of_seams_on(arrays.triangles, before.atlas.charts, without), 0u);
+    options.no_seams = without;
+    const SMT::Texture_atlas_result atlas = SMT::build_texture_atlas(mesh, uv, chart, options);
+    ASSERT_EQ(atlas.error, "");
+    EXPECT_EQ(error_in_atlas(arrays, atlas.atlas), "");
+    std::size_t unwanted = 0;
+    const auto seam = mesh.add_property_map<Mesh::Edge_index, bool>("e:seam", false).first;
+    ASSERT_TRUE(SMT::mark_seams(mesh, atlas.atlas.charts, seam));
+    for(const auto e : edges(mesh))
+      unwanted += free[e] && seam[e] ? 1 : 0;
+    if(kind == Kind::RING)
+      EXPECT_TRUE(unwanted > 0 && unwanted < 20) << unwanted;
+    else
+      EXPECT_EQ(unwanted, 0u);
+    EXPECT_EQ(atlas.report.unwanted_seams, unwanted);
+    SMT::Segmentation_options segmentation;
+    segmentation.no_seams = without;
+    const SMT::Segmentation_result charts = SMT::segment_into_charts(mesh, chart, segmentation);
+    ASSERT_EQ(charts.error, "");
+    EXPECT_EQ(charts.unwanted_seams > 0, kind == Kind::RING);
+    EXPECT_EQ(SMT::number_of_seams_on(arrays.triangles, charts.charts, without),
+              charts.unwanted_seams);
+    EXPECT_EQ(SMT::error_of_charts(arrays.triangles, charts.charts), "");
+  }
+  SMT::Segmentation_options all;
+  const Indexed_triangle_mesh closed = sphere(3);
+  all.no_seams.assign(closed.triangles.size(), 7);
+  const SMT::Segmentation_result forced = SMT::segment_into_charts(closed, all);
+  ASSERT_EQ(forced.error, "");
+  EXPECT_EQ(forced.charts.number_of_charts, 1u);
+  EXPECT_EQ(SMT::error_of_charts(closed.triangles, forced.charts), "");
+  EXPECT_GT(forced.unwanted_seams, 0u);
+  all.no_seams.pop_back();
+  EXPECT_EQ(SMT::segment_into_charts(closed, all).status,
+            CGAL::Indexed_mesh::Mesh_status::BAD_OPTIONS);
+}
+
+// Points that only their traits can read, in thousandths.
+struct Opaque_point
+{
+  std::array<long, 3> thousandths;
+};
+
+struct Opaque_traits
+{
+  typedef double FT;
+
+  template <int I>
+  struct Compute
+  {
+    FT operator()(const Opaque_point& p) const { return FT(p.thousandths[I]) / 1000.; }
+  };
+
+  struct Construct
+  {
+    Opaque_point operator()(FT x, FT y, FT z) const
+    {
+      return {{std::lround(1000. * x), std::lround(1000. * y), std::lround(1000. * z)}};
+    }
+  };
+
+  Compute<0> compute_x_3_object() const { return {}; }
+  Compute<1> compute_y_3_object() const { return {}; }
+  Compute<2> compute_z_3_object() const { return {}; }
+  Construct construct_point_3_object() const { return {}; }
+};
+
+TEST(Texturing_models, meshes_of_any_type_take_points_that_their_traits_read)
+{
+  const Opaque_traits traits;
+  Indexed_triangle_mesh arrays = torus(24, 12);
+  Mesh mesh = surface_mesh(arrays);
+  const auto place = mesh.add_property_map<Mesh::Vertex_index, Opaque_point>("v:place").first;
+  for(const auto v : vertices(mesh)) {
+    const auto p = mesh.point(v);
+    place[v] = traits.construct_point_3_object()(p.x(), p.y(), p.z());
+    arrays.points[std::size_t(v)] = Point_3(traits.compute_x_3_object()(place[v]),
+                                            traits.compute_y_3_object()(place[v]),
+                                            traits.compute_z_3_object()(place[v]));
+  }
+  const auto np = CGAL::parameters::vertex_point_map(place).geom_traits(traits);
+  const auto chart = mesh.add_property_map<Mesh::Face_index, std::size_t>("f:chart").first;
+  const SMT::Segmentation_result segmentation = SMT::segment_into_charts(
+    mesh, chart, SMT::Segmentation_options(), SMT::Chart_growth_options(), np);
+  ASSERT_EQ(segmentation.error, "");
+  EXPECT_EQ(segmentation.charts.chart, SMT::segment_into_charts(arrays).charts.chart);
+  // Levels, too, and back
+  const SMM::Progressive_surface surface
+    = SMM::build_progressive_mesh(mesh, SMM::Progressive_mesh_options(), np);
+  ASSERT_EQ(surface.error, "");
+  EXPECT_EQ(surface.points, arrays.points);
+  EXPECT_EQ(surface.progressive_mesh.collapses.size(),
+            SMM::build_progressive_mesh(arrays).progressive_mesh.collapses.size());
+  Mesh copy;
+  const auto to = copy.add_property_map<Mesh::Vertex_index, Opaque_point>("v:place").first;
+  SMM::copy_level(surface, 0, copy, CGAL::parameters::vertex_point_map(to).geom_traits(traits));
+  ASSERT_EQ(num_vertices(copy), num_vertices(mesh));
+  for(const auto v : vertices(copy))
+    EXPECT_EQ(to[v].thousandths, place[v].thousandths);
 }
 
 SMT::Baking_by_rays_options small_image()

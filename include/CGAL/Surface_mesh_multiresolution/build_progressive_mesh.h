@@ -22,15 +22,13 @@ namespace Surface_mesh_multiresolution {
 
 namespace internal {
 
-// The arrays of a mesh without its collapses, or what is wrong with it.
-template <class TriangleMesh, class VertexPointMap>
-Progressive_surface copy_surface(const TriangleMesh& mesh, const VertexPointMap& vpm)
+// The arrays of a mesh, with the points of the named parameters, without its collapses, or what is
+// wrong with it.
+template <class TriangleMesh, class NamedParameters>
+Progressive_surface copy_surface_of(const TriangleMesh& mesh, const NamedParameters& np)
 {
   Progressive_surface result;
-  for(const auto v : vertices(mesh)) {
-    const auto& p = get(vpm, v);
-    result.points.emplace_back(to_double(p[0]), to_double(p[1]), to_double(p[2]));
-  }
+  result.points = copy_points(mesh, np);
   result.progressive_mesh.number_of_vertices = result.points.size();
   if(is_triangle_mesh(mesh)) {
     const auto position = get(dynamic_vertex_property_t<Vertex_index>(), mesh);
@@ -41,16 +39,6 @@ Progressive_surface copy_surface(const TriangleMesh& mesh, const VertexPointMap&
   }
   result.fail(Mesh_status::BAD_MESH, point_error(result.points));
   return result;
-}
-
-// The same with the points and faces that named parameters tell.
-template <class TriangleMesh, class NamedParameters>
-Progressive_surface copy_surface_of(const TriangleMesh& mesh, const NamedParameters& np)
-{
-  using parameters::choose_parameter;
-  using parameters::get_parameter;
-  return copy_surface(mesh, choose_parameter(get_parameter(np, internal_np::vertex_point),
-                                             get_const_property_map(vertex_point, mesh)));
 }
 
 inline Progressive_surface copy_surface(const Indexed_triangle_mesh& mesh)
@@ -131,7 +119,7 @@ Returns a progressive mesh of `mesh`, made by `Flat_collapse_engine` with its de
 \tparam NamedParameters a sequence of named parameters
 \param mesh a triangle mesh of any size and place, which is not changed
 \param options where to stop, and what must stay
-\param np `vertex_point_map`: the points, `get(vertex_point, mesh)` by default
+\param np `vertex_point_map` and `geom_traits`; see `Indexed_mesh::copy_points()`
 
 Bad data (faces that are no triangles, vertices without a face or with several fans of faces,
 coordinates that are not finite) give a result with `error` set and no collapses.

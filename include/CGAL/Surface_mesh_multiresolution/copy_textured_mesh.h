@@ -54,7 +54,7 @@ void append_level(const Textured_progressive_mesh& mesh,
       const Vertex_index v = mesh.vertex[t[c]];
       if(copies[v] == Graph_traits::null_vertex()) {
         copies[v] = add_vertex(result);
-        put(vpm, copies[v], Point_3(mesh.points[v].x(), mesh.points[v].y(), mesh.points[v].z()));
+        put(vpm, copies[v], Indexed_mesh::converted_point<Point_3>(mesh.points[v], np));
       }
       face[c] = copies[v];
     }
@@ -87,7 +87,7 @@ as in `vertices(mesh)`, triangles as in `faces(mesh)`. Linear time.
        `SMP::parameterize()` fills it is
        `[&](auto h) { return get(m, target(boost::graph_traits<S>::halfedge_descriptor(h), seams));
        }`
-\param np `vertex_point_map`: the points; `get(vertex_point, mesh)` by default
+\param np `vertex_point_map` and `geom_traits`; see `Indexed_mesh::copy_points()`
 
 \pre all faces are triangles
 */
@@ -126,7 +126,7 @@ Returns a progressive mesh of `mesh` all levels of which share its texture coord
 \param mesh a triangle mesh; faces that are no triangles are an error, too
 \param corner_uv as for `textured_triangle_mesh()`
 \param options where to stop, and what must stay
-\param np `vertex_point_map`: the points; `get(vertex_point, mesh)` by default
+\param np `vertex_point_map` and `geom_traits`; see `Indexed_mesh::copy_points()`
 */
 template <class TriangleMesh, class CornerUv,
           class NamedParameters = parameters::Default_named_parameters>
@@ -157,7 +157,8 @@ Appends a level to a mesh.
 \param corner_uvmap a model of `WritablePropertyMap` with the halfedge descriptor of `result` as key
        and `Point_2` as value: gets the texture coordinate at the target of each halfedge of a face;
        nothing if there is no texture
-\param np `vertex_point_map`: where the points go; `get(vertex_point, result)` by default
+\param np `vertex_point_map`: where the points go, `get(vertex_point, result)` by default;
+       `geom_traits`: what makes them, see `Indexed_mesh::converted_point()`
 
 Linear time in the number of triangles and of vertices of the fine mesh.
 */

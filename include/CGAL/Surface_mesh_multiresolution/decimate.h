@@ -88,7 +88,7 @@ that. The result does not depend on the number of threads.
 \param stop when to stop; how batched collapses ask it see `Flat_collapse_engine::run()`. In the
        order `STRICT` it is asked for each collapse
 \param np named parameters of CGAL:
-- `vertex_point_map`: the points; `get(vertex_point, mesh)` by default
+- `vertex_point_map` and `geom_traits`: the points; see `Indexed_mesh::copy_points()`
 - `edge_is_constrained_map`: neither end of a constrained edge is removed, so that these edges stay
   as they are; none by default
 - `get_cost`: a model of CGAL's concept `GetCost` for a `Flat_collapse_profile`; by default
@@ -98,7 +98,7 @@ that. The result does not depend on the number of threads.
   default `hierarchy_collapse_filter()`
 - `get_placement`: only `Surface_mesh_simplification::Halfedge_collapse_placement`, whose filter and
   locks count; any other placement does not compile, as no vertex may move
-- `geom_traits` does not matter: coordinates are converted to `double`; a `visitor` does not compile
+- a `visitor` does not compile
 
 Policies that are given see the coordinates of `mesh`; see `build_progressive_mesh()`.
 

@@ -40,6 +40,7 @@ struct Chart_growth_segmenter
     growth.least_fill = options.least_fill;
     Segmentation_options segmentation;
     segmentation.coarse_faces = options.coarse_faces;
+    segmentation.no_seams = options.no_seams;
     segmentation.progress = options.progress;
     return segment_into_charts(mesh, segmentation, growth);
   }

@@ -229,6 +229,16 @@ struct Chart_mesh
   std::vector<Triangle_index> triangles; ///< for each triangle the one of the whole mesh
   std::vector<Halfedge> border;         ///< the halfedges of `mesh` on seams, which are its border
 
+  /// Returns the entries of an array of the triangles of the whole mesh that are those of the chart:
+  /// of marks of their edges, for example, as corners are the same. Empty if the array is.
+  std::vector<std::uint8_t> sides(const std::vector<std::uint8_t>& of_whole_mesh) const
+  {
+    std::vector<std::uint8_t> result;
+    for(std::size_t i = 0; i < triangles.size() && !of_whole_mesh.empty(); ++i)
+      result.push_back(of_whole_mesh[triangles[i]]);
+    return result;
+  }
+
   /// Returns the ends of the edges of the border.
   std::vector<Border_edge> border_edges() const
   {

@@ -108,9 +108,9 @@ Builds the texture atlas of a mesh of any type: see the other overload.
 \param segmenter what finds the charts
 \param parameterizer what maps them
 \param packer what packs them
-\param np optional named parameters: `vertex_point_map`, and `edge_is_constrained_map` for edges that
-       shall be seams (see `Constrained_segmenter`); points are taken as three numbers of type
-       `double`, so that no `geom_traits` are needed
+\param np optional named parameters: `vertex_point_map` and `geom_traits` (see
+       `Indexed_mesh::copy_points()`), and `edge_is_constrained_map` for edges that shall be seams
+       (see `Constrained_segmenter`); for edges that shall not be, see `options.no_seams`
 
 If there is an error, the maps are left as they are. See `mark_seams()` for the seams.
 */
@@ -135,7 +135,7 @@ Texture_atlas_result build_texture_atlas(const FaceGraph& mesh, HalfedgeUVMap uv
     result = build_texture_atlas<ConcurrencyTag>(
       arrays, options,
       Constrained_segmenter<Used_segmenter>(
-        internal::constrained_sides(mesh, np),
+        mark_sides(mesh, parameters::get_parameter(np, internal_np::edge_is_constrained)),
         internal::model_or_default<Chart_growth_segmenter>(segmenter)),
       parameterizer, packer);
   } else {

@@ -14,6 +14,33 @@
 namespace CGAL {
 namespace Surface_mesh_texturing {
 
+namespace internal {
+
+// As the public one, of a mesh and charts that have been checked; `avoided` may be empty, see
+// Refinable_seam_graph::avoid().
+inline Face_charts cut_to_disks(const Indexed_triangle_mesh& mesh,
+                                const Triangle_adjacency& adjacency, Face_charts charts,
+                                const Disk_cut_options& options,
+                                const std::vector<std::uint8_t>& avoided)
+{
+  charts.seams = without_lonely_seams(adjacency, std::move(charts.seams));
+  const std::vector<Chart_topology> topologies = chart_topologies(adjacency, charts);
+  if(error_of_charts(topologies).empty())
+    return charts;
+  const std::vector<Chart_mesh> meshes = cut_out_charts(mesh, adjacency, charts);
+  for(std::size_t c = 0; c < meshes.size(); ++c) {
+    if(topologies[c].is_disk())
+      continue;
+    const std::vector<std::uint8_t> seams
+      = Disk_cutter(meshes[c].mesh, options, meshes[c].sides(avoided)).cut();
+    for(std::size_t t = 0; t < seams.size(); ++t)
+      charts.seams[meshes[c].triangles[t]] |= seams[t];
+  }
+  return charts;
+}
+
+} // namespace internal
+
 /*!
 \ingroup PkgHLSCMTexturing
 
@@ -33,19 +60,7 @@ inline Face_charts cut_to_disks(const Indexed_triangle_mesh& mesh, Face_charts c
   const Indexed_mesh::Triangle_adjacency adjacency(mesh.triangles);
   if(!internal::adjacency_error(mesh, adjacency, charts).is_ok())
     return {};
-  charts.seams = internal::without_lonely_seams(adjacency, std::move(charts.seams));
-  const std::vector<Chart_topology> topologies = chart_topologies(adjacency, charts);
-  if(error_of_charts(topologies).empty())
-    return charts;
-  const std::vector<Chart_mesh> meshes = internal::cut_out_charts(mesh, adjacency, charts);
-  for(std::size_t c = 0; c < meshes.size(); ++c) {
-    if(topologies[c].is_disk())
-      continue;
-    const std::vector<std::uint8_t> seams = internal::Disk_cutter(meshes[c].mesh, options).cut();
-    for(std::size_t t = 0; t < seams.size(); ++t)
-      charts.seams[meshes[c].triangles[t]] |= seams[t];
-  }
-  return charts;
+  return internal::cut_to_disks(mesh, adjacency, std::move(charts), options, {});
 }
 
 /*!

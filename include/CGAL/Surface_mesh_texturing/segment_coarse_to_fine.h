@@ -8,7 +8,7 @@
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
 #include <CGAL/Surface_mesh_multiresolution/build_progressive_mesh.h>
 #include <CGAL/Blocked_execution/Progress.h>
-#include <CGAL/Surface_mesh_texturing/cut_to_disks.h>
+#include <CGAL/Surface_mesh_texturing/keep_seams_off.h>
 #include <CGAL/Surface_mesh_texturing/refine_charts.h>
 
 #include <functional>
@@ -29,6 +29,10 @@ struct Segmentation_options
   std::size_t coarse_faces = 4000;
   Straightening_options straightening; ///< of the seams, on the way to the fine mesh
   Disk_cut_options cut;                ///< of coarse charts that are no disks
+  /// Edges that shall not be seams, marked at one of their triangles as in `Face_charts::seams` (see
+  /// `mark_sides()`): they are seams only where there is no other way to cut a chart to a disk; see
+  /// `keep_seams_off()`, which moves seams from them at the end. Empty for none.
+  std::vector<std::uint8_t> no_seams;
   /// Threads with `Parallel_tag`; 0 for all that the machine has. The result does not depend on it.
   unsigned int threads = 0;
   /// Told the part done in [0, 1] from time to time; returning false stops.
@@ -42,6 +46,7 @@ struct Segmentation_result
 {
   Face_charts charts;           ///< of the mesh; all are disks
   std::size_t coarse_faces = 0; ///< triangles of the coarse mesh
+  std::size_t unwanted_seams = 0; ///< edges that are seams in spite of `no_seams`
   double decimation_seconds = 0.; ///< time to make the coarse mesh
   double coarse_seconds = 0.;   ///< time to find charts there
   double refinement_seconds = 0.; ///< time to carry them to the mesh and to make seams straight
@@ -145,6 +150,9 @@ public:
   {
     if(m_result.fail(Mesh_status::BAD_MESH, surface_error(m_original)))
       return m_result;
+    const std::vector<std::uint8_t>& no_seams = m_options.no_seams;
+    if(!no_seams.empty() && m_result.fail(foreign_seams_error(m_original, no_seams)))
+      return m_result;
     Prepared_mesh prepared = prepare_mesh(m_original);
     const Indexed_triangle_mesh& mesh = prepared.mesh;
     if(m_result.fail(prepared))
@@ -160,6 +168,12 @@ public:
     m_result.charts = charts_of_original(
       m_original.triangles, prepared,
       refine_charts(pm, mesh.points, pm.collapses.size(), coarse, m_options.straightening));
+    if(!no_seams.empty()) {
+      m_result.charts = keep_seams_off(m_original, m_result.charts, no_seams,
+                                       m_options.straightening, m_options.cut);
+      m_result.unwanted_seams
+        = number_of_seams_on(m_original.triangles, m_result.charts, no_seams);
+    }
     m_result.refinement_seconds = m_watch.lap();
     return m_result;
   }

@@ -73,6 +73,26 @@ segment_into_charts(const Indexed_triangle_mesh& mesh,
 /*!
 \ingroup PkgHLSCMTexturing
 
+Returns the edges of a mesh that a map marks, three bits for each face in the order of `faces(mesh)`, as
+in `Face_charts::seams`: for `Segmentation_options::no_seams` and `Constrained_segmenter`. Linear time.
+
+\param edgemap a model of `ReadablePropertyMap` with the edge descriptor as key and `bool` as value
+*/
+template <class FaceGraph, class EdgeMap>
+std::vector<std::uint8_t> mark_sides(const FaceGraph& mesh, const EdgeMap& edgemap)
+{
+  std::vector<std::uint8_t> result; // num_faces() would count removed faces
+  internal::for_each_side(mesh, [&](std::size_t t, int c, auto h) {
+    result.resize(t + 1, 0);
+    if(get(edgemap, edge(h, mesh)))
+      result[t] |= std::uint8_t(1 << c);
+  });
+  return result;
+}
+
+/*!
+\ingroup PkgHLSCMTexturing
+
 Cuts a mesh of any type into charts: see the other overload.
 
 \tparam ConcurrencyTag `Sequential_tag`, or `Parallel_tag` for `options.threads` threads, or
@@ -83,9 +103,9 @@ Cuts a mesh of any type into charts: see the other overload.
        as value: gets the chart of each face
 \param options where charts are looked for
 \param growth which charts are looked for
-\param np optional named parameters: `vertex_point_map`, and `edge_is_constrained_map` for edges that
-       shall be seams (see `Constrained_segmenter`); points are taken as three numbers of type
-       `double`, so that no `geom_traits` are needed
+\param np optional named parameters: `vertex_point_map` and `geom_traits` (see
+       `Indexed_mesh::copy_points()`), and `edge_is_constrained_map` for edges that shall be seams
+       (see `Constrained_segmenter`); for edges that shall not be, see `options.no_seams`
 
 If there is an error, the map is left as it is. See `mark_seams()` for the seams.
 */
@@ -106,7 +126,9 @@ Segmentation_result segment_into_charts(const FaceGraph& mesh, FaceChartMap char
   const auto segment
     = [&](const Indexed_triangle_mesh& m) { return segment_into_charts(m, options, growth); };
   if constexpr(internal::has_constrained_edges<NamedParameters>)
-    result = internal::segment_between(arrays, internal::constrained_sides(mesh, np), segment);
+    result = internal::segment_between(
+      arrays, mark_sides(mesh, parameters::get_parameter(np, internal_np::edge_is_constrained)),
+      segment);
   else
     result = segment(arrays);
   std::size_t t = 0;

@@ -8,6 +8,7 @@
 #include <CGAL/Surface_mesh_texturing/internal/seams/Seam_straightener.h>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -68,6 +69,25 @@ inline Seam_length measure_seams(const Indexed_triangle_mesh& mesh, const Face_c
   return result;
 }
 
+namespace internal {
+
+// As the public one, of a mesh and charts that have been checked; `avoided` may be empty, see
+// Refinable_seam_graph::avoid().
+inline Face_charts straighten_charts(const Indexed_triangle_mesh& mesh, const Face_charts& charts,
+                                     const Straightening_options& options,
+                                     std::vector<std::uint8_t> avoided)
+{
+  Halfedge_triangles halfedges(mesh.triangles, mesh.points.size());
+  Refinable_seam_graph graph(halfedges, mesh.points, options.creases);
+  graph.avoid(std::move(avoided));
+  graph.set_seams(charts.seams);
+  graph.pin_curved(options.pinned_defect);
+  Seam_straightener(graph).run(reach_of(options));
+  return label_charts(halfedges, graph.seams());
+}
+
+} // namespace internal
+
 /*!
 \ingroup PkgHLSCMTexturing
 
@@ -87,12 +107,7 @@ inline Face_charts straighten_charts(const Indexed_triangle_mesh& mesh, const Fa
 {
   if(!manifold_error(mesh).empty() || !charts_error(mesh, charts).is_ok())
     return {};
-  internal::Halfedge_triangles halfedges(mesh.triangles, mesh.points.size());
-  internal::Refinable_seam_graph graph(halfedges, mesh.points, options.creases);
-  graph.set_seams(charts.seams);
-  graph.pin_curved(options.pinned_defect);
-  internal::Seam_straightener(graph).run(internal::reach_of(options));
-  return internal::label_charts(halfedges, graph.seams());
+  return internal::straighten_charts(mesh, charts, options, {});
 }
 
 } // namespace Surface_mesh_texturing

@@ -14,7 +14,6 @@
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/named_params_helper.h>
 
-#include <cstdint>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -45,22 +44,13 @@ Mesh_outcome polygon_error_of_models(const FineMesh& fine, const LightMesh& ligh
 }
 
 // The arrays of a mesh in the order of vertices(mesh) and faces(mesh), with the points of the named
-// parameter `vertex_point_map`. Precondition: all faces are triangles.
+// parameters; see copy_points(). Precondition: all faces are triangles.
 template <class FaceGraph, class NamedParameters>
 Indexed_triangle_mesh arrays_of_graph(const FaceGraph& mesh, const NamedParameters& np)
 {
   const auto position = get(dynamic_vertex_property_t<Vertex_index>(), mesh);
   Indexed_mesh::number_vertices(mesh, position);
-  const auto vpm
-    = parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
-                                   get_const_property_map(CGAL::vertex_point, mesh));
-  Indexed_triangle_mesh result;
-  for(const auto v : vertices(mesh)) {
-    const auto& p = get(vpm, v);
-    result.points.emplace_back(to_double(p[0]), to_double(p[1]), to_double(p[2]));
-  }
-  result.triangles = Indexed_mesh::copy_triangles(mesh, position);
-  return result;
+  return {Indexed_mesh::copy_points(mesh, np), Indexed_mesh::copy_triangles(mesh, position)};
 }
 
 // The same with texture coordinates. `uvmap` has a halfedge as key, which stands for the corner at
@@ -116,21 +106,6 @@ constexpr bool has_constrained_edges
   = !std::is_same<typename internal_np::Lookup_named_param_def<internal_np::edge_is_constrained_t,
                                                                NamedParameters, Default>::type,
                   Default>::value;
-
-// The edges of the named parameter `edge_is_constrained_map`, three bits a triangle as in
-// `Face_charts::seams`.
-template <class FaceGraph, class NamedParameters>
-std::vector<std::uint8_t> constrained_sides(const FaceGraph& mesh, const NamedParameters& np)
-{
-  const auto is_constrained = parameters::get_parameter(np, internal_np::edge_is_constrained);
-  std::vector<std::uint8_t> result; // num_faces() would count removed faces
-  for_each_side(mesh, [&](std::size_t t, int c, auto h) {
-    result.resize(t + 1, 0);
-    if(get(is_constrained, edge(h, mesh)))
-      result[t] |= std::uint8_t(1 << c);
-  });
-  return result;
-}
 
 } // namespace internal
 } // namespace Surface_mesh_texturing

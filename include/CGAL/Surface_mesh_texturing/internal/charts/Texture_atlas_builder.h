@@ -126,7 +126,7 @@ private:
   Segmentation_result find_charts(const Indexed_triangle_mesh& mesh, double begin, double end);
   Segmentation_result try_charts(const Indexed_triangle_mesh& mesh);
   bool map();
-  Chart_mapping chart_mapping(const Distortion_bound& bound) const
+  Chart_mapping chart_mapping(const Distortion_bound& bound) const // of any mesh
   {
     return {m_models.parameterize, bound, m_models.is_bounded, m_options.least_fill,
             m_options.coarse_faces};
@@ -172,6 +172,8 @@ inline bool Texture_atlas_builder::check()
     if(!std::isfinite(density[t]) || density[t] < 0.f)
       m_result.fail(Mesh_status::BAD_OPTIONS, "the density of triangle " + std::to_string(t)
                                                 + " is not a finite number from 0 on");
+  if(!m_options.no_seams.empty())
+    m_result.fail(foreign_seams_error(m_mesh, m_options.no_seams));
   if(m_result.is_ok() && !m_models.is_own)
     m_result.fail(Mesh_status::BAD_MESH, manifold_error(m_mesh));
   return m_result.is_ok();
@@ -186,6 +188,7 @@ inline bool Texture_atlas_builder::segment()
   } else {
     Segmentation_options to_trial;
     to_trial.coarse_faces = m_options.trial_faces;
+    to_trial.no_seams = m_options.no_seams;
     to_trial.progress = [this](double part) { // the level is there at half of it
       return part <= 0.5 ? proceed(0., 0.2, 2. * part) : proceed(0.4, 0.4, 1.);
     };
@@ -200,6 +203,8 @@ inline Segmentation_result Texture_atlas_builder::find_charts(const Indexed_tria
                                                               double begin, double end)
 {
   Texture_atlas_options options = m_options;
+  if(&mesh != &m_mesh)
+    options.no_seams.clear();
   options.progress = [=](double part) { return proceed(begin, end, part); };
   Segmentation_result result = m_models.segment(mesh, options);
   if(m_models.is_own || !result.is_ok())
@@ -247,7 +252,9 @@ inline bool Texture_atlas_builder::map()
 inline void Texture_atlas_builder::map_charts_within(const Distortion_bound& bound, double begin,
                                                      double end)
 {
-  m_maps = map_charts(chart_meshes(m_mesh, m_charts), chart_mapping(bound),
+  Chart_mapping mapping = chart_mapping(bound);
+  mapping.no_seams = m_options.no_seams;
+  m_maps = map_charts(chart_meshes(m_mesh, m_charts), mapping,
                       [&](double part) { return proceed(begin, end, part); },
                       m_result.report.recut_charts);
 }
@@ -292,6 +299,8 @@ inline void Texture_atlas_builder::fill()
     report.charts.back().page = atlas.page.back();
   }
   report.texels_per_unit = m_packing.texels_per_unit;
+  report.unwanted_seams
+    = number_of_seams_on(m_mesh.triangles, atlas.charts, m_options.no_seams);
   report.seam_length = seam_length(m_mesh, atlas.charts);
   measure_atlas(atlas, report);
 }

@@ -28,6 +28,7 @@ struct Chart_mapping
   bool is_bounded = true; // if not, charts beyond the bound are not cut for that
   double least_fill = 0.75;
   std::size_t coarse_faces = 4000;
+  std::vector<std::uint8_t> no_seams = {}; // of the whole mesh; see Texture_atlas_options
 };
 
 // A chart with its map, in units of length of the surface, and whether it may stay as it is.

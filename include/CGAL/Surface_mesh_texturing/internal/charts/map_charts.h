@@ -91,6 +91,7 @@ inline std::vector<Chart_mesh> cut_again(const Mapped_chart& mapped,
   growth.effort = effort;
   Segmentation_options segmentation;
   segmentation.coarse_faces = (std::min)(coarse_faces, mapping.coarse_faces);
+  segmentation.no_seams = chart.sides(mapping.no_seams);
   Segmentation_result cut = segment_into_charts(chart.mesh, segmentation, growth);
   if(!cut.is_ok() || cut.charts.number_of_charts < 2)
     cut.charts = halve_chart(chart.mesh);

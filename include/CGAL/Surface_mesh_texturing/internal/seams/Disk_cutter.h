@@ -27,11 +27,14 @@ namespace internal {
 class Disk_cutter
 {
 public:
-  Disk_cutter(const Indexed_triangle_mesh& mesh, const Disk_cut_options& options)
+  // `avoided`: see Refinable_seam_graph::avoid()
+  Disk_cutter(const Indexed_triangle_mesh& mesh, const Disk_cut_options& options,
+              std::vector<std::uint8_t> avoided = {})
     : m_options(options), m_mesh(mesh.triangles, mesh.points.size())
     , m_graph(m_mesh, mesh.points, options.creases)
     , m_plain(mesh.points, plain_weights())
   {
+    m_graph.avoid(std::move(avoided));
     m_graph.set_seams(
       label_charts(m_mesh, std::vector<std::uint8_t>(mesh.triangles.size())).seams);
     for(Vertex_index v = 0; v < mesh.points.size(); ++v)
