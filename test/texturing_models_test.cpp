@@ -500,6 +500,20 @@ TEST(Texturing_models, meshes_of_any_type_are_baked)
   expect_equal(SMT::bake_vertex_colors(fine_mesh, of_halfedges, color, 2, light_mesh, light_uv,
                                        options),
                SMT::bake_vertex_colors(fine, values, 2, light, options));
+  // An image in which the fine mesh lies turned
+  Textured_triangle_mesh former = fine;
+  const auto former_uv
+    = fine_mesh.add_property_map<Mesh::Vertex_index, Kernel::Point_2>("v:former").first;
+  for(auto& p : former.uv)
+    p = Point_2(p.y(), 1. - p.x());
+  for(const auto v : vertices(fine_mesh))
+    former_uv[v] = Kernel::Point_2(of_vertices[v].y(), 1. - of_vertices[v].x());
+  SMT::Texture_image image = {5, 3, 2, {}};
+  for(int i = 0; i < 30; ++i)
+    image.texels.push_back(float(i % 7));
+  expect_equal(SMT::bake_image<CGAL::Sequential_tag>(fine_mesh, of_halfedges, former_uv, image,
+                                                     light_mesh, light_uv, options),
+               SMT::bake_image(fine, former, image, light, options));
 }
 
 // A ray caster that tries all triangles.

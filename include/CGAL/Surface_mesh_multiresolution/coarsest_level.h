@@ -41,7 +41,8 @@ as few triangles as possible.
 
 It is found by bisection on the logarithm of the number of triangles, down to 1 %, and what is
 returned was measured. The errors grow with \f$ k \f$ on the whole but not from collapse to
-collapse, so that a coarser level may be within the bound too. The finest level, 0, always is.
+collapse, so that a coarser level may be within the bound too. The finest level, 0, always is, and the only one of a mesh
+without texture.
 
 \param mesh a mesh all of whose whole levels satisfy the precondition of
        `measure_texture_deviation()`
@@ -59,6 +60,8 @@ inline std::size_t coarsest_level_within(const Textured_progressive_mesh& mesh, 
   const auto triangles = [&](std::size_t k) {
     return double(numbers[mesh.number_of_wedges_after(k)]);
   };
+  if(!mesh.has_texture())
+    return 0;
   const internal::Textured_view view = internal::fine_view(mesh);
   const internal::Fine_surface fine(view);
   const auto is_within = [&](std::size_t k) {

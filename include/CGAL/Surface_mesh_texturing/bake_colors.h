@@ -130,21 +130,13 @@ inline Baked_map bake_image(const Textured_triangle_mesh& fine,
 /*!
 \ingroup PkgHLSCMTexturing
 
-Bakes values of the vertices of `fine`, such as colours, into a texture of `light`, which
-shares its atlas, with meshes of any types: see the other overloads.
+Bakes values of the vertices of `fine`, such as colours, into a texture of `light`, which shares its
+atlas, with meshes of any types: see the other overloads. Parameters and errors are those of
+`bake_normal_map()` with meshes of any types.
 
-\tparam ConcurrencyTag `Sequential_tag`, or `Parallel_tag` for `options.threads` threads, or
-        `Default` for the threads of the caller's `Blocked_execution::Thread_scope`
-\tparam FineMesh a model of `FaceListGraph`
-\tparam LightMesh a model of `FaceListGraph`
-\param fine_uv a model of `ReadablePropertyMap` with a point with two coordinates as value, and with
-       the halfedge descriptor as key, for the corner at its target, or the vertex descriptor
-\param light_uv the same for the light model
 \param values a model of `ReadablePropertyMap` with the vertex descriptor as key; `value[c]` is number c
        of a value, as for `std::array` and `IO::Color`
 \param channels the numbers of a value
-\param np_fine optional named parameters of the fine mesh: `vertex_point_map`
-\param np_light the same of the light model
 */
 template <class ConcurrencyTag = Default, class FineMesh, class FineUVMap, class FineValueMap, class LightMesh, class LightUVMap,
           class NamedParameters_fine = parameters::Default_named_parameters,
@@ -169,6 +161,36 @@ Baked_map bake_vertex_colors(const FineMesh& fine, FineUVMap fine_uv,
   }
   return bake_vertex_colors(internal::textured_arrays_of_graph(fine, fine_uv, np_fine), arrays, channels,
                             internal::textured_arrays_of_graph(light, light_uv, np_light), options);
+}
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+Bakes an image that `fine` has had before its atlas, of colours or of anything else, into a texture of
+`light`, which shares the atlas, with meshes of any types: see the other overload. Parameters and
+errors are those of `bake_normal_map()` with meshes of any types.
+
+\param former_uv as `fine_uv`: the coordinates in `image`
+\param image what is seen through them
+*/
+template <class ConcurrencyTag = Default, class FineMesh, class FineUVMap, class FormerUVMap,
+          class LightMesh, class LightUVMap,
+          class NamedParameters_fine = parameters::Default_named_parameters,
+          class NamedParameters_light = parameters::Default_named_parameters,
+          class = typename boost::property_traits<FineUVMap>::key_type>
+Baked_map bake_image(const FineMesh& fine, FineUVMap fine_uv, FormerUVMap former_uv,
+                     const Texture_image& image, const LightMesh& light, LightUVMap light_uv,
+                     const Baking_options& options = Baking_options(),
+                     const NamedParameters_fine& np_fine = parameters::default_values(),
+                     const NamedParameters_light& np_light = parameters::default_values())
+{
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
+  Baked_map result;
+  if(result.fail(internal::polygon_error_of_models(fine, light)))
+    return result;
+  return bake_image(internal::textured_arrays_of_graph(fine, fine_uv, np_fine),
+                    internal::textured_arrays_of_graph(fine, former_uv, np_fine), image,
+                    internal::textured_arrays_of_graph(light, light_uv, np_light), options);
 }
 
 } // namespace Surface_mesh_texturing
