@@ -113,17 +113,8 @@ inline Baked_displacement bake_displacement(const Textured_triangle_mesh& fine,
 /*!
 \ingroup PkgHLSCMTexturing
 
-Bakes how far `fine` lies above `light`, which shares its atlas, with meshes of any types: see the other overloads.
-
-\tparam ConcurrencyTag `Sequential_tag`, or `Parallel_tag` for `options.threads` threads, or
-        `Default` for the threads of the caller's `Blocked_execution::Thread_scope`
-\tparam FineMesh a model of `FaceListGraph`
-\tparam LightMesh a model of `FaceListGraph`
-\param fine_uv a model of `ReadablePropertyMap` with a point with two coordinates as value, and with
-       the halfedge descriptor as key, for the corner at its target, or the vertex descriptor
-\param light_uv the same for the light model
-\param np_fine optional named parameters of the fine mesh: `vertex_point_map`
-\param np_light the same of the light model
+Bakes how far `fine` lies above `light`, which shares its atlas, with meshes of any types: see the
+other overloads. Parameters and errors are those of `bake_normal_map()` with meshes of any types.
 */
 template <class ConcurrencyTag = Default, class FineMesh, class FineUVMap, class LightMesh, class LightUVMap,
           class NamedParameters_fine = parameters::Default_named_parameters,

@@ -159,7 +159,8 @@ inline Baked_map bake_normal_map(const Textured_triangle_mesh& fine,
 /*!
 \ingroup PkgHLSCMTexturing
 
-Bakes the normals of `fine` into a texture of `light`, which shares its atlas, with meshes of any types: see the other overloads.
+Bakes the normals of `fine` into a texture of `light`, which shares its atlas, with meshes of any
+types: see the other overloads. What is said here holds for all functions that bake.
 
 \tparam ConcurrencyTag `Sequential_tag`, or `Parallel_tag` for `options.threads` threads, or
         `Default` for the threads of the caller's `Blocked_execution::Thread_scope`
@@ -168,8 +169,12 @@ Bakes the normals of `fine` into a texture of `light`, which shares its atlas, w
 \param fine_uv a model of `ReadablePropertyMap` with a point with two coordinates as value, and with
        the halfedge descriptor as key, for the corner at its target, or the vertex descriptor
 \param light_uv the same for the light model
-\param np_fine optional named parameters of the fine mesh: `vertex_point_map`
+\param options size, samples, dilation, threads and progress
+\param np_fine optional named parameters of the fine mesh: `vertex_point_map` and `geom_traits`; see
+       `Indexed_mesh::copy_points()`
 \param np_light the same of the light model
+
+Errors are those of the other overloads, and faces that are no triangles.
 */
 template <class ConcurrencyTag = Default, class FineMesh, class FineUVMap, class LightMesh, class LightUVMap,
           class NamedParameters_fine = parameters::Default_named_parameters,
