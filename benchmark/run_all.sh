@@ -91,6 +91,11 @@ make_scaling_charts() {
   chart scaling/bunny00_4826k "$data/bunny00.off" --cut --loop 3 --noise 0.1
 }
 
+make_chart_for_pins() {
+  mkdir -p "$charts/pins"
+  chart pins/lion_head_267k "$HLSCM_DATA_DIR/lion-head.off" --loop 2 --noise 0.1
+}
+
 # All charts of the folder but those of the series and of table 1, by size.
 other_charts() {
   local file thousands
@@ -126,6 +131,7 @@ print_machine | tee -a "$out/machine.txt"
 awk '$1 > 0.5 { exit 1 }' /proc/loadavg || say "the machine is busy: times will be too long"
 make_charts
 make_scaling_charts
+make_chart_for_pins
 run_kernels
 compare side_by_side
 mapfile -t others < <(other_charts)
@@ -139,6 +145,7 @@ compare decimation --decimation
 "$HLSCM_BIN/flip_repair" "$HLSCM_DATA_DIR"/{lion-head,mannequin-devil}.off > "$out/flip_repair.csv"
 mapfile -t large < <(find "$charts" -maxdepth 1 -name '*_1[0-9][0-9][0-9]k.ply' | sort)
 "$HLSCM_BIN/live_map" "${large[@]}" > "$out/live_map.csv"
+"$HLSCM_BIN/pins" "$charts"/pins/*.ply "${large[@]}" > "$out/pins.csv"
 "$HLSCM_BIN/levels" "${large[@]}" > "$out/levels.csv"
 "$HLSCM_BIN/baking" "${large[@]}" > "$out/baking.csv"
 "$HLSCM_BIN/packing" > "$out/packing.csv"

@@ -8,14 +8,13 @@
 
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/build_textured_progressive_mesh.h>
-#include <CGAL/Surface_mesh_multiresolution/coarsest_level.h>
+#include <CGAL/Surface_mesh_multiresolution/texture_deviation.h>
 #include <CGAL/Surface_mesh_texturing/AABB_tree_ray_caster.h>
 #include <CGAL/Surface_mesh_texturing/Horizon_packer.h>
 #include <CGAL/Surface_mesh_texturing/bake_by_rays.h>
 #include <CGAL/Surface_mesh_texturing/bake_colors.h>
 #include <CGAL/Surface_mesh_texturing/bake_displacement.h>
 #include <CGAL/Surface_mesh_texturing/build_texture_atlas.h>
-#include <CGAL/Surface_mesh_texturing/charts_of_texture.h>
 #include <CGAL/Surface_mesh_texturing/rendering_error.h>
 #include <CGAL/boost/graph/generators.h>
 

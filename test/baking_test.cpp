@@ -13,7 +13,7 @@
 #include <CGAL/Surface_mesh_texturing/bake_colors.h>
 #include <CGAL/Surface_mesh_texturing/bake_displacement.h>
 #include <CGAL/Surface_mesh_texturing/bake_normal_map.h>
-#include <CGAL/Surface_mesh_texturing/encode_image.h>
+#include <CGAL/Surface_mesh_texturing/Texture_image.h>
 #include <CGAL/Surface_mesh_texturing/rendering_error.h>
 #if __has_include(<embree3/rtcore.h>) && !defined(HLSCM_WITHOUT_EMBREE)
 #define HLSCM_BAKING_TEST_EMBREE

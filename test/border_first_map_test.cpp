@@ -10,7 +10,7 @@
 #include <CGAL/Surface_mesh_parameterization/border_first_map.h>
 #include <CGAL/Surface_mesh_parameterization/self_overlap.h>
 #include <CGAL/Surface_mesh_texturing/Chart_distortion.h>
-#include <CGAL/Surface_mesh_texturing/internal/charts/map_chart.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/map_charts.h>
 
 #include <gtest/gtest.h>
 

@@ -298,7 +298,7 @@ TEST(Progressive_mesh_file, writer_refuses_bad_data_in_a_sentence)
   EXPECT_EQ(error_of(mesh), "vertex 3 has a coordinate that is not a finite number");
   mesh = good;
   mesh.uv[2] = Textured_progressive_mesh::Point_2(0, HUGE_VAL);
-  EXPECT_EQ(error_of(mesh), "wedge 2 has a texture coordinate that is not a finite number");
+  EXPECT_EQ(error_of(mesh), "texture coordinate 2 is not a finite number");
   mesh = good;
   mesh.points[0] = Point_3(1e308, 0, 0);
   mesh.points[1] = Point_3(-1e308, 0, 0);

@@ -10,7 +10,6 @@
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
-#include <CGAL/Surface_mesh_multiresolution/coarsest_level.h>
 #include <CGAL/Surface_mesh_multiresolution/texture_deviation.h>
 
 #include <gtest/gtest.h>

@@ -28,6 +28,8 @@
 namespace texturing_models_test {
 
 namespace SMM = CGAL::Surface_mesh_multiresolution;
+namespace SMM = CGAL::Surface_mesh_multiresolution;
+namespace SMM = CGAL::Surface_mesh_multiresolution;
 namespace SMT = CGAL::Surface_mesh_texturing;
 using namespace test_support;
 typedef CGAL::Simple_cartesian<double>::Point_2 Point_2;

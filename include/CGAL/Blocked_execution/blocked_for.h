@@ -4,8 +4,14 @@
 #ifndef CGAL_BLOCKED_EXECUTION_BLOCKED_FOR_H
 #define CGAL_BLOCKED_EXECUTION_BLOCKED_FOR_H
 
+#include <CGAL/Blocked_execution/compile_once.h>
+
+#include <CGAL/Default.h>
+#include <CGAL/tags.h>
+
 #include <algorithm>
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
 #if defined(CGAL_BLOCKED_EXECUTION_STD_THREADS)
@@ -20,6 +26,9 @@
 namespace CGAL {
 namespace Blocked_execution {
 namespace internal {
+
+// What is done with each block. What runs blocks is compiled once.
+typedef Function_ref<void(std::size_t)> Block_function;
 
 // The threads of a `Thread_scope`; `run(n, body)` calls `body(block)` for the blocks [0, n) on
 // them.
@@ -38,8 +47,7 @@ public:
 
   unsigned int concurrency() const { return m_threads; }
 
-  template <class Body>
-  void run(std::size_t n, const Body& body)
+  void run(std::size_t n, const Block_function& body)
   {
     std::atomic<std::size_t> next(0);
     const auto work = [&] {
@@ -74,8 +82,7 @@ public:
     return m_is_parallel ? (unsigned int)((std::max)(1, m_arena.max_concurrency())) : 1;
   }
 
-  template <class Body>
-  void run(std::size_t n, const Body& body)
+  void run(std::size_t n, const Block_function& body)
   {
     m_arena.execute([&] { tbb::parallel_for(std::size_t(0), n, body); });
   }
@@ -96,8 +103,7 @@ public:
 
   unsigned int concurrency() const { return 1; }
 
-  template <class Body>
-  void run(std::size_t n, const Body& body)
+  void run(std::size_t n, const Block_function& body)
   {
     for(std::size_t block = 0; block < n; ++block)
       body(block);
@@ -139,18 +145,17 @@ public:
 
   /// Runs `body(block)` for the blocks [0, n) in the innermost scope of this thread.
   template <class Body>
-  static void run(std::size_t n, const Body& body);
+  static void run(std::size_t n, const Body& body) { run_blocks(n, body); }
 
 private:
-  // One copy of the machine code for all callers: copies inlined in different places may round
-  // differently, where compilers contract products and sums.
-  template <class Body>
-#if defined(__GNUC__)
-  __attribute__((noinline))
-#elif defined(_MSC_VER)
-  __declspec(noinline)
-#endif
-  static void run_block(const Body& body, std::size_t block) { body(block); }
+  static void run_blocks(std::size_t n, const internal::Block_function& body)
+  {
+    Thread_scope* scope = current();
+    if(scope != nullptr && scope->m_arena.is_parallel() && n > 1)
+      return scope->m_arena.run(n, body);
+    for(std::size_t block = 0; block < n; ++block)
+      body(block);
+  }
 
   static Thread_scope*& current()
   {
@@ -161,18 +166,6 @@ private:
   Thread_scope* m_outer;
   internal::Arena m_arena;
 };
-
-template <class Body>
-void Thread_scope::run(std::size_t n, const Body& body)
-{
-  Thread_scope* scope = current();
-  if(scope != nullptr && scope->m_arena.is_parallel() && n > 1) {
-    scope->m_arena.run(n, [&](std::size_t block) { run_block(body, block); });
-    return;
-  }
-  for(std::size_t block = 0; block < n; ++block)
-    run_block(body, block);
-}
 
 /// \ingroup PkgHLSCMExecution
 /// Returns the number of blocks of `size` that make up `n` things.
@@ -216,6 +209,37 @@ Sum blocked_sum(std::size_t n, std::size_t size, const Body& body)
     sum += s;
   return sum;
 }
+
+/*!
+\ingroup PkgHLSCMExecution
+
+The class `Tagged_threads` opens the `Thread_scope` that a tag of CGAL asks for.
+
+\tparam ConcurrencyTag `Sequential_tag` for one thread, `Parallel_tag` or `Parallel_if_available_tag`
+        for the number given, `Default` for those that the caller's `Thread_scope` allows
+*/
+template <class ConcurrencyTag>
+class Tagged_threads
+{
+  static constexpr bool is_parallel = std::is_convertible<ConcurrencyTag, Parallel_tag>::value;
+#if !defined(CGAL_LINKED_WITH_TBB) && !defined(CGAL_BLOCKED_EXECUTION_STD_THREADS)
+  static_assert(!is_parallel, "Parallel_tag needs a program that is linked with TBB.");
+#endif
+
+public:
+  /// Allows `threads` threads, if the tag is parallel; 0 stands for all that the machine has.
+  explicit Tagged_threads(unsigned int threads) : m_scope(is_parallel ? threads : 1) {}
+
+private:
+  Thread_scope m_scope;
+};
+
+template <>
+class Tagged_threads<Default>
+{
+public:
+  explicit Tagged_threads(unsigned int) {}
+};
 
 } // namespace Blocked_execution
 } // namespace CGAL

@@ -106,6 +106,18 @@ Point converted_point(const Indexed_triangle_mesh::Point_3& p, const NamedParame
   }
 }
 
+/// \ingroup PkgHLSCMIndexedMesh
+/// Returns the points and the faces of a mesh as arrays, with the named parameters of
+/// `copy_points()`. Precondition: the faces are triangles.
+template <class TriangleMesh, class NamedParameters = parameters::Default_named_parameters>
+Indexed_triangle_mesh copy_mesh(const TriangleMesh& mesh,
+                                const NamedParameters& np = parameters::default_values())
+{
+  const auto position = get(dynamic_vertex_property_t<Vertex_index>(), mesh);
+  number_vertices(mesh, position);
+  return {copy_points(mesh, np), copy_triangles(mesh, position)};
+}
+
 } // namespace Indexed_mesh
 } // namespace CGAL
 

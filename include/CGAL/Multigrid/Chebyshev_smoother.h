@@ -22,14 +22,14 @@ typename Value_traits<Value>::Diagonal l1_inverse(const Self_adjoint_matrix<Valu
 {
   typedef typename Value_traits<Value>::Diagonal Diagonal;
   typedef typename Value_traits<Diagonal>::Double Double;
+  const Diagonal& diagonal = h.diagonal()[h.pattern().row_of_slot[slot]];
+  if(!Value_traits<Diagonal>::is_positive(diagonal))
+    return Value_traits<Diagonal>::zero();
   Double sum = Value_traits<Double>::zero();
   h.for_each_entry(slot, [&](std::uint32_t, const Value& value) {
     sum += Value_traits<Value>::modulus(value);
   });
-  const Diagonal& diagonal = h.diagonal()[h.pattern().row_of_slot[slot]];
-  sum = 0.5 * (Value_traits<Double>::from(diagonal) + sum);
-  return Value_traits<Diagonal>::is_positive(diagonal) ? Value_traits<Diagonal>::inverse(sum)
-                                                       : Value_traits<Diagonal>::zero();
+  return Value_traits<Diagonal>::inverse(0.5 * (Value_traits<Double>::from(diagonal) + sum));
 }
 
 } // namespace internal

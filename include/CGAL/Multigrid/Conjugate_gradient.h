@@ -17,10 +17,9 @@ namespace Multigrid {
 namespace internal {
 
 // The steps from x, where the residual is r and the energy `energy`; r is lost.
-template <class Apply, class V, class Precondition, class Observe>
-Iteration_report conjugate_gradients(const Apply& apply, std::vector<V>& x, std::vector<V>& r,
-                                     double energy, const Precondition& precondition,
-                                     const Energy_stop& stop, const Observe& observe)
+template <class V>
+Iteration_report conjugate_gradients(const Iteration_parts<V>& parts, std::vector<V>& x,
+                                     std::vector<V>& r, double energy, const Energy_stop& stop)
 {
   typedef typename Value_traits<V>::Scalar Scalar;
   std::vector<V> p, q, z;
@@ -29,11 +28,11 @@ Iteration_report conjugate_gradients(const Apply& apply, std::vector<V>& x, std:
   Iteration_control control(stop, energy);
   double curvature = 0.;
   while(control.goes_on()) {
-    precondition(r, z);
+    parts.precondition(r, z);
     if(curvature > 0.) // make the direction H-orthogonal to the last one
       add_scaled(Scalar(-inner_product(q, z) / curvature), p, z);
     p.swap(z);
-    apply(p, q);
+    parts.apply(p, q);
     curvature = std::real(inner_product(p, q));
     const auto slope = inner_product(p, r);
     if(!(curvature > 0.)) { // r is 0, or no longer above rounding
@@ -45,7 +44,7 @@ Iteration_report conjugate_gradients(const Apply& apply, std::vector<V>& x, std:
     add_scaled(-alpha, q, r);
     const double decrease = 0.5 * std::norm(slope) / curvature;
     const double change = control.watches_changes() ? std::abs(alpha) * largest_entry(p) : 0.;
-    control.step(control.report().energy - decrease, decrease, change, observe);
+    control.step(control.report().energy - decrease, decrease, change, parts.observe);
   }
   return control.report();
 }
@@ -81,7 +80,7 @@ Iteration_report minimize_energy(const Apply& apply, std::vector<V>& x, double e
   Blocked_execution::resize_blocked(r, x.size());
   apply(x, r);
   for_each_index(r.size(), [&r](std::size_t i) { r[i] = -r[i]; });
-  return internal::conjugate_gradients(apply, x, r, energy, precondition, stop, observe);
+  return internal::conjugate_gradients<V>({apply, precondition, observe}, x, r, energy, stop);
 }
 
 /*!
@@ -100,7 +99,7 @@ Iteration_report minimize_energy(const Apply& apply, const std::vector<V>& f, st
   apply(x, r);
   for_each_index(r.size(), [&](std::size_t i) { r[i] = f[i] - r[i]; });
   const double energy = -0.5 * std::real(inner_product(x, r) + inner_product(x, f));
-  return internal::conjugate_gradients(apply, x, r, energy, precondition, stop, observe);
+  return internal::conjugate_gradients<V>({apply, precondition, observe}, x, r, energy, stop);
 }
 
 } // namespace Multigrid

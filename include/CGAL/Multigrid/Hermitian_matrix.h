@@ -250,7 +250,9 @@ typename Self_adjoint_matrix<Value>::Row Self_adjoint_matrix<Value>::take_row(st
 {
   Row row;
   row.diagonal = Value_traits<typename Row::Diagonal>::from(m_diagonal[i]);
-  for_each_entry(slot_of_row(i), [&row](std::uint32_t j, const Value& value) {
+  const std::size_t slot = slot_of_row(i), s = slot / internal::slice_rows;
+  row.entries.reserve(m_pattern->slice_begin[s + 1] - m_pattern->slice_begin[s]);
+  for_each_entry(slot, [&row](std::uint32_t j, const Value& value) {
     if constexpr(Traits::is_complex)
       row.entries.push_back({j, double(value.real()), double(value.imag())});
     else

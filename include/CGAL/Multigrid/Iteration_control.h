@@ -4,6 +4,8 @@
 #ifndef CGAL_MULTIGRID_ITERATION_CONTROL_H
 #define CGAL_MULTIGRID_ITERATION_CONTROL_H
 
+#include <CGAL/Blocked_execution/compile_once.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -199,8 +201,8 @@ public:
   /// Takes note of a step that lowered the energy by `decrease` to `energy` and changed no unknown
   /// by more than `change`. `observe(part)` is told how far the iteration has come, in [0, 1];
   /// returning false stops it.
-  template <class Observe>
-  void step(double energy, double decrease, double change, const Observe& observe)
+  void step(double energy, double decrease, double change,
+            Blocked_execution::Function_ref<bool(double)> observe)
   {
     ++m_report.iterations;
     m_report.energy = energy;
@@ -252,6 +254,19 @@ private:
   double m_first_gap = (std::numeric_limits<double>::infinity)();
   bool m_is_over = false;
 };
+
+namespace internal {
+
+// What an iteration calls: by references, so that it is compiled once for each type of values.
+template <class V>
+struct Iteration_parts
+{
+  Blocked_execution::Function_ref<void(const std::vector<V>&, std::vector<V>&)> apply;
+  Blocked_execution::Function_ref<void(std::vector<V>&, std::vector<V>&)> precondition;
+  Blocked_execution::Function_ref<bool(double)> observe;
+};
+
+} // namespace internal
 
 } // namespace Multigrid
 } // namespace CGAL

@@ -56,15 +56,20 @@ public:
   }
 
   /// Takes note that row `i` of the matrix of `level` has been taken out or put back. Of level 0
-  /// the matrix must then be factorized anew, by `factorize_coarsest()`.
+  /// the matrix must then be factorized anew, by `factorize_coarsest()`. Logarithmic in the number
+  /// of rows of zeros if they are taken out in ascending order, linear otherwise.
   void update_row(std::size_t level, std::uint32_t i)
   {
     const Matrix& h = matrix(level);
     m_levels[level].smoother.update_row(h, i);
     std::vector<std::uint32_t>& pins = m_levels[level].pins;
-    pins.erase(std::remove(pins.begin(), pins.end(), i), pins.end());
-    if(Diagonal_traits::is_zero(h.diagonal()[i]))
-      pins.push_back(i);
+    const auto at = std::lower_bound(pins.begin(), pins.end(), i);
+    const bool is_pin = Diagonal_traits::is_zero(h.diagonal()[i]);
+    const bool was_pin = at != pins.end() && *at == i;
+    if(is_pin && !was_pin)
+      pins.insert(at, i);
+    else if(was_pin && !is_pin)
+      pins.erase(at);
   }
 
   /// Returns the number of levels.
@@ -156,7 +161,7 @@ private:
     const Matrix* matrix = nullptr;
     Smoother smoother;
     const Transfer* from_coarser = nullptr;
-    std::vector<std::uint32_t> pins; // rows of zeros, whose corrections stay 0
+    std::vector<std::uint32_t> pins; // rows of zeros, ascending, whose corrections stay 0
     Vector u, f;                   // the system of the moment
     Vector r, z;                   // residual f - H u, and the step of the smoother
     bool is_zero = true;           // u is 0, whatever is stored

@@ -211,6 +211,60 @@ best_combination(const std::array<const Vector_and_product<V>*, 3>& vectors, int
   return best_coefficients(count, energy, norm);
 }
 
+// The iteration of `minimize_rayleigh_quotient()`.
+template <class V>
+Iteration_report optimal_gradients(const Iteration_parts<V>& parts, const Diagonal_mass& mass,
+                                   std::vector<V>& x, const Energy_stop& stop)
+{
+  typedef Vector_and_product<V> Pair;
+  typedef typename Value_traits<V>::Real Real;
+  const std::size_t n = x.size();
+  Pair current(n), residual(n), direction(n);
+  std::vector<V> r(n);
+  bool has_direction = false;
+  current.x.swap(x);
+  mass.remove_mean(current.x);
+  parts.apply(current.x, current.hx);
+  const auto normalize = [&](Pair& pair) {
+    pair.scale(1. / std::sqrt(std::real(mass.inner_product(pair.x, pair.x))));
+  };
+  normalize(current);
+  Iteration_control control(stop, 0.5 * std::real(inner_product(current.x, current.hx)));
+  while(control.goes_on()) {
+    const double quotient = 2. * control.report().energy;
+    r = current.hx;
+    for(const Diagonal_mass::Entry& e : mass.entries())
+      r[e.row] -= Real(quotient * e.value) * current.x[e.row];
+    parts.precondition(r, residual.x);
+    mass.remove_mean(residual.x);
+    parts.apply(residual.x, residual.hx);
+    std::vector<typename Pair::Inner> y;
+    for(int count = has_direction ? 3 : 2; y.empty() && count > 1; --count)
+      y = best_combination<V>({&current, &residual, &direction}, count, mass);
+    if(y.empty()) { // the residual is 0, or no longer above rounding
+      control.end(true);
+      break;
+    }
+    // The part of the step that is not along the vector itself is the next direction.
+    if(y.size() == 3) {
+      direction.scale(y[2]);
+      direction.add_scaled(y[1], residual);
+    } else {
+      std::swap(direction, residual);
+      direction.scale(y[1]);
+    }
+    has_direction = true;
+    current.scale(y[0]);
+    current.add_scaled(1., direction);
+    normalize(current);
+    const double energy = 0.5 * std::real(inner_product(current.x, current.hx));
+    const double change = control.watches_changes() ? largest_entry(direction.x) : 0.;
+    control.step(energy, (std::max)(0., control.report().energy - energy), change, parts.observe);
+  }
+  x.swap(current.x);
+  return control.report();
+}
+
 } // namespace internal
 
 /*!
@@ -238,53 +292,7 @@ Iteration_report minimize_rayleigh_quotient(const Apply& apply, const Diagonal_m
                                             const Precondition& precondition,
                                             const Energy_stop& stop, const Observe& observe)
 {
-  typedef internal::Vector_and_product<V> Pair;
-  typedef typename Value_traits<V>::Real Real;
-  const std::size_t n = x.size();
-  Pair current(n), residual(n), direction(n);
-  std::vector<V> r(n);
-  bool has_direction = false;
-  current.x.swap(x);
-  mass.remove_mean(current.x);
-  apply(current.x, current.hx);
-  const auto normalize = [&](Pair& pair) {
-    pair.scale(1. / std::sqrt(std::real(mass.inner_product(pair.x, pair.x))));
-  };
-  normalize(current);
-  Iteration_control control(stop, 0.5 * std::real(inner_product(current.x, current.hx)));
-  while(control.goes_on()) {
-    const double quotient = 2. * control.report().energy;
-    r = current.hx;
-    for(const Diagonal_mass::Entry& e : mass.entries())
-      r[e.row] -= Real(quotient * e.value) * current.x[e.row];
-    precondition(r, residual.x);
-    mass.remove_mean(residual.x);
-    apply(residual.x, residual.hx);
-    std::vector<typename Pair::Inner> y;
-    for(int count = has_direction ? 3 : 2; y.empty() && count > 1; --count)
-      y = internal::best_combination<V>({&current, &residual, &direction}, count, mass);
-    if(y.empty()) { // the residual is 0, or no longer above rounding
-      control.end(true);
-      break;
-    }
-    // The part of the step that is not along the vector itself is the next direction.
-    if(y.size() == 3) {
-      direction.scale(y[2]);
-      direction.add_scaled(y[1], residual);
-    } else {
-      std::swap(direction, residual);
-      direction.scale(y[1]);
-    }
-    has_direction = true;
-    current.scale(y[0]);
-    current.add_scaled(1., direction);
-    normalize(current);
-    const double energy = 0.5 * std::real(inner_product(current.x, current.hx));
-    const double change = control.watches_changes() ? largest_entry(direction.x) : 0.;
-    control.step(energy, (std::max)(0., control.report().energy - energy), change, observe);
-  }
-  x.swap(current.x);
-  return control.report();
+  return internal::optimal_gradients<V>({apply, precondition, observe}, mass, x, stop);
 }
 
 } // namespace Multigrid

@@ -8,7 +8,6 @@
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_policies.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/decimation/Batched_collapses.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/decimation/Strict_collapses.h>
 
 #include <algorithm>
 #include <utility>

@@ -65,14 +65,6 @@ vsplit_stencils(const Indexed_triangle_mesh& fine, const Progressive_mesh& pm, s
 } // namespace internal
 
 /// \ingroup PkgHLSCMMultiresolution
-/// How the vertices that a coarse level does not have get their values.
-enum class Prolongation_rule
-{
-  WALK,  ///< from the nearest triangle of the coarse level, found by a walk from the ancestor
-  VSPLIT ///< from the nearest triangle at the time of the vertex split (Ray and Lévy 2003, 4.1)
-};
-
-/// \ingroup PkgHLSCMMultiresolution
 /// The options of `build_hierarchy()`.
 struct Hierarchy_options
 {

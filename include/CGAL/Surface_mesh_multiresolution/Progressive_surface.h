@@ -15,7 +15,6 @@
 
 #include <array>
 #include <numeric>
-#include <utility>
 #include <vector>
 
 namespace CGAL {

@@ -18,6 +18,14 @@
 
 namespace CGAL {
 namespace Surface_mesh_multiresolution {
+
+/// \ingroup PkgHLSCMMultiresolution
+/// How the vertices that a coarse level does not have get their values.
+enum class Prolongation_rule
+{
+  WALK,  ///< from the nearest triangle of the coarse level, found by a walk from the ancestor
+  VSPLIT ///< from the nearest triangle at the time of the vertex split (Ray and Lévy 2003, 4.1)
+};
 namespace internal {
 
 // The real numbers that an entry of a vector is multiplied by: the entry's own type, that of its

@@ -13,9 +13,7 @@
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/named_params_helper.h>
 
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_multiresolution {
@@ -28,16 +26,16 @@ template <class TriangleMesh, class NamedParameters>
 Progressive_surface copy_surface_of(const TriangleMesh& mesh, const NamedParameters& np)
 {
   Progressive_surface result;
-  result.points = copy_points(mesh, np);
-  result.progressive_mesh.number_of_vertices = result.points.size();
   if(is_triangle_mesh(mesh)) {
-    const auto position = get(dynamic_vertex_property_t<Vertex_index>(), mesh);
-    number_vertices(mesh, position);
-    result.progressive_mesh.triangles = copy_triangles(mesh, position);
+    Indexed_triangle_mesh arrays = Indexed_mesh::copy_mesh(mesh, np);
+    result.points = std::move(arrays.points);
+    result.progressive_mesh.triangles = std::move(arrays.triangles);
   } else {
+    result.points = Indexed_mesh::copy_points(mesh, np);
     result.fail(Mesh_status::BAD_MESH, "not all faces are triangles; triangulate the mesh first");
   }
   result.fail(Mesh_status::BAD_MESH, point_error(result.points));
+  result.progressive_mesh.number_of_vertices = result.points.size();
   return result;
 }
 

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_BUILD_TEXTURED_PROGRESSIVE_MESH_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_BUILD_TEXTURED_PROGRESSIVE_MESH_H
 
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Indexed_mesh/prepare_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
 #include <CGAL/Surface_mesh_multiresolution/Textured_progressive_mesh.h>
@@ -12,8 +13,6 @@
 #include <CGAL/Surface_mesh_multiresolution/internal/textured/Texture_layer.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/textured/replay_collapses.h>
 
-#include <algorithm>
-#include <functional>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -57,6 +56,8 @@ struct Wedge_collapses
   std::vector<Halfedge_collapse> collapses;
   std::vector<std::size_t> batch_ends;
 };
+
+#ifdef CGAL_HLSCM_DEFINITIONS
 
 // Decimates a mesh that has its wedges from `with_wedges()`.
 inline Wedge_collapses decimate_textured(const Textured_triangle_mesh& mesh,
@@ -108,6 +109,8 @@ inline Mesh_outcome chart_error(const Progressive_mesh& pm,
   return result;
 }
 
+#endif // CGAL_HLSCM_DEFINITIONS
+
 } // namespace internal
 
 /*!
@@ -128,10 +131,15 @@ a result with an error.
 
 Expected linear time; see `Flat_collapse_engine`.
 */
-inline Textured_progressive_mesh_result
+CGAL_HLSCM_INLINE Textured_progressive_mesh_result
 build_textured_progressive_mesh(const Textured_triangle_mesh& mesh,
                                 const Textured_progressive_mesh_options& options
-                                = Textured_progressive_mesh_options())
+                                = Textured_progressive_mesh_options());
+
+#ifdef CGAL_HLSCM_DEFINITIONS
+CGAL_HLSCM_INLINE Textured_progressive_mesh_result
+build_textured_progressive_mesh(const Textured_triangle_mesh& mesh,
+                                const Textured_progressive_mesh_options& options)
 {
   Textured_progressive_mesh_result result;
   if(result.fail(Mesh_status::BAD_MESH, texture_error(mesh))
@@ -156,6 +164,7 @@ build_textured_progressive_mesh(const Textured_triangle_mesh& mesh,
   result.mesh = coarse_first(fine);
   return result;
 }
+#endif
 
 /*!
 \ingroup PkgHLSCMLevelsOfDetail
@@ -171,12 +180,19 @@ part only.
 
 Bad data: as above, and arrays of another length. Linear time.
 */
-inline Textured_progressive_mesh_result
+CGAL_HLSCM_INLINE Textured_progressive_mesh_result
 build_textured_progressive_mesh(const Progressive_mesh& pm,
                                 std::vector<Textured_triangle_mesh::Point_3> points,
                                 std::vector<Textured_triangle_mesh::Point_2> uv,
                                 const Textured_progressive_mesh_options& options
-                                = Textured_progressive_mesh_options())
+                                = Textured_progressive_mesh_options());
+
+#ifdef CGAL_HLSCM_DEFINITIONS
+CGAL_HLSCM_INLINE Textured_progressive_mesh_result
+build_textured_progressive_mesh(const Progressive_mesh& pm,
+                                std::vector<Textured_triangle_mesh::Point_3> points,
+                                std::vector<Textured_triangle_mesh::Point_2> uv,
+                                const Textured_progressive_mesh_options& options)
 {
   Textured_progressive_mesh_result result;
   Textured_progressive_mesh fine;
@@ -222,6 +238,7 @@ build_textured_progressive_mesh(const Progressive_mesh& pm,
   result.mesh = coarse_first(fine);
   return result;
 }
+#endif
 
 } // namespace Surface_mesh_multiresolution
 } // namespace CGAL

@@ -6,14 +6,12 @@
 
 #include <CGAL/Surface_mesh_multiresolution/build_progressive_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/decimation/collapse_in_mesh.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/decimation/named_policies.h>
 
 #include <CGAL/tags.h>
 
 #include <cstddef>
 #include <limits>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace CGAL {

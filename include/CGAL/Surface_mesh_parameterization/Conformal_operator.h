@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <complex>
-#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -44,8 +43,8 @@ struct Conformal_operator
   /// Takes out the row of vertex `v`, which is not pinned. Linear in the number of pins.
   void pin(std::uint32_t v);
 
-  /// Puts back the row of vertex `v`, which is pinned. Linear in the number of pins.
-  void release(std::uint32_t v);
+  /// Puts back the row of vertex `v`, which is pinned, and returns it. Linear in the number of pins.
+  Multigrid::Matrix_row release(std::uint32_t v);
 
   /// Sets `y` to \f$ H z \f$, the rows of the pins among them.
   template <class Vector>
@@ -124,12 +123,14 @@ void Conformal_operator<Real>::pin(std::uint32_t v)
 }
 
 template <class Real>
-void Conformal_operator<Real>::release(std::uint32_t v)
+Multigrid::Matrix_row Conformal_operator<Real>::release(std::uint32_t v)
 {
   const auto pin = std::find_if(pinned.begin(), pinned.end(),
                                 [v](const Pinned_row& p) { return p.vertex == v; });
-  matrix.put_row(v, pin->row);
+  Multigrid::Matrix_row row = std::move(pin->row);
+  matrix.put_row(v, row);
   pinned.erase(pin);
+  return row;
 }
 
 template <class Real>

@@ -5,7 +5,8 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_HLSCM_OPTIONS_H
 
 #include <CGAL/Multigrid/Schedule.h>
-#include <CGAL/Surface_mesh_multiresolution/Mesh_hierarchy.h>
+#include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
+#include <CGAL/Surface_mesh_multiresolution/Prolongation.h>
 #include <CGAL/Surface_mesh_parameterization/Flip_repair_options.h>
 
 #include <array>

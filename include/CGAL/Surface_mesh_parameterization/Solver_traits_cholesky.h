@@ -4,8 +4,12 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_SOLVER_TRAITS_CHOLESKY_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_SOLVER_TRAITS_CHOLESKY_H
 
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Multigrid/Hermitian_matrix.h>
+
+#ifdef CGAL_HLSCM_DEFINITIONS
 #include <CGAL/Multigrid/Sparse_cholesky.h>
+#endif
 
 #include <CGAL/Default.h>
 
@@ -127,7 +131,7 @@ class Coarsest_solver
 {
 public:
   // Constructs the default one, a sparse Cholesky factorization.
-  Coarsest_solver() : Coarsest_solver(std::make_shared<Multigrid::Sparse_cholesky<>>()) {}
+  Coarsest_solver();
 
   template <class Solver>
   explicit Coarsest_solver(std::shared_ptr<Solver> solver)
@@ -192,6 +196,12 @@ private:
 
   std::shared_ptr<Base> m_solver;
 };
+
+#ifdef CGAL_HLSCM_DEFINITIONS
+CGAL_HLSCM_INLINE Coarsest_solver::Coarsest_solver()
+  : Coarsest_solver(std::make_shared<Multigrid::Sparse_cholesky<>>())
+{}
+#endif
 
 template <class SolverTraits, class = void>
 struct Has_factor

@@ -4,8 +4,12 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_BORDER_FIRST_MAP_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_BORDER_FIRST_MAP_H
 
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Indexed_mesh/mesh_error.h>
+
+#ifdef CGAL_HLSCM_DEFINITIONS
 #include <CGAL/Surface_mesh_parameterization/internal/border_first/Border_first_flattening.h>
+#endif
 
 #include <utility>
 #include <vector>
@@ -42,7 +46,10 @@ keeps its turning angles instead of its lengths (mixed conditions: section 4 of 
 The map may have flipped triangles, and its border may meet itself still. Bad data (indices out of
 range, coordinates that are not finite, no disk) give a result with `error` set.
 */
-inline Border_first_map border_first_map(Indexed_mesh::Indexed_triangle_mesh mesh)
+CGAL_HLSCM_INLINE Border_first_map border_first_map(Indexed_mesh::Indexed_triangle_mesh mesh);
+
+#ifdef CGAL_HLSCM_DEFINITIONS
+CGAL_HLSCM_INLINE Border_first_map border_first_map(Indexed_mesh::Indexed_triangle_mesh mesh)
 {
   Border_first_map result;
   const std::size_t n = mesh.points.size();
@@ -59,6 +66,7 @@ inline Border_first_map border_first_map(Indexed_mesh::Indexed_triangle_mesh mes
     result.uv = internal::points_of_values(chart.source, z, n);
   return result;
 }
+#endif
 
 } // namespace Surface_mesh_parameterization
 } // namespace CGAL

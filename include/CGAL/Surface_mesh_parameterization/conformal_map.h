@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_CONFORMAL_MAP_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_CONFORMAL_MAP_H
 
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
 #include <CGAL/Surface_mesh_parameterization/internal/solver/map_chart_conformally.h>
@@ -26,8 +27,12 @@ struct Conformal_map
 
 namespace internal {
 
-inline Conformal_map map_arrays(Indexed_mesh::Indexed_triangle_mesh mesh, const Wanted_pins& wanted,
-                                const HLSCM_options& options)
+CGAL_HLSCM_INLINE Conformal_map map_arrays(Indexed_mesh::Indexed_triangle_mesh mesh,
+                                           const Wanted_pins& wanted, const HLSCM_options& options);
+
+#ifdef CGAL_HLSCM_DEFINITIONS
+CGAL_HLSCM_INLINE Conformal_map map_arrays(Indexed_mesh::Indexed_triangle_mesh mesh,
+                                           const Wanted_pins& wanted, const HLSCM_options& options)
 {
   Conformal_map result;
   const std::size_t n = mesh.points.size();
@@ -42,6 +47,7 @@ inline Conformal_map map_arrays(Indexed_mesh::Indexed_triangle_mesh mesh, const 
   result.error = run.finish();
   return result;
 }
+#endif
 
 } // namespace internal
 

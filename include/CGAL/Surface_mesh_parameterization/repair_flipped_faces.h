@@ -4,10 +4,14 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_REPAIR_FLIPPED_FACES_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_REPAIR_FLIPPED_FACES_H
 
-#include <CGAL/Surface_mesh_parameterization/Flip_repair_options.h>
-#include <CGAL/Surface_mesh_parameterization/internal/repair/Flip_repair.h>
 #include <CGAL/Blocked_execution/Progress.h>
+#include <CGAL/Blocked_execution/compile_once.h>
+#include <CGAL/Surface_mesh_parameterization/Flip_repair_options.h>
 #include <CGAL/Surface_mesh_parameterization/internal/repair/mapped_faces.h>
+
+#ifdef CGAL_HLSCM_DEFINITIONS
+#include <CGAL/Surface_mesh_parameterization/internal/repair/Flip_repair.h>
+#endif
 
 #include <CGAL/boost/graph/properties.h>
 
@@ -22,6 +26,18 @@ namespace CGAL {
 namespace Surface_mesh_parameterization {
 
 namespace internal {
+
+// Repairs the map and fills the report, with the change of the energy as that after it.
+CGAL_HLSCM_INLINE Flip_repair_report repair_faces(Map_to_repair& map,
+                                                  const Flip_repair_options& options);
+
+#ifdef CGAL_HLSCM_DEFINITIONS
+CGAL_HLSCM_INLINE Flip_repair_report repair_faces(Map_to_repair& map,
+                                                  const Flip_repair_options& options)
+{
+  return Flip_repair(map).run(options);
+}
+#endif
 
 inline double energy_of_map(const Map_to_repair& map, const std::vector<std::complex<double>>& z)
 {
@@ -39,7 +55,7 @@ inline Flip_repair_report repair_map(Map_to_repair& map, const Flip_repair_optio
 {
   const Blocked_execution::Stopwatch watch;
   const std::vector<std::complex<double>> before = map.z;
-  Flip_repair_report report = Flip_repair(map).run(options);
+  Flip_repair_report report = repair_faces(map, options);
   report.energy_before = energy_of_map(map, before);
   report.energy_after += report.energy_before;
   report.seconds = watch.seconds();
@@ -68,7 +84,7 @@ public:
   {
     Flip_repair_options options = m_options;
     options.progress = progress;
-    return internal::Flip_repair(map).run(options);
+    return internal::repair_faces(map, options);
   }
 
 private:

@@ -7,8 +7,10 @@
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
 #include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 #include <CGAL/Indexed_mesh/mesh_error.h>
+#include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -43,7 +45,23 @@ struct Face_charts
   bool is_seam(Halfedge h) const { return is_seam(triangle_of(h), int(corner_of(h))); }
 };
 
+/*!
+\ingroup PkgHLSCMTexturing
+
+How much shorter than flat edges creases are taken to be, so that short seams lie on creases, where
+they are least seen. Angles are those between the normals of the two triangles at an edge.
+*/
+struct Crease_weights
+{
+  double flat_angle = 25.;    ///< up to which an edge counts in full; degrees
+  double sharp_angle = 70.;   ///< from which an edge is a crease; degrees
+  double crease_length = 0.2; ///< what a crease counts for each unit of its length, in (0, 1]
+  double concave_gain = 1.5;  ///< how much faster the length of concave edges falls with the angle
+};
+
 namespace internal {
+
+constexpr std::uint32_t no_chart = std::uint32_t(-1);
 
 // The bit of a halfedge among the seams of its triangle.
 inline bool is_marked(const std::vector<std::uint8_t>& seams, Halfedge h)
@@ -346,6 +364,27 @@ inline std::vector<Chart_mesh> chart_meshes(const Indexed_triangle_mesh& mesh,
   if(!surface_error(mesh).empty())
     return {};
   return chart_meshes(mesh, Indexed_mesh::Triangle_adjacency(mesh.triangles), charts);
+}
+
+using Surface_mesh_multiresolution::Textured_triangle_mesh;
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+Returns the charts of a texture: an edge is a seam unless the texture coordinates of both its ends
+are equal on both sides, whatever their indices. Charts need not be disks; see `cut_to_disks()`. None
+for a mesh with a `mesh_error()` or `texture_error()`. Linear time.
+*/
+inline Face_charts charts_of_texture(const Textured_triangle_mesh& mesh)
+{
+  if(!mesh_error(mesh).empty() || !texture_error(mesh).empty())
+    return {};
+  const Indexed_mesh::Triangle_adjacency adjacency(mesh.triangles);
+  std::vector<std::uint8_t> seams(mesh.triangles.size(), 0);
+  for(Halfedge h = 0; h < adjacency.number_of_halfedges(); ++h)
+    if(adjacency.opposite(h) != no_halfedge && !is_smooth(mesh, h, adjacency.opposite(h)))
+      internal::mark(seams, h);
+  return charts_between(adjacency, std::move(seams));
 }
 
 } // namespace Surface_mesh_texturing

@@ -4,9 +4,9 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_RASTER_PACKER_H
 #define CGAL_SURFACE_MESH_TEXTURING_RASTER_PACKER_H
 
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Surface_mesh_texturing/internal/packing/Raster_packing_search.h>
 
-#include <string>
 #include <vector>
 
 namespace CGAL {
@@ -50,14 +50,19 @@ class Raster_packer
 public:
   /// Packs charts; see `ChartPacker`.
   Packing_result operator()(const std::vector<Chart_shape>& charts,
-                            const Packing_options& options) const
-  {
-    double unit = 1.;
-    const std::vector<internal::Chart_outline> outlines = internal::chart_outlines(charts, unit);
-    internal::Raster_packing_search search(outlines, unit, options);
-    return search.run();
-  }
+                            const Packing_options& options) const;
 };
+
+#ifdef CGAL_HLSCM_DEFINITIONS
+CGAL_HLSCM_INLINE Packing_result Raster_packer::operator()(const std::vector<Chart_shape>& charts,
+                                                           const Packing_options& options) const
+{
+  double unit = 1.;
+  const std::vector<internal::Chart_outline> outlines = internal::chart_outlines(charts, unit);
+  internal::Raster_packing_search search(outlines, unit, options);
+  return search.run();
+}
+#endif
 
 } // namespace Surface_mesh_texturing
 } // namespace CGAL

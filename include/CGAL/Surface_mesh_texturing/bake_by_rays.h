@@ -6,7 +6,7 @@
 
 #include <CGAL/Surface_mesh_texturing/Along_rays.h>
 #include <CGAL/Surface_mesh_texturing/bake_normal_map.h>
-#include <CGAL/Surface_mesh_texturing/internal/baking/Bounding_ball.h>
+#include <CGAL/Surface_mesh_texturing/Surface_point.h>
 #include <CGAL/Surface_mesh_texturing/internal/mesh_of_graph.h>
 
 #include <cmath>
@@ -103,7 +103,7 @@ Baked_map bake_normal_map_by_rays(const FineMesh& fine,
   if(result.fail(internal::polygon_error_of_models(fine, light)))
     return result;
   return bake_normal_map_by_rays<RayCaster_>(
-    internal::arrays_of_graph(fine, np_fine),
+    Indexed_mesh::copy_mesh(fine, np_fine),
     internal::textured_arrays_of_graph(light, light_uv, np_light), options);
 }
 

@@ -7,7 +7,7 @@
 #include <CGAL/Surface_mesh_texturing/Equal_uv.h>
 #include <CGAL/Surface_mesh_texturing/bake.h>
 #include <CGAL/Surface_mesh_texturing/internal/mesh_of_graph.h>
-#include <CGAL/Surface_mesh_texturing/vertex_normals.h>
+#include <CGAL/Surface_mesh_texturing/tangent_frames.h>
 
 #include <algorithm>
 #include <vector>

@@ -8,10 +8,8 @@
 #include <CGAL/Surface_mesh_texturing/bake.h>
 #include <CGAL/Surface_mesh_texturing/internal/mesh_of_graph.h>
 #include <CGAL/Surface_mesh_texturing/tangent_frames.h>
-#include <CGAL/Surface_mesh_texturing/vertex_normals.h>
 
 #include <array>
-#include <cmath>
 #include <vector>
 
 namespace CGAL {

@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_BUILD_TEXTURE_ATLAS_H
 #define CGAL_SURFACE_MESH_TEXTURING_BUILD_TEXTURE_ATLAS_H
 
-#include <CGAL/Blocked_execution/Tagged_threads.h>
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_texturing/Chart_parameterizers.h>
 #include <CGAL/Surface_mesh_texturing/Chart_segmenters.h>
 #include <CGAL/Surface_mesh_texturing/Texture_atlas.h>
@@ -89,7 +89,7 @@ Texture_atlas_result build_texture_atlas(const Indexed_triangle_mesh& mesh,
   models.pack = [&](const std::vector<Chart_shape>& charts, const Packing_options& o) {
     return pack_charts(charts, o, used_packer);
   };
-  return internal::Texture_atlas_builder(mesh, options, models).run();
+  return internal::build_atlas(mesh, options, models);
 }
 
 /*!
@@ -129,7 +129,7 @@ Texture_atlas_result build_texture_atlas(const FaceGraph& mesh, HalfedgeUVMap uv
   Texture_atlas_result result;
   if(result.fail(internal::polygon_error(mesh, "the mesh")))
     return result;
-  const Indexed_triangle_mesh arrays = internal::arrays_of_graph(mesh, np);
+  const Indexed_triangle_mesh arrays = Indexed_mesh::copy_mesh(mesh, np);
   if constexpr(internal::has_constrained_edges<NamedParameters>) {
     typedef typename Default::Get<Segmenter, Chart_growth_segmenter>::type Used_segmenter;
     result = build_texture_atlas<ConcurrencyTag>(

@@ -10,7 +10,6 @@
 #include <CGAL/assertions.h>
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 namespace CGAL {

@@ -116,8 +116,7 @@ inline Face_charts charts_of_original(const std::vector<Triangle_indices>& origi
                                       const Prepared_mesh& prepared, const Face_charts& charts)
 {
   const std::vector<Halfedge> corners = prepared_corners(original, prepared);
-  constexpr std::uint32_t no_number = std::uint32_t(-1);
-  std::vector<std::uint32_t> number(charts.number_of_charts, no_number);
+  std::vector<std::uint32_t> number(charts.number_of_charts, no_chart);
   std::uint32_t numbers = 0;
   Face_charts result;
   result.number_of_charts = charts.number_of_charts;
@@ -129,7 +128,7 @@ inline Face_charts charts_of_original(const std::vector<Triangle_indices>& origi
       if(charts.is_seam(h))
         mark(result.seams, g);
     std::uint32_t& chart = number[charts.chart[triangle_of(h)]];
-    if(chart == no_number)
+    if(chart == no_chart)
       chart = numbers++;
     result.chart[t] = chart;
   }

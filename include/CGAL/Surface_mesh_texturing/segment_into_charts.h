@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_SEGMENT_INTO_CHARTS_H
 #define CGAL_SURFACE_MESH_TEXTURING_SEGMENT_INTO_CHARTS_H
 
-#include <CGAL/Blocked_execution/Tagged_threads.h>
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_texturing/grow_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/mesh_of_graph.h>
 #include <CGAL/Surface_mesh_texturing/segment_coarse_to_fine.h>
@@ -60,15 +60,21 @@ Segmentation_result segment_between(const Indexed_triangle_mesh& mesh,
 Returns charts of `mesh`, which are disks with straight seams, within a bound on their distortion:
 `segment_coarse_to_fine()` with `grow_charts()` on the coarse mesh. Errors: those of both.
 */
-inline Segmentation_result
+CGAL_HLSCM_INLINE Segmentation_result
 segment_into_charts(const Indexed_triangle_mesh& mesh,
                     const Segmentation_options& options = Segmentation_options(),
-                    const Chart_growth_options& growth = Chart_growth_options())
+                    const Chart_growth_options& growth = Chart_growth_options());
+
+#ifdef CGAL_HLSCM_DEFINITIONS
+CGAL_HLSCM_INLINE Segmentation_result
+segment_into_charts(const Indexed_triangle_mesh& mesh, const Segmentation_options& options,
+                    const Chart_growth_options& growth)
 {
   return segment_coarse_to_fine(mesh, options, [&growth](const Indexed_triangle_mesh& coarse) {
     return grow_charts(coarse, growth);
   });
 }
+#endif
 
 /*!
 \ingroup PkgHLSCMTexturing
@@ -122,7 +128,7 @@ Segmentation_result segment_into_charts(const FaceGraph& mesh, FaceChartMap char
   Segmentation_result result;
   if(result.fail(internal::polygon_error(mesh, "the mesh")))
     return result;
-  const Indexed_triangle_mesh arrays = internal::arrays_of_graph(mesh, np);
+  const Indexed_triangle_mesh arrays = Indexed_mesh::copy_mesh(mesh, np);
   const auto segment
     = [&](const Indexed_triangle_mesh& m) { return segment_into_charts(m, options, growth); };
   if constexpr(internal::has_constrained_edges<NamedParameters>)

@@ -9,7 +9,6 @@
 
 #include <cmath>
 #include <utility>
-#include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_texturing {

@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_MESH_OF_GRAPH_H
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_MESH_OF_GRAPH_H
 
-#include <CGAL/Blocked_execution/Tagged_threads.h>
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Indexed_mesh/mesh_arrays.h>
 #include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
@@ -43,45 +43,26 @@ Mesh_outcome polygon_error_of_models(const FineMesh& fine, const LightMesh& ligh
   return result.is_ok() ? polygon_error(light, "the light model") : result;
 }
 
-// The arrays of a mesh in the order of vertices(mesh) and faces(mesh), with the points of the named
-// parameters; see copy_points(). Precondition: all faces are triangles.
-template <class FaceGraph, class NamedParameters>
-Indexed_triangle_mesh arrays_of_graph(const FaceGraph& mesh, const NamedParameters& np)
-{
-  const auto position = get(dynamic_vertex_property_t<Vertex_index>(), mesh);
-  Indexed_mesh::number_vertices(mesh, position);
-  return {Indexed_mesh::copy_points(mesh, np), Indexed_mesh::copy_triangles(mesh, position)};
-}
-
-// The same with texture coordinates. `uvmap` has a halfedge as key, which stands for the corner at
-// its target, or a vertex.
+// The arrays of a mesh with texture coordinates. `uvmap` has a halfedge as key, which stands for the
+// corner at its target, or a vertex.
 template <class FaceGraph, class UVMap, class NamedParameters>
 Textured_triangle_mesh textured_arrays_of_graph(const FaceGraph& mesh, const UVMap& uvmap,
                                                 const NamedParameters& np)
 {
   typedef typename boost::graph_traits<FaceGraph>::halfedge_descriptor Halfedge_descriptor;
   typedef typename boost::property_traits<UVMap>::key_type Key;
-  Indexed_triangle_mesh arrays = arrays_of_graph(mesh, np);
-  Textured_triangle_mesh result;
-  result.points = std::move(arrays.points);
-  result.triangles = std::move(arrays.triangles);
-  const auto add = [&result](const auto& uv) {
-    result.uv.emplace_back(to_double(uv[0]), to_double(uv[1]));
-  };
   if constexpr(std::is_same<Key, Halfedge_descriptor>::value) {
-    for(const auto f : faces(mesh)) {
-      const auto h = halfedge(f, mesh), h1 = next(h, mesh);
-      const Vertex_index first = Vertex_index(result.uv.size());
-      add(get(uvmap, h));
-      add(get(uvmap, h1));
-      add(get(uvmap, next(h1, mesh)));
-      result.wedges.push_back({first, first + 1, first + 2});
-    }
-    return Surface_mesh_multiresolution::with_wedges(result);
+    return Surface_mesh_multiresolution::with_wedges(
+      Surface_mesh_multiresolution::textured_triangle_mesh(mesh, uvmap, np));
   } else {
-    for(const auto v : vertices(mesh))
-      add(get(uvmap, v));
-    result.wedges = result.triangles;
+    Indexed_triangle_mesh arrays = Indexed_mesh::copy_mesh(mesh, np);
+    Textured_triangle_mesh result;
+    result.points = std::move(arrays.points);
+    result.triangles = result.wedges = std::move(arrays.triangles);
+    for(const auto v : vertices(mesh)) {
+      const auto& uv = get(uvmap, v);
+      result.uv.emplace_back(to_double(uv[0]), to_double(uv[1]));
+    }
     return result;
   }
 }

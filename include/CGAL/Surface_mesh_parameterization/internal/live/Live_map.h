@@ -4,9 +4,16 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LIVE_LIVE_MAP_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LIVE_LIVE_MAP_H
 
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
+#include <CGAL/Surface_mesh_parameterization/Solver_traits_cholesky.h>
+#include <CGAL/Surface_mesh_parameterization/internal/solver/Pins.h>
+#include <CGAL/Surface_mesh_parameterization/internal/solver/Run_control.h>
+
+#ifdef CGAL_HLSCM_DEFINITIONS
 #include <CGAL/Surface_mesh_parameterization/internal/live/Live_conformal_solver.h>
+#endif
 
 #include <cmath>
 #include <complex>
@@ -21,6 +28,8 @@ namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
 
+class Live_conformal_solver;
+
 // The map that a `Hierarchical_conformal_map` keeps: its chart, the pins of the user and the
 // solver. Vertices are those of the chart.
 class Live_map
@@ -33,6 +42,7 @@ public:
   // Checks the options. To be set then, if there is no error, are the chart and its pins; after
   // that the solver is to be built.
   Live_map(const HLSCM_options& options, Coarsest_solver coarsest);
+  ~Live_map();
   Live_map(const Live_map&) = delete;
   Live_map& operator=(const Live_map&) = delete;
 
@@ -43,22 +53,16 @@ public:
   void build(bool has_pins);
 
   // For each vertex of the chart its position in the mesh.
-  const std::vector<std::uint32_t>& source() const
-  {
-    return m_solver ? m_solver->system().source : m_chart.source;
-  }
+  const std::vector<std::uint32_t>& source() const;
   Error_code error() const { return m_run.status().error; }
   const HLSCM_report& report() const { return m_report; }
 
   // There will never be a map.
   bool is_broken() const { return m_is_broken; }
-  bool has_map() const { return m_solver && !m_solver->map().empty(); }
+  bool has_map() const;
 
   // Those of the chart. Precondition: it is not broken.
-  const std::vector<Indexed_mesh::Triangle_indices>& triangles() const
-  {
-    return m_solver->level(m_solver->system().finest()).mesh.triangles;
-  }
+  const std::vector<Indexed_mesh::Triangle_indices>& triangles() const;
 
   // Records an error, unless there is one already without which there would be no map.
   Error_code fail(const std::string& message);
@@ -69,16 +73,10 @@ public:
 
   // Precondition of both: it is not broken.
   Error_code set_points(Points points);
-  void set_face_weights(std::vector<double> weights)
-  {
-    m_solver->set_face_weights(std::move(weights));
-  }
+  void set_face_weights(std::vector<double> weights);
 
   Error_code solve();
-  Complex uv(Vertex_index v) const
-  {
-    return has_map() && v < m_solver->map().size() ? m_solver->map()[v] + m_shift : Complex(0.);
-  }
+  Complex uv(Vertex_index v) const;
   Level_view preview(std::size_t vertices);
 
 private:
@@ -98,14 +96,16 @@ private:
   std::vector<Complex> m_preview_uv;
 };
 
-inline Live_map::Live_map(const HLSCM_options& options, Coarsest_solver coarsest)
+#ifdef CGAL_HLSCM_DEFINITIONS
+
+CGAL_HLSCM_INLINE Live_map::Live_map(const HLSCM_options& options, Coarsest_solver coarsest)
   : m_options(options), m_run(m_options, m_report), m_coarsest(std::move(coarsest))
 {
   if(options.method != Conformal_method::HLSCM && options.method != Conformal_method::SPECTRAL)
     m_run.status().fail(ERROR_WRONG_PARAMETER, "the method must be hlscm or spectral");
 }
 
-inline void Live_map::set_chart(Prepared_chart prepared)
+CGAL_HLSCM_INLINE void Live_map::set_chart(Prepared_chart prepared)
 {
   m_chart = std::move(prepared.chart);
   m_run.status().fail(prepared.status.error, prepared.status.message);
@@ -117,7 +117,7 @@ inline void Live_map::set_chart(Prepared_chart prepared)
   m_far_pins = far_border_pins(m_chart);
 }
 
-inline void Live_map::build(bool has_pins)
+CGAL_HLSCM_INLINE void Live_map::build(bool has_pins)
 {
   if(error() == OK) {
     if(!has_pins && m_options.method == Conformal_method::HLSCM)
@@ -135,7 +135,7 @@ inline void Live_map::build(bool has_pins)
   m_run.finish();
 }
 
-inline Error_code Live_map::fail(const std::string& message)
+CGAL_HLSCM_INLINE Error_code Live_map::fail(const std::string& message)
 {
   if(!m_is_broken)
     m_run.status() = Status();
@@ -143,7 +143,7 @@ inline Error_code Live_map::fail(const std::string& message)
   return m_run.finish();
 }
 
-inline Error_code Live_map::set_pin(Vertex_index v, const Complex& value)
+CGAL_HLSCM_INLINE Error_code Live_map::set_pin(Vertex_index v, const Complex& value)
 {
   if(v == Indexed_mesh::no_vertex)
     return fail("a vertex that does not belong to the chart cannot be pinned");
@@ -153,14 +153,14 @@ inline Error_code Live_map::set_pin(Vertex_index v, const Complex& value)
   return OK;
 }
 
-inline Error_code Live_map::release_pin(Vertex_index v)
+CGAL_HLSCM_INLINE Error_code Live_map::release_pin(Vertex_index v)
 {
   if(m_wanted.erase(v) == 0)
     return fail("a vertex that is not pinned cannot be released");
   return OK;
 }
 
-inline Error_code Live_map::set_points(Points points)
+CGAL_HLSCM_INLINE Error_code Live_map::set_points(Points points)
 {
   Chart::Mesh moved;
   moved.triangles = triangles();
@@ -173,7 +173,7 @@ inline Error_code Live_map::set_points(Points points)
 }
 
 // Gives the solver the pins of now, or none; false if something is wrong with the user's.
-inline bool Live_map::choose_pins()
+CGAL_HLSCM_INLINE bool Live_map::choose_pins()
 {
   if(m_is_broken)
     return false;
@@ -192,7 +192,7 @@ inline bool Live_map::choose_pins()
   return true;
 }
 
-inline Error_code Live_map::solve()
+CGAL_HLSCM_INLINE Error_code Live_map::solve()
 {
   if(!choose_pins())
     return m_run.finish();
@@ -205,7 +205,7 @@ inline Error_code Live_map::solve()
   return m_run.finish();
 }
 
-inline Level_view Live_map::preview(std::size_t vertices)
+CGAL_HLSCM_INLINE Level_view Live_map::preview(std::size_t vertices)
 {
   if(!choose_pins()) {
     m_run.finish();
@@ -221,6 +221,32 @@ inline Level_view Live_map::preview(std::size_t vertices)
   return {l, m_report.levels.size(), &m_preview_vertices, &m_solver->level(l).mesh.triangles,
           &m_preview_uv};
 }
+
+CGAL_HLSCM_INLINE Live_map::~Live_map() {}
+
+CGAL_HLSCM_INLINE const std::vector<std::uint32_t>& Live_map::source() const
+{
+  return m_solver ? m_solver->system().source : m_chart.source;
+}
+
+CGAL_HLSCM_INLINE bool Live_map::has_map() const { return m_solver && !m_solver->map().empty(); }
+
+CGAL_HLSCM_INLINE const std::vector<Indexed_mesh::Triangle_indices>& Live_map::triangles() const
+{
+  return m_solver->level(m_solver->system().finest()).mesh.triangles;
+}
+
+CGAL_HLSCM_INLINE void Live_map::set_face_weights(std::vector<double> weights)
+{
+  m_solver->set_face_weights(std::move(weights));
+}
+
+CGAL_HLSCM_INLINE Live_map::Complex Live_map::uv(Vertex_index v) const
+{
+  return has_map() && v < m_solver->map().size() ? m_solver->map()[v] + m_shift : Complex(0.);
+}
+
+#endif // CGAL_HLSCM_DEFINITIONS
 
 } // namespace internal
 } // namespace Surface_mesh_parameterization

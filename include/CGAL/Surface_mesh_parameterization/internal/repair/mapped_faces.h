@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_REPAIR_MAPPED_FACES_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_REPAIR_MAPPED_FACES_H
 
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Surface_mesh_parameterization/Conformal_triangle.h>
 #include <CGAL/Surface_mesh_parameterization/Flip_repair_options.h>
 #include <CGAL/Surface_mesh_parameterization/internal/solver/Pins.h>
@@ -89,19 +90,7 @@ shapes_of_triangles(const Indexed_mesh::Indexed_triangle_mesh& mesh,
 }
 
 // Takes what the repair changed over into the report of the map.
-inline void report_repair(Flip_repair_report repair, HLSCM_report& report)
-{
-  const double rise = repair.energy_after - repair.energy_before;
-  repair.energy_before = report.energy;
-  report.energy += rise;
-  report.energy_gap_estimate += rise;
-  repair.energy_after = report.energy;
-  if(!repair.unmended_faces.empty())
-    report.warnings.push_back(std::to_string(repair.unmended_faces.size())
-                              + (repair.stopped_early ? " flipped faces are left: there was no time"
-                                                      : " flipped faces could not be repaired"));
-  report.flip_repair = std::move(repair);
-}
+CGAL_HLSCM_INLINE void report_repair(Flip_repair_report repair, HLSCM_report& report);
 
 // Repairs the map `z` of a chart of `mesh`, given by the place of each vertex of the mesh in it or
 // `no_vertex`, by the function of the options, and takes what changes over into the report.
@@ -128,6 +117,24 @@ void repair_chart(const TriangleMesh& mesh, const std::vector<std::uint32_t>& pl
   run.tell_repair(1.);
   report_repair(std::move(repair), run.report());
 }
+
+#ifdef CGAL_HLSCM_DEFINITIONS
+
+CGAL_HLSCM_INLINE void report_repair(Flip_repair_report repair, HLSCM_report& report)
+{
+  const double rise = repair.energy_after - repair.energy_before;
+  repair.energy_before = report.energy;
+  report.energy += rise;
+  report.energy_gap_estimate += rise;
+  repair.energy_after = report.energy;
+  if(!repair.unmended_faces.empty())
+    report.warnings.push_back(std::to_string(repair.unmended_faces.size())
+                              + (repair.stopped_early ? " flipped faces are left: there was no time"
+                                                      : " flipped faces could not be repaired"));
+  report.flip_repair = std::move(repair);
+}
+
+#endif // CGAL_HLSCM_DEFINITIONS
 
 } // namespace internal
 } // namespace Surface_mesh_parameterization

@@ -5,9 +5,13 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_SOLVER_CHART_H
 
 #include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Blocked_execution/memory.h>
 #include <CGAL/Indexed_mesh/Vertex_rings.h>
+
+#ifdef CGAL_HLSCM_DEFINITIONS
 #include <CGAL/Indexed_mesh/border_loops.h>
+#endif
 
 #include <CGAL/Surface_mesh_parameterization/Error_code.h>
 
@@ -87,22 +91,11 @@ inline void check_point(const Chart::Mesh::Point_3& p, std::size_t vertex, Statu
 }
 
 // Says which point, the first of several, is none.
-inline void check_points(const Chart& chart, Status& status)
-{
-  for(std::size_t v = 0; v < chart.mesh.points.size(); ++v)
-    check_point(chart.mesh.points[v], v, status);
-}
+CGAL_HLSCM_INLINE void check_points(const Chart& chart, Status& status);
 
-// Says which triangle, the first of several, has a corner that is no vertex.
-inline void check_indices(const Chart::Mesh& mesh, Status& status)
-{
-  for(std::size_t t = 0; t < mesh.triangles.size() && status.is_ok(); ++t)
-    for(const std::uint32_t v : mesh.triangles[t])
-      if(v >= mesh.points.size())
-        status.fail(ERROR_WRONG_PARAMETER, "triangle " + std::to_string(t) + " has the vertex "
-                    + std::to_string(v) + ", but there are only "
-                    + std::to_string(mesh.points.size()) + " vertices");
-}
+// Takes the arrays of `chart.mesh` with `chart.source` set, and of it the component of the vertex at
+// position `seed`; without a seed all must be one component.
+CGAL_HLSCM_INLINE void prepare_chart(Chart& chart, std::uint32_t seed, Status& status);
 
 // Calls `body(i)` for i in [0, n). Numbers that are objects may not be read by several threads.
 template <class Number, class Body>
@@ -166,6 +159,94 @@ void copy_faces(const TriangleMesh& mesh, Chart& chart, Status& status)
   if(first_polygon < all.size())
     status.fail(ERROR_NON_TRIANGULAR_MESH, "face " + std::to_string(first_polygon)
                + " is not a triangle; triangulate the mesh first");
+}
+
+// A chart, and what was wrong with the mesh that it is of.
+struct Prepared_chart
+{
+  Chart chart;
+  Status status;
+};
+
+// The sources of vertices that are numbered as in the input.
+inline void number_sources(Chart& chart)
+{
+  chart.source.resize(chart.mesh.points.size());
+  std::iota(chart.source.begin(), chart.source.end(), 0u);
+}
+
+// A connected mesh that is two arrays.
+CGAL_HLSCM_INLINE Prepared_chart chart_of_arrays(Chart::Mesh mesh);
+
+// The parameters of the `n` vertices of the input; (0, 0) of those that are not in the chart.
+inline std::vector<Simple_cartesian<double>::Point_2>
+points_of_values(const std::vector<std::uint32_t>& source,
+                 const std::vector<std::complex<double>>& z, std::size_t n)
+{
+  std::vector<Simple_cartesian<double>::Point_2> uv(n, Simple_cartesian<double>::Point_2(0., 0.));
+  for(std::size_t v = 0; v < z.size(); ++v)
+    uv[source[v]] = Simple_cartesian<double>::Point_2(z[v].real(), z[v].imag());
+  return uv;
+}
+
+// What is wrong with a halfedge that is to be on the border of a chart of `mesh`. It is looked for
+// among those of the mesh first: what does not belong to it must not be asked for anything.
+template <class TriangleMesh>
+Status check_border(const TriangleMesh& mesh,
+                    typename boost::graph_traits<TriangleMesh>::halfedge_descriptor bhd)
+{
+  typedef boost::graph_traits<TriangleMesh> Traits;
+  Status status;
+  if(faces(mesh).begin() == faces(mesh).end())
+    status.fail(ERROR_EMPTY_MESH, "the mesh has no faces");
+  const auto all = halfedges(mesh);
+  const bool is_null = bhd == Traits::null_halfedge() || !status.is_ok();
+  if(!is_null && std::find(all.begin(), all.end(), bhd) == all.end())
+    status.fail(ERROR_WRONG_PARAMETER, "the given halfedge does not belong to the mesh");
+  else if(is_null || !is_border(bhd, mesh))
+    status.fail(ERROR_NO_TOPOLOGICAL_DISC,
+                "the given halfedge is not on a border; a closed surface must be cut open first");
+  return status;
+}
+
+// The connected component of `mesh` that has the border halfedge `bhd`.
+template <class TriangleMesh>
+Prepared_chart extract_chart(const TriangleMesh& mesh,
+                             typename boost::graph_traits<TriangleMesh>::halfedge_descriptor bhd)
+{
+  Prepared_chart result;
+  result.status = check_border(mesh, bhd);
+  if(!result.status.is_ok())
+    return result;
+  copy_faces(mesh, result.chart, result.status);
+  number_sources(result.chart);
+  std::uint32_t seed = 0;
+  for(const auto v : vertices(mesh)) {
+    if(v == target(bhd, mesh))
+      break;
+    ++seed;
+  }
+  prepare_chart(result.chart, seed, result.status);
+  return result;
+}
+
+#ifdef CGAL_HLSCM_DEFINITIONS
+
+CGAL_HLSCM_INLINE void check_points(const Chart& chart, Status& status)
+{
+  for(std::size_t v = 0; v < chart.mesh.points.size(); ++v)
+    check_point(chart.mesh.points[v], v, status);
+}
+
+// Says which triangle, the first of several, has a corner that is no vertex.
+inline void check_indices(const Chart::Mesh& mesh, Status& status)
+{
+  for(std::size_t t = 0; t < mesh.triangles.size() && status.is_ok(); ++t)
+    for(const std::uint32_t v : mesh.triangles[t])
+      if(v >= mesh.points.size())
+        status.fail(ERROR_WRONG_PARAMETER, "triangle " + std::to_string(t) + " has the vertex "
+                    + std::to_string(v) + ", but there are only "
+                    + std::to_string(mesh.points.size()) + " vertices");
 }
 
 // Keeps the vertices for which `is_kept` and the triangles that have them.
@@ -238,9 +319,7 @@ inline void check_topology(const Chart& chart, Status& status)
                + std::to_string(twice_genus / 2) + "; cut its handles first");
 }
 
-// Takes the arrays of `chart.mesh` with `chart.source` set, and of it the component of the vertex at
-// position `seed`; without a seed all must be one component.
-inline void prepare_chart(Chart& chart, std::uint32_t seed, Status& status)
+CGAL_HLSCM_INLINE void prepare_chart(Chart& chart, std::uint32_t seed, Status& status)
 {
   if(!status.is_ok())
     return;
@@ -277,22 +356,7 @@ inline void prepare_chart(Chart& chart, std::uint32_t seed, Status& status)
   check_topology(chart, status);
 }
 
-// A chart, and what was wrong with the mesh that it is of.
-struct Prepared_chart
-{
-  Chart chart;
-  Status status;
-};
-
-// The sources of vertices that are numbered as in the input.
-inline void number_sources(Chart& chart)
-{
-  chart.source.resize(chart.mesh.points.size());
-  std::iota(chart.source.begin(), chart.source.end(), 0u);
-}
-
-// A connected mesh that is two arrays.
-inline Prepared_chart chart_of_arrays(Chart::Mesh mesh)
+CGAL_HLSCM_INLINE Prepared_chart chart_of_arrays(Chart::Mesh mesh)
 {
   Prepared_chart result;
   Chart& chart = result.chart;
@@ -304,57 +368,7 @@ inline Prepared_chart chart_of_arrays(Chart::Mesh mesh)
   return result;
 }
 
-// The parameters of the `n` vertices of the input; (0, 0) of those that are not in the chart.
-inline std::vector<Simple_cartesian<double>::Point_2>
-points_of_values(const std::vector<std::uint32_t>& source,
-                 const std::vector<std::complex<double>>& z, std::size_t n)
-{
-  std::vector<Simple_cartesian<double>::Point_2> uv(n, Simple_cartesian<double>::Point_2(0., 0.));
-  for(std::size_t v = 0; v < z.size(); ++v)
-    uv[source[v]] = Simple_cartesian<double>::Point_2(z[v].real(), z[v].imag());
-  return uv;
-}
-
-// What is wrong with a halfedge that is to be on the border of a chart of `mesh`. It is looked for
-// among those of the mesh first: what does not belong to it must not be asked for anything.
-template <class TriangleMesh>
-Status check_border(const TriangleMesh& mesh,
-                    typename boost::graph_traits<TriangleMesh>::halfedge_descriptor bhd)
-{
-  typedef boost::graph_traits<TriangleMesh> Traits;
-  Status status;
-  if(faces(mesh).begin() == faces(mesh).end())
-    status.fail(ERROR_EMPTY_MESH, "the mesh has no faces");
-  const auto all = halfedges(mesh);
-  const bool is_null = bhd == Traits::null_halfedge() || !status.is_ok();
-  if(!is_null && std::find(all.begin(), all.end(), bhd) == all.end())
-    status.fail(ERROR_WRONG_PARAMETER, "the given halfedge does not belong to the mesh");
-  else if(is_null || !is_border(bhd, mesh))
-    status.fail(ERROR_NO_TOPOLOGICAL_DISC,
-                "the given halfedge is not on a border; a closed surface must be cut open first");
-  return status;
-}
-
-// The connected component of `mesh` that has the border halfedge `bhd`.
-template <class TriangleMesh>
-Prepared_chart extract_chart(const TriangleMesh& mesh,
-                             typename boost::graph_traits<TriangleMesh>::halfedge_descriptor bhd)
-{
-  Prepared_chart result;
-  result.status = check_border(mesh, bhd);
-  if(!result.status.is_ok())
-    return result;
-  copy_faces(mesh, result.chart, result.status);
-  number_sources(result.chart);
-  std::uint32_t seed = 0;
-  for(const auto v : vertices(mesh)) {
-    if(v == target(bhd, mesh))
-      break;
-    ++seed;
-  }
-  prepare_chart(result.chart, seed, result.status);
-  return result;
-}
+#endif // CGAL_HLSCM_DEFINITIONS
 
 } // namespace internal
 } // namespace Surface_mesh_parameterization

@@ -16,8 +16,8 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstdint>
 #include <iterator>
-#include <map>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -112,7 +112,7 @@ public:
   void set_pins(std::size_t l, const Pins& pins, Vector& z) const
   {
     for(const Pin& pin : pins)
-      z[m_pins.at(pin.vertex)[l]] = pin.value;
+      z[m_stand_ins[l][position_of_pin(pin.vertex)]] = pin.value;
   }
 
   // The vector of the coarsest level that is 0 but at the pins.
@@ -157,6 +157,16 @@ private:
   void for_each_operator(std::size_t l, const Use& use) { for_each_operator(*this, l, use); }
   template <class Hierarchy, class Use>
   static void for_each_operator(Hierarchy& hierarchy, std::size_t l, const Use& use);
+  // Where v is among the pins, or would be.
+  std::size_t position_of_pin(Vertex_index v) const
+  {
+    const auto& pins = m_stand_ins.back();
+    return std::lower_bound(pins.begin(), pins.end(), v) - pins.begin();
+  }
+
+  template <class Use>
+  void with_operator(std::size_t l, const Use& use);
+  void update_cycle(std::size_t l, Vertex_index v, const Multigrid::Matrix_row& row);
   template <class Real>
   void precondition(std::size_t l, const Multigrid::Schedule& schedule,
                     const Multigrid::Complex_vector<Real>& r, Multigrid::Complex_vector<Real>& x);
@@ -166,8 +176,9 @@ private:
   std::vector<Conformal_operator<float>> m_single;     // of the levels between; of all for a cycle
   Conformal_operator<double> m_coarsest, m_finest;     // those at the ends
   std::unique_ptr<Cycle> m_cycle;
-  std::map<Vertex_index, std::vector<Vertex_index>> m_pins; // what stands for each, by level
-  std::vector<std::map<Vertex_index, int>> m_number_of_pins; // that a vertex of a level stands for
+  // By level, what stands for each pin; on the finest one the pins, ascending
+  std::vector<std::vector<Vertex_index>> m_stand_ins;
+  std::vector<std::vector<std::uint32_t>> m_number_of_pins; // that a vertex of a level stands for
 };
 
 template <class After_level>
@@ -177,8 +188,10 @@ void Conformal_hierarchy::build_operators(std::vector<double> triangle_weights,
   typedef Indexed_mesh::Triangles_at_vertices Triangles_at_vertices;
   const std::size_t count = m_levels.size();
   const auto weights = level_weights(m_levels, std::move(triangle_weights));
-  m_pins.clear();
-  m_number_of_pins.assign(count, {});
+  m_stand_ins.assign(count, {});
+  m_number_of_pins.clear();
+  for(const Level& level : m_levels)
+    m_number_of_pins.emplace_back(level.vertices.size(), 0);
   m_single.clear();
   m_single.resize(count);
   m_cycle = std::make_unique<Cycle>();
@@ -249,34 +262,53 @@ inline std::pair<std::size_t, std::size_t> Conformal_hierarchy::size_of_matrices
   return {entries, bytes + pattern};
 }
 
+// Calls `use` for the operator of level l, that of the highest precision at the ends.
+template <class Use>
+void Conformal_hierarchy::with_operator(std::size_t l, const Use& use)
+{
+  if(l + 1 == m_levels.size())
+    use(m_finest);
+  else if(l == 0)
+    use(m_coarsest);
+  else
+    use(m_single[l]);
+}
+
+// Tells the cycle what has become of a row of level l. At the ends it has a copy of the matrix.
+inline void Conformal_hierarchy::update_cycle(std::size_t l, Vertex_index v,
+                                              const Multigrid::Matrix_row& row)
+{
+  if(l >= m_cycle->number_of_levels())
+    return;
+  if(l == 0 || l + 1 == m_levels.size())
+    m_single[l].matrix.put_row(v, row);
+  m_cycle->update_row(l, v);
+}
+
 inline void Conformal_hierarchy::pin(Vertex_index v)
 {
-  const std::size_t count = m_levels.size();
-  std::vector<Vertex_index>& stands_for = m_pins[v];
-  stands_for.assign(count, v);
-  for(std::size_t l = count - 1; l > 0; --l)
-    stands_for[l - 1] = m_levels[l].from_coarser.heaviest_source(stands_for[l]);
-  for(std::size_t l = 0; l < count; ++l)
-    if(++m_number_of_pins[l][stands_for[l]] == 1) {
-      for_each_operator(l, [&](auto& op) { op.pin(stands_for[l]); });
-      if(l < m_cycle->number_of_levels())
-        m_cycle->update_row(l, stands_for[l]);
+  const std::size_t i = position_of_pin(v);
+  Vertex_index w = v;
+  for(std::size_t l = m_levels.size(); l-- > 0;) {
+    m_stand_ins[l].insert(m_stand_ins[l].begin() + i, w);
+    if(++m_number_of_pins[l][w] == 1) {
+      with_operator(l, [w](auto& op) { op.pin(w); });
+      update_cycle(l, w, Multigrid::Matrix_row());
     }
+    if(l > 0)
+      w = m_levels[l].from_coarser.heaviest_source(w);
+  }
 }
 
 inline void Conformal_hierarchy::release(Vertex_index v)
 {
-  const auto pin = m_pins.find(v);
+  const std::size_t i = position_of_pin(v);
   for(std::size_t l = 0; l < m_levels.size(); ++l) {
-    const Vertex_index w = pin->second[l];
-    if(--m_number_of_pins[l][w] > 0)
-      continue;
-    m_number_of_pins[l].erase(w);
-    for_each_operator(l, [w](auto& op) { op.release(w); });
-    if(l < m_cycle->number_of_levels())
-      m_cycle->update_row(l, w);
+    const Vertex_index w = m_stand_ins[l][i];
+    m_stand_ins[l].erase(m_stand_ins[l].begin() + i);
+    if(--m_number_of_pins[l][w] == 0)
+      with_operator(l, [&](auto& op) { update_cycle(l, w, op.release(w)); });
   }
-  m_pins.erase(pin);
 }
 
 // Ascending: each is then the last of those that are pinned already.
@@ -284,9 +316,8 @@ inline Conformal_hierarchy::Pin_changes
 Conformal_hierarchy::pin_only(std::vector<Vertex_index> vertices)
 {
   std::sort(vertices.begin(), vertices.end());
-  std::vector<Vertex_index> old, to_release, to_pin;
-  for(const auto& pin : m_pins)
-    old.push_back(pin.first);
+  const std::vector<Vertex_index> old = m_stand_ins.back();
+  std::vector<Vertex_index> to_release, to_pin;
   std::set_difference(old.begin(), old.end(), vertices.begin(), vertices.end(),
                       std::back_inserter(to_release));
   std::set_difference(vertices.begin(), vertices.end(), old.begin(), old.end(),
@@ -332,18 +363,15 @@ Conformal_hierarchy::minimize(std::size_t l, const Multigrid::Schedule& schedule
   const auto precondition_on_level = [&](const auto& r, auto& x) {
     precondition(l, schedule, r, x);
   };
-  Vector pinned(m_number_of_pins[l].size()); // their full precision
-  const auto for_each_pin = [&](const auto& use) {
-    std::size_t i = 0;
-    for(const auto& entry : m_number_of_pins[l])
-      use(z[entry.first], pinned[i++]);
-  };
-  for_each_pin([](Complex& value, Complex& kept) { kept = value; });
+  Vector pinned; // their full precision
+  for(const Vertex_index v : m_stand_ins[l])
+    pinned.push_back(z[v]);
   const auto result = on_level(l, z, [&](const auto& op, auto& x) {
     return Multigrid::minimize_energy(op.matrix, x, op.energy(x), precondition_on_level, stop,
                                       observe);
   });
-  for_each_pin([](Complex& value, Complex& kept) { value = kept; });
+  for(std::size_t i = 0; i < pinned.size(); ++i)
+    z[m_stand_ins[l][i]] = pinned[i];
   return result;
 }
 

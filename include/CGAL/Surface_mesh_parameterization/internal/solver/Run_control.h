@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_SOLVER_RUN_CONTROL_H
 
 #include <CGAL/Blocked_execution/Progress.h>
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Multigrid/Iteration_control.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
@@ -72,12 +73,7 @@ constexpr Phase repair = {0.9, 1.}; // if there is one: all that is before it ta
 class Run_control
 {
 public:
-  Run_control(const HLSCM_options& options, HLSCM_report& report)
-    : m_options(options), m_report(report), m_progress(options.progress)
-  {
-    m_report.method = profile_of(options.method).name;
-    check_options(options, m_status);
-  }
+  Run_control(const HLSCM_options& options, HLSCM_report& report);
 
   const HLSCM_options& options() const { return m_options; }
   HLSCM_report& report() { return m_report; }
@@ -145,15 +141,7 @@ public:
   }
 
   // Completes the report; returns what the doors return.
-  Error_code finish()
-  {
-    m_report.seconds_total
-      = m_report.seconds_hierarchy + m_report.seconds_operators + m_report.seconds_solve;
-    if(m_report.cancelled)
-      m_status.fail(ERROR_CANNOT_SOLVE_LINEAR_SYSTEM, "cancelled");
-    m_report.message = m_status.message;
-    return m_status.error;
-  }
+  Error_code finish();
 
 private:
   const HLSCM_options& m_options;
@@ -163,6 +151,27 @@ private:
   Blocked_execution::Stopwatch m_watch, m_since_begin;
   double m_share = 1.; // of the whole, without the repair
 };
+
+#ifdef CGAL_HLSCM_DEFINITIONS
+
+CGAL_HLSCM_INLINE Run_control::Run_control(const HLSCM_options& options, HLSCM_report& report)
+  : m_options(options), m_report(report), m_progress(options.progress)
+{
+  m_report.method = profile_of(options.method).name;
+  check_options(options, m_status);
+}
+
+CGAL_HLSCM_INLINE Error_code Run_control::finish()
+{
+  m_report.seconds_total
+    = m_report.seconds_hierarchy + m_report.seconds_operators + m_report.seconds_solve;
+  if(m_report.cancelled)
+    m_status.fail(ERROR_CANNOT_SOLVE_LINEAR_SYSTEM, "cancelled");
+  m_report.message = m_status.message;
+  return m_status.error;
+}
+
+#endif // CGAL_HLSCM_DEFINITIONS
 
 } // namespace internal
 } // namespace Surface_mesh_parameterization

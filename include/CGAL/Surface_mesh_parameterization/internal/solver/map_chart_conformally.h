@@ -4,7 +4,14 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_SOLVER_MAP_CHART_CONFORMALLY_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_SOLVER_MAP_CHART_CONFORMALLY_H
 
+#include <CGAL/Blocked_execution/compile_once.h>
+#include <CGAL/Surface_mesh_parameterization/Solver_traits_cholesky.h>
+#include <CGAL/Surface_mesh_parameterization/internal/solver/Pins.h>
+#include <CGAL/Surface_mesh_parameterization/internal/solver/Run_control.h>
+
+#ifdef CGAL_HLSCM_DEFINITIONS
 #include <CGAL/Surface_mesh_parameterization/internal/solver/methods.h>
+#endif
 
 #include <complex>
 #include <utility>
@@ -22,6 +29,14 @@ struct Chart_map
   Pins pins;                            // by which it was found; none if it is free
   Surface_mesh_multiresolution::Progressive_mesh progressive_mesh; // if the options keep it
 };
+
+// Maps a chart of an input with so many vertices; the report and the status of `run` say what came
+// of it. Knows no mesh but arrays: whatever maps a chart, comes by here.
+CGAL_HLSCM_INLINE Chart_map
+map_chart_conformally(Prepared_chart prepared, std::size_t number_of_input_vertices,
+                      const Wanted_pins& wanted, Coarsest_solver coarsest, Run_control& run);
+
+#ifdef CGAL_HLSCM_DEFINITIONS
 
 // Reports the chart; its pins, or those with which a free map begins.
 inline Pins begin_chart(const Chart& chart, std::size_t number_of_input_vertices,
@@ -46,12 +61,9 @@ inline Pins begin_chart(const Chart& chart, std::size_t number_of_input_vertices
   return pins;
 }
 
-// Maps a chart of an input with so many vertices; the report and the status of `run` say what came
-// of it. Knows no mesh but arrays: whatever maps a chart, comes by here.
-inline Chart_map map_chart_conformally(Prepared_chart prepared,
-                                       std::size_t number_of_input_vertices,
-                                       const Wanted_pins& wanted, Coarsest_solver coarsest,
-                                       Run_control& run)
+CGAL_HLSCM_INLINE Chart_map
+map_chart_conformally(Prepared_chart prepared, std::size_t number_of_input_vertices,
+                      const Wanted_pins& wanted, Coarsest_solver coarsest, Run_control& run)
 {
   const HLSCM_options& options = run.options();
   Chart_map result;
@@ -75,6 +87,8 @@ inline Chart_map map_chart_conformally(Prepared_chart prepared,
     result.pins = pins;
   return result;
 }
+
+#endif // CGAL_HLSCM_DEFINITIONS
 
 } // namespace internal
 } // namespace Surface_mesh_parameterization

@@ -5,12 +5,14 @@
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_TEXTURE_ATLAS_BUILDER_H
 
 #include <CGAL/Blocked_execution/Progress.h>
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Surface_mesh_texturing/Chart_segmenters.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/map_charts.h>
 
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,9 +22,9 @@ namespace Surface_mesh_texturing {
 namespace internal {
 
 // The length of the seams between triangles, each once.
-inline double seam_length(const Indexed_triangle_mesh& mesh, const Face_charts& charts)
+inline double seam_length(const Indexed_triangle_mesh& mesh, const Triangle_adjacency& adjacency,
+                          const Face_charts& charts)
 {
-  const Triangle_adjacency adjacency(mesh.triangles);
   double sum = 0.;
   for(std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
     for(int c = 0; c < 3; ++c) {
@@ -35,14 +37,14 @@ inline double seam_length(const Indexed_triangle_mesh& mesh, const Face_charts& 
 }
 
 // The charts whose triangles these are, with all seams between wedges.
-inline Face_charts charts_of_maps(const Indexed_triangle_mesh& mesh,
+inline Face_charts charts_of_maps(const Triangle_adjacency& adjacency,
                                   const std::vector<Mapped_chart>& maps)
 {
-  std::vector<std::uint8_t> seams(mesh.triangles.size());
+  std::vector<std::uint8_t> seams(adjacency.number_of_halfedges() / 3);
   for(const Mapped_chart& map : maps)
     for(const Halfedge h : map.chart.border)
       mark(seams, 3 * map.chart.triangles[triangle_of(h)] + corner_of(h));
-  return charts_between(mesh.triangles, std::move(seams));
+  return charts_between(adjacency, std::move(seams));
 }
 
 // Makes the charts as large as their density asks for.
@@ -103,6 +105,13 @@ struct Atlas_models
   std::function<Packing_result(const std::vector<Chart_shape>&, const Packing_options&)> pack;
 };
 
+// Builds an atlas by these models.
+CGAL_HLSCM_INLINE Texture_atlas_result build_atlas(const Indexed_triangle_mesh& mesh,
+                                                   const Texture_atlas_options& options,
+                                                   const Atlas_models& models);
+
+#ifdef CGAL_HLSCM_DEFINITIONS
+
 // The steps of `build_texture_atlas()`.
 class Texture_atlas_builder
 {
@@ -154,6 +163,7 @@ private:
   const Indexed_triangle_mesh& m_mesh;
   const Texture_atlas_options& m_options;
   const Atlas_models& m_models;
+  std::optional<Triangle_adjacency> m_adjacency; // of the mesh, from the maps on
   Face_charts m_charts;
   std::vector<Mapped_chart> m_maps;
   Packing_result m_packing;
@@ -224,10 +234,11 @@ inline Segmentation_result Texture_atlas_builder::try_charts(const Indexed_trian
     return result;
   Distortion_bound bound = m_options.bound;
   bound.area_scale = (std::max)(1., margin * bound.area_scale);
+  const Triangle_adjacency adjacency(mesh.triangles);
   std::size_t recut;
   result.charts = charts_of_maps(
-    mesh, map_charts(chart_meshes(mesh, result.charts), chart_mapping(bound),
-                     [this](double part) { return proceed(0.3, 0.4, part); }, recut));
+    adjacency, map_charts(chart_meshes(mesh, adjacency, result.charts), chart_mapping(bound),
+                          [this](double part) { return proceed(0.3, 0.4, part); }, recut));
   result.fail(m_result);
   return result;
 }
@@ -237,6 +248,7 @@ inline bool Texture_atlas_builder::map()
   const Blocked_execution::Stopwatch watch;
   const std::size_t most = m_models.is_bounded ? m_options.max_charts : 0;
   const bool is_full = most > 0 && m_charts.number_of_charts >= most;
+  m_adjacency.emplace(m_mesh.triangles);
   if(!is_full)
     map_charts_within(m_options.bound, 0.4, most > 0 ? 0.6 : 0.8);
   if(is_full || (most > 0 && m_maps.size() > most)) { // no charts are left for the bound
@@ -254,7 +266,7 @@ inline void Texture_atlas_builder::map_charts_within(const Distortion_bound& bou
 {
   Chart_mapping mapping = chart_mapping(bound);
   mapping.no_seams = m_options.no_seams;
-  m_maps = map_charts(chart_meshes(m_mesh, m_charts), mapping,
+  m_maps = map_charts(chart_meshes(m_mesh, *m_adjacency, m_charts), mapping,
                       [&](double part) { return proceed(begin, end, part); },
                       m_result.report.recut_charts);
 }
@@ -283,7 +295,7 @@ inline void Texture_atlas_builder::fill()
   atlas.mesh.points = m_mesh.points;
   atlas.mesh.triangles = m_mesh.triangles;
   atlas.mesh.wedges.resize(m_mesh.triangles.size());
-  atlas.charts = charts_of_maps(m_mesh, m_maps);
+  atlas.charts = charts_of_maps(*m_adjacency, m_maps);
   for(std::size_t i = 0; i < m_maps.size(); ++i) {
     const Mapped_chart& map = m_maps[i];
     const Vertex_index first = Vertex_index(atlas.mesh.uv.size());
@@ -301,9 +313,18 @@ inline void Texture_atlas_builder::fill()
   report.texels_per_unit = m_packing.texels_per_unit;
   report.unwanted_seams
     = number_of_seams_on(m_mesh.triangles, atlas.charts, m_options.no_seams);
-  report.seam_length = seam_length(m_mesh, atlas.charts);
+  report.seam_length = seam_length(m_mesh, *m_adjacency, atlas.charts);
   measure_atlas(atlas, report);
 }
+
+CGAL_HLSCM_INLINE Texture_atlas_result build_atlas(const Indexed_triangle_mesh& mesh,
+                                                   const Texture_atlas_options& options,
+                                                   const Atlas_models& models)
+{
+  return Texture_atlas_builder(mesh, options, models).run();
+}
+
+#endif // CGAL_HLSCM_DEFINITIONS
 
 } // namespace internal
 } // namespace Surface_mesh_texturing

@@ -6,13 +6,12 @@
 
 #include <CGAL/Surface_mesh_texturing/internal/packing/Density_search.h>
 #include <CGAL/Surface_mesh_texturing/internal/packing/Greedy_packing.h>
-#include <CGAL/Surface_mesh_texturing/internal/packing/packing_keys.h>
+#include <CGAL/Surface_mesh_texturing/internal/packing/Chart_outline.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
-#include <string>
 #include <utility>
 #include <vector>
 

@@ -5,7 +5,6 @@
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_SEAMS_REFINABLE_SEAM_GRAPH_H
 
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
-#include <CGAL/Surface_mesh_texturing/Crease_weights.h>
 #include <CGAL/Surface_mesh_texturing/internal/seams/Seam_graph.h>
 
 #include <CGAL/assertions.h>
@@ -27,8 +26,7 @@ class Crease_metric
 {
 public:
   typedef std::uint64_t Length;
-  typedef Indexed_mesh::Indexed_triangle_mesh::Point_3 Point_3;
-  typedef Indexed_mesh::Vertex_index Vertex_index;
+  typedef Indexed_triangle_mesh::Point_3 Point_3;
 
   // The points must live as long as the metric.
   Crease_metric(const std::vector<Point_3>& points, const Crease_weights& weights)
@@ -173,16 +171,6 @@ public:
   // Takes edges inside the surface, marked at both of their triangles as in `Face_charts`, to be
   // longer than any way around. For a mesh that is not refined.
   void avoid(std::vector<std::uint8_t> sides) { m_avoided = std::move(sides); }
-
-  // The length of the seams inside the surface.
-  Length length_inside() const
-  {
-    Length sum = 0;
-    for(Halfedge h = 0; h < mesh().number_of_halfedges(); ++h)
-      if(is_seam(h) && !is_border(h) && opposite(h) > h)
-        sum += length(h);
-    return sum;
-  }
 
   const Crease_metric& metric() const { return m_metric; }
 
