@@ -236,7 +236,8 @@ TEST(Progressive_surface_file, writer_refuses_bad_data_in_a_sentence)
   SMM::Textured_progressive_mesh mesh = SMM::coarse_first(decimated(irregular_grid(8, 8, seed)));
   mesh.vertex.back() -= 1;
   mesh.points.pop_back();
-  EXPECT_EQ(SMM::write_progressive_mesh(file, mesh).error, "without texture each vertex has one wedge");
+  EXPECT_EQ(SMM::write_progressive_mesh(file, mesh).error,
+            "without texture each vertex has one wedge");
 }
 
 } // namespace progressive_surface_test

@@ -99,7 +99,8 @@ inline Mesh_outcome chart_error(const Progressive_mesh& pm,
   const std::size_t n = pm.number_of_vertices;
   Mesh_outcome result;
   if(points.size() != n || uv.size() != n)
-    result.fail(Mesh_status::BAD_MESH, "there is not a point and a texture coordinate for each vertex");
+    result.fail(Mesh_status::BAD_MESH,
+                "there is not a point and a texture coordinate for each vertex");
   if(!result.fail(Mesh_status::BAD_MESH, index_error(pm.triangles, n))
      && !result.fail(Mesh_status::BAD_MESH, point_error(points)))
     result.fail(Mesh_status::BAD_MESH, uv_error(uv));

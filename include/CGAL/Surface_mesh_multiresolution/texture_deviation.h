@@ -258,8 +258,8 @@ as few triangles as possible.
 
 It is found by bisection on the logarithm of the number of triangles, down to 1 %, and what is
 returned was measured. The errors grow with \f$ k \f$ on the whole but not from collapse to
-collapse, so that a coarser level may be within the bound too. The finest level, 0, always is, and the only one of a mesh
-without texture.
+collapse, so that a coarser level may be within the bound too. The finest level, 0, always is, and
+the only one of a mesh without texture.
 
 \param mesh a mesh all of whose whole levels satisfy the precondition of
        `measure_texture_deviation()`

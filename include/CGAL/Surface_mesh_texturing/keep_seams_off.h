@@ -125,8 +125,8 @@ inline Face_charts keep_seams_off(const Indexed_triangle_mesh& mesh, const Face_
     if(label[t] != label[u] || (is_cut && !internal::is_marked(sides, h)))
       internal::mark(seams, h);
   }
-  const Face_charts disks
-    = internal::cut_to_disks(mesh, adjacency, charts_between(adjacency, std::move(seams)), cut, sides);
+  const Face_charts parts = charts_between(adjacency, std::move(seams));
+  const Face_charts disks = internal::cut_to_disks(mesh, adjacency, parts, cut, sides);
   return internal::straighten_charts(mesh, disks, straightening, sides);
 }
 

@@ -93,9 +93,9 @@ inline Face_charts straighten_charts(const Indexed_triangle_mesh& mesh, const Fa
 Returns charts with shorter seams: pieces of `window` edges are replaced by the shortest paths of
 edges in a band of `rings` edges around them, where creases count less, and junctions of seams move
 to where their seams are shortest, those on the border of the surface along it. The ends of seams
-within a chart, and vertices of much curvature, stay. If the mesh is no manifold
-(`Indexed_mesh::manifold_error()`), or there is a `charts_error()`, there are no charts. If all charts are disks, they still are, and
-their number does not change. The weighted length of the seams never grows.
+within a chart, and vertices of much curvature, stay. If all charts are disks, they still are, and
+their number does not change. The weighted length of the seams never grows. If the mesh is no manifold
+(`Indexed_mesh::manifold_error()`), or there is a `charts_error()`, there are no charts.
 
 Time linear in the number of triangles, with a small constant, plus that of the seam edges times
 `rounds * rings`.

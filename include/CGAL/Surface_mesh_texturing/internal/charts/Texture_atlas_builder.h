@@ -219,7 +219,8 @@ inline Segmentation_result Texture_atlas_builder::find_charts(const Indexed_tria
   Segmentation_result result = m_models.segment(mesh, options);
   if(m_models.is_own || !result.is_ok())
     return result;
-  if(!result.fail(foreign_seams_error(mesh, result.charts.seams))) // whatever the charts say beside their seams
+  // Whatever the charts say beside their seams
+  if(!result.fail(foreign_seams_error(mesh, result.charts.seams)))
     result.charts
       = cut_to_disks(mesh, charts_between(mesh.triangles, std::move(result.charts.seams)));
   return result;
