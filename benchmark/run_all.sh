@@ -166,5 +166,6 @@ for name in side_by_side other_charts; do
   "$python" benchmark/plot.py "$out/$name.csv" -o "$out/$name.png"
 done
 "$python" benchmark/plot_parameters.py "$out/parameters.csv" -o "$out/parameters.png"
+"$python" benchmark/compile_time.py > "$out/compile_time.csv"
 print_machine >> "$out/machine.txt"
 say "done: $out"
