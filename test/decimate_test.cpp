@@ -41,7 +41,7 @@ namespace SMM = CGAL::Surface_mesh_multiresolution;
 namespace SMS = CGAL::Surface_mesh_simplification;
 using namespace test_support;
 using CGAL::Indexed_mesh::Vertex_index;
-using SMM::Decimation_status;
+using CGAL::Indexed_mesh::Mesh_status;
 
 typedef CGAL::Simple_cartesian<double> Kernel;
 typedef CGAL::Surface_mesh<Point_3> Surface_mesh;
@@ -149,7 +149,8 @@ TYPED_TEST(Decimate, leaves_what_the_engine_leaves_of_the_arrays)
       const SMM::Decimation_result result = SMM::decimate(mesh, options);
       ASSERT_EQ(result.error, "");
       EXPECT_EQ(result.number_of_collapses, k);
-      EXPECT_EQ(result.status == Decimation_status::STOPPED,
+      EXPECT_EQ(result.status, Mesh_status::OK);
+      EXPECT_EQ(!result.is_exhausted,
                 arrays.points.size() - k == options.target_vertices);
       EXPECT_EQ(defect_of(mesh), "");
       EXPECT_EQ(numbered_triangles(mesh, number),
@@ -194,7 +195,7 @@ TYPED_TEST(Decimate, keeps_constrained_edges)
   const SMM::Decimation_result result
     = SMM::decimate(mesh, SMS::Count_stop_predicate<TypeParam>(1),
                     CGAL::parameters::edge_is_constrained_map(is_constrained));
-  EXPECT_EQ(result.status, Decimation_status::EXHAUSTED);
+  EXPECT_TRUE(result.is_ok() && result.is_exhausted) << result.error;
   EXPECT_GT(result.number_of_collapses, arrays.points.size() / 2);
   EXPECT_EQ(defect_of(mesh), "");
   for(const auto& [v, w] : kept) {
@@ -247,7 +248,7 @@ Counts decimated(const Stop& stop, SMM::Collapse_order order)
   ordered.stop = &stop;
   Indexed_triangle_mesh mesh = hills();
   const SMM::Decimation_result result = SMM::decimate(mesh, ordered);
-  EXPECT_EQ(result.status, Decimation_status::STOPPED) << result.error;
+  EXPECT_TRUE(result.is_ok() && !result.is_exhausted) << result.error;
   if(order == SMM::Collapse_order::BATCHED) { // what there is without options
     Indexed_triangle_mesh other = hills();
     SMM::decimate(other, stop);
@@ -290,7 +291,8 @@ TEST_P(Stop_predicates, options_are_one)
   options.order = GetParam();
   const auto left = [&options] {
     Indexed_triangle_mesh mesh = hills();
-    EXPECT_EQ(SMM::decimate(mesh, options).status, Decimation_status::STOPPED);
+    const SMM::Decimation_result result = SMM::decimate(mesh, options);
+    EXPECT_TRUE(result.is_ok() && !result.is_exhausted) << result.error;
     return counts_of(mesh);
   };
   options.target_vertices = 400;
@@ -330,7 +332,8 @@ TEST_P(Stop_predicates, bounds_the_cost)
   const auto np = CGAL::parameters::get_cost(Length_cost()).filter(SMS::internal::Accept_all_filter());
   surface.progressive_mesh.number_of_vertices = mesh.points.size();
   surface.progressive_mesh.triangles = mesh.triangles;
-  EXPECT_EQ(SMM::internal::decimate_by(options, np, {}, surface), Decimation_status::STOPPED);
+  EXPECT_FALSE(SMM::internal::decimate_by(options, np, {}, surface)); // not exhausted
+  EXPECT_EQ(surface.error, "");
   ASSERT_GT(surface.progressive_mesh.collapses.size(), mesh.points.size() / 10);
   for(std::size_t i = 0; i < surface.progressive_mesh.collapses.size(); ++i)
     EXPECT_LE(length_of(surface, i), options.max_cost * (1. + 1e-6));
@@ -391,7 +394,7 @@ TEST(Decimate_policies, are_those_of_edge_collapse)
     CGAL::parameters::get_cost(SMS::Edge_length_cost<Surface_mesh>())
       .get_placement(Placement({}, Filter(), is_locked))
       .filter(SMS::Bounded_normal_change_filter<>()));
-  EXPECT_EQ(result.status, Decimation_status::STOPPED);
+  EXPECT_TRUE(result.is_ok() && !result.is_exhausted) << result.error;
   for(const auto v : locked)
     EXPECT_FALSE(mesh.is_removed(v));
   EXPECT_EQ(defect_of(mesh), "");
@@ -465,7 +468,7 @@ TEST(Decimate_errors, are_sentences_and_leave_the_mesh)
   for(const auto& [mesh, sentence] : bad) {
     Indexed_triangle_mesh copy = mesh;
     const SMM::Decimation_result result = SMM::decimate(copy, options);
-    EXPECT_EQ(result.status, Decimation_status::BAD_INPUT);
+    EXPECT_EQ(result.status, Mesh_status::BAD_MESH);
     EXPECT_EQ(result.error, sentence);
     EXPECT_EQ(result.number_of_collapses, 0u);
     EXPECT_EQ(copy.triangles, mesh.triangles);
@@ -494,7 +497,11 @@ TEST(Decimate_progress, may_cancel)
     return part < 0.5;
   };
   Indexed_triangle_mesh mesh = hills();
-  EXPECT_EQ(SMM::decimate(mesh, options).status, Decimation_status::CANCELLED);
+  const SMM::Decimation_result result = SMM::decimate(mesh, options);
+  EXPECT_EQ(result.status, Mesh_status::CANCELLED);
+  EXPECT_EQ(result.error, "cancelled");
+  EXPECT_FALSE(result.is_exhausted);
+  EXPECT_EQ(mesh.points.size() + result.number_of_collapses, hills().points.size());
   EXPECT_EQ(topology_of(mesh.triangles).defect, "");
   EXPECT_GT(mesh.triangles.size(), 100u);
 }

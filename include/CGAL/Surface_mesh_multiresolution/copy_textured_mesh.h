@@ -41,7 +41,7 @@ void append_level(const Textured_progressive_mesh& mesh,
       const Vertex_index v = mesh.vertex[t[c]];
       if(copies[v] == Graph_traits::null_vertex()) {
         copies[v] = add_vertex(result);
-        put(vpm, copies[v], Point_3(mesh.points[v].x(), mesh.points[v].y(), mesh.points[v].z()));
+        put(vpm, copies[v], Indexed_mesh::converted_point<Point_3>(mesh.points[v], np));
       }
       face[c] = copies[v];
     }
@@ -68,7 +68,7 @@ Returns a progressive mesh of `mesh` all levels of which share its texture coord
 \param mesh a triangle mesh; faces that are no triangles are an error, too
 \param corner_uv as for `textured_triangle_mesh()`
 \param options where to stop, and what must stay
-\param np `vertex_point_map`: the points; `get(vertex_point, mesh)` by default
+\param np `vertex_point_map` and `geom_traits`; see `Indexed_mesh::copy_points()`
 */
 template <class TriangleMesh, class CornerUv,
           class NamedParameters = parameters::Default_named_parameters>
@@ -77,8 +77,11 @@ build_textured_progressive_mesh(const TriangleMesh& mesh, const CornerUv& corner
                                 const Textured_progressive_mesh_options& options,
                                 const NamedParameters& np = parameters::default_values())
 {
-  if(!is_triangle_mesh(mesh))
-    return {{}, "not all faces are triangles; triangulate the mesh first"};
+  Textured_progressive_mesh_result result;
+  if(!is_triangle_mesh(mesh)) {
+    result.fail(Mesh_status::BAD_MESH, "not all faces are triangles; triangulate the mesh first");
+    return result;
+  }
   return build_textured_progressive_mesh(textured_triangle_mesh(mesh, corner_uv, np), options);
 }
 
@@ -96,7 +99,8 @@ Appends a level to a mesh.
 \param corner_uvmap a model of `WritablePropertyMap` with the halfedge descriptor of `result` as key
        and `Point_2` as value: gets the texture coordinate at the target of each halfedge of a face;
        nothing if there is no texture
-\param np `vertex_point_map`: where the points go; `get(vertex_point, result)` by default
+\param np `vertex_point_map`: where the points go, `get(vertex_point, result)` by default;
+       `geom_traits`: what makes them, see `Indexed_mesh::converted_point()`
 
 Linear time in the number of triangles and of vertices of the fine mesh.
 */

@@ -52,8 +52,9 @@ struct Baking_options
 };
 
 /// \ingroup PkgHLSCMTexturing
-/// An image that has been baked.
+/// An image that has been baked; none if there is an error.
 struct Baked_map
+  : Indexed_mesh::Mesh_outcome
 {
   /// Texels beyond the charts and out of reach of the dilation are 0 in all channels.
   Texture_image image;
@@ -66,99 +67,101 @@ struct Baked_map
   /// the value of the nearest sample that does not; see `Equal_uv`.
   std::size_t number_of_samples_beside = 0;
   std::size_t number_of_samples_without = 0; ///< Of these, those that found no point at all.
-  std::string error; ///< why there is no image, as a sentence; empty if all is well
 };
 
 namespace internal {
 
-// What is wrong with the texture coordinates of a mesh in an atlas, or nothing. They may leave the texture by its size, which is more than
-// rounding or a chart at the border may need.
-inline std::string atlas_error(const Textured_triangle_mesh& mesh, const std::string& name)
+// What is wrong with a mesh in an atlas, or nothing. Its texture coordinates may leave the texture by
+// its size, which is more than rounding or a chart at the border may need.
+inline Mesh_outcome atlas_error(const Textured_triangle_mesh& mesh, const std::string& name)
 {
-  const std::string error = texture_error(mesh, name);
-  if(!error.empty())
-    return error;
+  Mesh_outcome result;
+  if(result.fail(Mesh_status::BAD_MESH, mesh_error(mesh, name))
+     || result.fail(Mesh_status::BAD_MESH, texture_error(mesh, name)))
+    return result;
   for(std::size_t w = 0; w < mesh.uv.size(); ++w)
     for(int c = 0; c < 2; ++c)
       if(mesh.uv[w][c] < -1. || mesh.uv[w][c] > 2.)
-        return "texture coordinate " + std::to_string(w) + " of " + name
-             + " lies far beyond the texture [0, 1] x [0, 1]";
+        return {Mesh_status::BAD_MESH, "texture coordinate " + std::to_string(w) + " of " + name
+                                         + " lies far beyond the texture [0, 1] x [0, 1]"};
   return {};
 }
 
 // What is wrong with an array that has `size` entries where there should be `n`, or nothing.
-inline std::string size_error(std::size_t size, std::size_t n, const std::string& what)
+inline Mesh_outcome size_error(std::size_t size, std::size_t n, const std::string& what)
 {
-  return size == n ? std::string()
-                   : "there are " + std::to_string(size) + " " + what + " instead of "
-                       + std::to_string(n);
+  if(size == n)
+    return {};
+  return {Mesh_status::BAD_OPTIONS,
+          "there are " + std::to_string(size) + " " + what + " instead of " + std::to_string(n)};
 }
 
 // What is wrong with frames that are said to be those of a mesh, or nothing.
-inline std::string frame_error(const Tangent_frames& frames, const Textured_triangle_mesh& light)
+inline Mesh_outcome frame_error(const Tangent_frames& frames, const Textured_triangle_mesh& light)
 {
-  std::string error = size_error(frames.normals.size(), light.points.size(),
-                                 "normals in the frames of the light model");
-  if(error.empty())
-    error = size_error(frames.corners.size(), light.triangles.size(),
-                       "triangles in the frames of the light model");
-  for(std::size_t t = 0; t < frames.corners.size() && error.empty(); ++t)
+  Mesh_outcome result = size_error(frames.normals.size(), light.points.size(),
+                                   "normals in the frames of the light model");
+  if(result.fail(size_error(frames.corners.size(), light.triangles.size(),
+                            "triangles in the frames of the light model")))
+    return result;
+  for(std::size_t t = 0; t < frames.corners.size(); ++t)
     for(const Vertex_index f : frames.corners[t])
       if(f >= frames.frames.size())
-        error = "triangle " + std::to_string(t) + " has a corner without frame";
-  return error;
+        return {Mesh_status::BAD_OPTIONS,
+                "triangle " + std::to_string(t) + " has a corner without frame"};
+  return {};
 }
 
-inline std::string image_error(const Texture_image& image, const std::string& name)
+inline Mesh_outcome image_error(const Texture_image& image, const std::string& name)
 {
   if(image.width == 0 || image.height == 0 || image.channels == 0)
-    return name + " has no texels";
+    return {Mesh_status::BAD_OPTIONS, name + " has no texels"};
   return size_error(image.texels.size(), image.width * image.height * image.channels,
                     "values in " + name);
 }
 
-inline std::string options_error(const Baking_options& options)
+inline Mesh_outcome options_error(const Baking_options& options)
 {
   if(options.width == 0 || options.height == 0)
-    return "the image has no texels";
+    return {Mesh_status::BAD_OPTIONS, "the image has no texels"};
   if(options.samples == 0)
-    return "there are no samples in a texel";
+    return {Mesh_status::BAD_OPTIONS, "there are no samples in a texel"};
   const std::size_t most = 65534; // what Nearest_covered counts in 16 bits
   if((std::max)(options.width, options.height) > most / (std::min)(options.samples, most))
-    return "there are more than 65534 samples in a row or column of the image";
+    return {Mesh_status::BAD_OPTIONS,
+            "there are more than 65534 samples in a row or column of the image"};
   return {};
 }
 
 // What is wrong with the model that gets the image, or nothing.
-inline std::string light_error(const Textured_triangle_mesh& light, const Baking_options& options)
+inline Mesh_outcome light_error(const Textured_triangle_mesh& light, const Baking_options& options)
 {
-  std::string error = options_error(options);
-  if(error.empty())
-    error = mesh_error(light, "the light model");
-  return error.empty() ? atlas_error(light, "the light model") : error;
+  Mesh_outcome result = options_error(options);
+  if(result.is_ok())
+    result = atlas_error(light, "the light model");
+  return result;
 }
 
 // What is wrong with the two meshes of a bake at equal texture coordinates, or nothing.
-inline std::string baking_error(const Textured_triangle_mesh& fine,
-                                const Textured_triangle_mesh& light, const Baking_options& options)
+inline Mesh_outcome baking_error(const Textured_triangle_mesh& fine,
+                                 const Textured_triangle_mesh& light,
+                                 const Baking_options& options)
 {
-  std::string error = options_error(options);
-  if(error.empty())
-    error = mesh_error(fine, "the fine mesh");
-  if(error.empty())
-    error = atlas_error(fine, "the fine mesh");
-  return error.empty() ? light_error(light, options) : error;
+  Mesh_outcome result = options_error(options);
+  if(result.is_ok() && !result.fail(atlas_error(fine, "the fine mesh")))
+    result = atlas_error(light, "the light model");
+  return result;
 }
 
 // What is wrong with the two meshes of a bake by rays, or nothing.
-inline std::string ray_baking_error(const Indexed_triangle_mesh& fine,
-                                    const Textured_triangle_mesh& light,
-                                    const Baking_options& options)
+inline Mesh_outcome ray_baking_error(const Indexed_triangle_mesh& fine,
+                                     const Textured_triangle_mesh& light,
+                                     const Baking_options& options)
 {
-  std::string error = options_error(options);
-  if(error.empty())
-    error = mesh_error(fine, "the fine mesh");
-  return error.empty() ? light_error(light, options) : error;
+  Mesh_outcome result = options_error(options);
+  if(result.is_ok() && !result.fail(Mesh_status::BAD_MESH, mesh_error(fine, "the fine mesh")))
+    result = atlas_error(light, "the light model");
+  return result;
 }
 
 } // namespace internal
@@ -312,8 +315,7 @@ Baked_map bake(const Textured_triangle_mesh& light, const Correspondence& corres
   typedef internal::Band_baker<Correspondence, Shader> Baker;
   const std::size_t texel_rows = 8, bands_between_progress = 16;
   Baked_map map;
-  map.error = internal::light_error(light, options);
-  if(!map.error.empty())
+  if(map.fail(internal::light_error(light, options)))
     return map;
   map.image = {options.width, options.height, shader.channels(), {}};
   map.image.texels.assign(options.width * options.height * shader.channels(), 0.f);
@@ -326,7 +328,7 @@ Baked_map bake(const Textured_triangle_mesh& light, const Correspondence& corres
   const std::size_t bands = raster.number_of_bands();
   for(std::size_t first = 0; first < bands; first += bands_between_progress) {
     if(options.progress && !options.progress(double(first) / double(bands))) {
-      map.error = "cancelled";
+      map.cancel();
       map.image = Texture_image();
       return map;
     }

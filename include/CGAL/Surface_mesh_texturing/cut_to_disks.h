@@ -8,8 +8,6 @@
 #include <CGAL/Surface_mesh_texturing/chart_topology.h>
 #include <CGAL/Surface_mesh_texturing/internal/seams/Seam_straightener.h>
 
-#include <CGAL/assertions.h>
-
 #include <algorithm>
 #include <functional>
 #include <limits>
@@ -45,11 +43,14 @@ namespace internal {
 class Disk_cutter
 {
 public:
-  Disk_cutter(const Indexed_triangle_mesh& mesh, const Disk_cut_options& options)
+  // `avoided`: see Refinable_seam_graph::avoid()
+  Disk_cutter(const Indexed_triangle_mesh& mesh, const Disk_cut_options& options,
+              std::vector<std::uint8_t> avoided = {})
     : m_options(options), m_mesh(mesh.triangles, mesh.points.size())
     , m_graph(m_mesh, mesh.points, options.creases)
     , m_plain(mesh.points, plain_weights())
   {
+    m_graph.avoid(std::move(avoided));
     m_graph.set_seams(
       label_charts(m_mesh, std::vector<std::uint8_t>(mesh.triangles.size())).seams);
     for(Vertex_index v = 0; v < mesh.points.size(); ++v)
@@ -263,6 +264,29 @@ inline void Disk_cutter::add_extremities()
   }
 }
 
+// As the public one, of a mesh and charts that have been checked; `avoided` may be empty, see
+// Refinable_seam_graph::avoid().
+inline Face_charts cut_to_disks(const Indexed_triangle_mesh& mesh,
+                                const Triangle_adjacency& adjacency, Face_charts charts,
+                                const Disk_cut_options& options,
+                                const std::vector<std::uint8_t>& avoided)
+{
+  charts.seams = without_lonely_seams(adjacency, std::move(charts.seams));
+  const std::vector<Chart_topology> topologies = chart_topologies(adjacency, charts);
+  if(error_of_charts(topologies).empty())
+    return charts;
+  const std::vector<Chart_mesh> meshes = cut_out_charts(mesh, adjacency, charts);
+  for(std::size_t c = 0; c < meshes.size(); ++c) {
+    if(topologies[c].is_disk())
+      continue;
+    const std::vector<std::uint8_t> seams
+      = Disk_cutter(meshes[c].mesh, options, meshes[c].sides(avoided)).cut();
+    for(std::size_t t = 0; t < seams.size(); ++t)
+      charts.seams[meshes[c].triangles[t]] |= seams[t];
+  }
+  return charts;
+}
+
 } // namespace internal
 
 /*!
@@ -272,34 +296,26 @@ Returns `charts` with seams added within those charts that are no disks, until a
 short and prefer creases, concave ones above all. A chart with several borders gets seams between
 them, a chart with handles seams along these, and a closed chart a tree of seams to its extremities.
 
-Any surface that `Face_charts` can describe will do. Time \f$ O(n \log n) \f$ for the charts that
-are no disks, linear for the others.
+Any surface that `Face_charts` can describe will do; if there is a `charts_error()` there are no
+charts. Time \f$ O(n \log n) \f$ for the charts that are no disks, linear for the others.
 */
 inline Face_charts cut_to_disks(const Indexed_triangle_mesh& mesh, Face_charts charts,
                                 const Disk_cut_options& options = Disk_cut_options())
 {
-  CGAL_precondition(charts.seams.size() == mesh.triangles.size());
+  if(!surface_error(mesh).empty())
+    return {};
   const Indexed_mesh::Triangle_adjacency adjacency(mesh.triangles);
-  charts.seams = internal::without_lonely_seams(adjacency, std::move(charts.seams));
-  const std::vector<Chart_topology> topologies = chart_topologies(adjacency, charts);
-  if(error_of_charts(topologies).empty())
-    return charts;
-  const std::vector<Chart_mesh> meshes = chart_meshes(mesh, adjacency, charts);
-  for(std::size_t c = 0; c < meshes.size(); ++c) {
-    if(topologies[c].is_disk())
-      continue;
-    const std::vector<std::uint8_t> seams = internal::Disk_cutter(meshes[c].mesh, options).cut();
-    for(std::size_t t = 0; t < seams.size(); ++t)
-      charts.seams[meshes[c].triangles[t]] |= seams[t];
-  }
-  return charts;
+  if(!internal::adjacency_error(mesh, adjacency, charts).is_ok())
+    return {};
+  return internal::cut_to_disks(mesh, adjacency, std::move(charts), options, {});
 }
 
 /*!
 \ingroup PkgHLSCMTexturing
 
 Returns the connected components of `mesh` as charts, each cut to one disk. On a mesh of many
-triangles it is faster to cut a coarse one and to refine the cut; see `segment_coarse_to_fine()`.
+triangles it is faster to cut a coarse one and to refine the cut; see `segment_coarse_to_fine()`. None
+if there is a `charts_error()`.
 */
 inline Face_charts one_disk_per_component(const Indexed_triangle_mesh& mesh,
                                           const Disk_cut_options& options = Disk_cut_options())

@@ -70,6 +70,9 @@ border, as those of `Flat_collapse_engine`
 \param points of the fine mesh
 \param options of the straightening; with `rounds` 0 the seams are only carried along
 
+\pre all that: this is a part of `segment_coarse_to_fine()`, which makes `pm` itself and checks the
+rest, and whom a check of the collapses would cost more than they do
+
 Time linear in the number of triangles of `pm`.
 */
 inline Face_charts refine_charts(const Progressive_mesh& pm,

@@ -86,6 +86,7 @@ private:
 /// \ingroup PkgHLSCMTexturing
 /// How much a light model looks unlike the original; angles are in degrees.
 struct Rendering_error
+  : Indexed_mesh::Mesh_outcome
 {
   double mean_angle = 0.;                 ///< between the normals that are seen, with the map
   double angle_95 = 0.;                   ///< that 95 % of the pixels do not exceed, with the map
@@ -93,7 +94,6 @@ struct Rendering_error
   double angle_95_without_map = 0.;       ///< with the interpolated normals of the light model
   double silhouette_difference = 0.;      ///< pixels that show one model only, to those of any
   std::size_t number_of_pixels = 0;       ///< that show both models, in all views together
-  std::string error; ///< why nothing was measured, as a sentence; empty if all is well
 };
 
 namespace internal {
@@ -125,23 +125,21 @@ struct View_error
   std::size_t one = 0, any = 0; // pixels
 };
 
-inline std::string rendering_input_error(const Textured_triangle_mesh& original,
-                                         const Textured_triangle_mesh& light,
-                                         const Tangent_frames& frames, const Texture_image& map,
-                                         std::size_t size)
+inline Mesh_outcome rendering_input_error(const Textured_triangle_mesh& original,
+                                          const Textured_triangle_mesh& light,
+                                          const Tangent_frames& frames, const Texture_image& map,
+                                          std::size_t size)
 {
-  std::string error = size == 0 ? "the pictures have no pixels" : std::string();
-  if(error.empty())
-    error = mesh_error(original, "the original");
-  if(error.empty())
-    error = mesh_error(light, "the light model");
-  if(error.empty())
-    error = texture_error(light, "the light model");
-  if(error.empty())
-    error = frame_error(frames, light);
-  if(error.empty())
-    error = image_error(map, "the normal map");
-  return error.empty() && map.channels != 3 ? "the normal map has not three channels" : error;
+  Mesh_outcome result;
+  if(size == 0)
+    result.fail(Mesh_status::BAD_OPTIONS, "the pictures have no pixels");
+  if(!result.fail(Mesh_status::BAD_MESH, mesh_error(original, "the original"))
+     && !result.fail(Mesh_status::BAD_MESH, mesh_error(light, "the light model"))
+     && !result.fail(Mesh_status::BAD_MESH, texture_error(light, "the light model"))
+     && !result.fail(frame_error(frames, light)) && !result.fail(image_error(map, "the normal map"))
+     && map.channels != 3)
+    result.fail(Mesh_status::BAD_OPTIONS, "the normal map has not three channels");
+  return result;
 }
 
 // The normals that renderers see on a model.
@@ -192,7 +190,7 @@ The result does not depend on the unit of length, nor on the number of threads. 
 numbers of triangles and of pixels.
 
 Bad data (no triangles, indices out of range, coordinates that are not finite, frames of another mesh,
-a map that has not three channels, pictures without pixels) give a result with `error` set.
+a map that has not three channels, pictures without pixels) give a result with an error.
 */
 inline Rendering_error rendering_error(const Textured_triangle_mesh& original,
                                        const Textured_triangle_mesh& light,
@@ -200,8 +198,7 @@ inline Rendering_error rendering_error(const Textured_triangle_mesh& original,
                                        Normal_space space, std::size_t size = 512)
 {
   Rendering_error result;
-  result.error = internal::rendering_input_error(original, light, frames, map, size);
-  if(!result.error.empty())
+  if(result.fail(internal::rendering_input_error(original, light, frames, map, size)))
     return result;
   const std::vector<Vector_3> normals = vertex_normals(original);
   const internal::Seen_normals seen(light, frames);
@@ -233,8 +230,8 @@ inline Rendering_error rendering_error(const Textured_triangle_mesh& original,
   }
   const auto with = internal::mean_and_quantile(all.with_map);
   const auto without = internal::mean_and_quantile(all.without_map);
-  return {with[0], with[1], without[0], without[1],
-          all.any > 0 ? double(all.one) / double(all.any) : 0., all.with_map.size(), {}};
+  return {{}, with[0], with[1], without[0], without[1],
+          all.any > 0 ? double(all.one) / double(all.any) : 0., all.with_map.size()};
 }
 
 } // namespace Surface_mesh_texturing

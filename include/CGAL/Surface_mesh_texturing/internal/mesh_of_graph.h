@@ -6,6 +6,7 @@
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Indexed_mesh/mesh_arrays.h>
+#include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
 
 #include <CGAL/Default.h>
@@ -13,7 +14,6 @@
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/named_params_helper.h>
 
-#include <cstdint>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -27,23 +27,24 @@ using Surface_mesh_multiresolution::Textured_triangle_mesh;
 namespace internal {
 
 template <class FaceGraph>
-std::string polygon_error(const FaceGraph& mesh, const std::string& name)
+Mesh_outcome polygon_error(const FaceGraph& mesh, const std::string& name)
 {
-  return is_triangle_mesh(mesh)
-         ? std::string()
-         : "not all faces of " + name + " are triangles; triangulate it first";
+  if(is_triangle_mesh(mesh))
+    return {};
+  return {Mesh_status::BAD_MESH,
+          "not all faces of " + name + " are triangles; triangulate it first"};
 }
 
 // What keeps these two from being baked; empty if nothing does.
 template <class FineMesh, class LightMesh>
-std::string polygon_error_of_models(const FineMesh& fine, const LightMesh& light)
+Mesh_outcome polygon_error_of_models(const FineMesh& fine, const LightMesh& light)
 {
-  const std::string error = polygon_error(fine, "the fine mesh");
-  return error.empty() ? polygon_error(light, "the light model") : error;
+  const Mesh_outcome result = polygon_error(fine, "the fine mesh");
+  return result.is_ok() ? polygon_error(light, "the light model") : result;
 }
 
-// The arrays of a mesh with texture coordinates. `uvmap` has a halfedge as key, which stands for the corner at
-// its target, or a vertex.
+// The arrays of a mesh with texture coordinates. `uvmap` has a halfedge as key, which stands for the
+// corner at its target, or a vertex.
 template <class FaceGraph, class UVMap, class NamedParameters>
 Textured_triangle_mesh textured_arrays_of_graph(const FaceGraph& mesh, const UVMap& uvmap,
                                                 const NamedParameters& np)
@@ -86,21 +87,6 @@ constexpr bool has_constrained_edges
   = !std::is_same<typename internal_np::Lookup_named_param_def<internal_np::edge_is_constrained_t,
                                                                NamedParameters, Default>::type,
                   Default>::value;
-
-// The edges of the named parameter `edge_is_constrained_map`, three bits a triangle as in
-// `Face_charts::seams`.
-template <class FaceGraph, class NamedParameters>
-std::vector<std::uint8_t> constrained_sides(const FaceGraph& mesh, const NamedParameters& np)
-{
-  const auto is_constrained = parameters::get_parameter(np, internal_np::edge_is_constrained);
-  std::vector<std::uint8_t> result; // num_faces() would count removed faces
-  for_each_side(mesh, [&](std::size_t t, int c, auto h) {
-    result.resize(t + 1, 0);
-    if(get(is_constrained, edge(h, mesh)))
-      result[t] |= std::uint8_t(1 << c);
-  });
-  return result;
-}
 
 } // namespace internal
 } // namespace Surface_mesh_texturing

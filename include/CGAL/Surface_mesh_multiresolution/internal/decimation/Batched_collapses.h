@@ -35,7 +35,7 @@ public:
   {}
 
   // Appends the collapses.
-  Decimation_status run(Progressive_mesh& pm);
+  Decimation_end run(Progressive_mesh& pm);
 
 private:
   static constexpr std::size_t steps_between_reports = 16384;
@@ -71,7 +71,7 @@ private:
 };
 
 template <class Surface, class Stop>
-Decimation_status Strict_collapses<Surface, Stop>::run(Progressive_mesh& pm)
+Decimation_end Strict_collapses<Surface, Stop>::run(Progressive_mesh& pm)
 {
   const std::size_t n = m_surface.number_of_vertices();
   if constexpr(Stop::asks_for_costs)
@@ -105,9 +105,8 @@ Decimation_status Strict_collapses<Surface, Stop>::run(Progressive_mesh& pm)
       enqueue(r[i]);
     has_stopped = m_stop.is_over(pm);
   }
-  if(m_progress.is_cancelled())
-    return Decimation_status::CANCELLED;
-  return has_stopped ? Decimation_status::STOPPED : Decimation_status::EXHAUSTED;
+  const bool is_cancelled = m_progress.is_cancelled();
+  return {!has_stopped && !is_cancelled, is_cancelled};
 }
 
 // The highest bits of a number, ordered as the numbers are.
@@ -174,7 +173,7 @@ public:
   {}
 
   // Appends the collapses and the ends of the passes.
-  Decimation_status run(Progressive_mesh& pm);
+  Decimation_end run(Progressive_mesh& pm);
 
 private:
   typedef Collapse_worker<Surface> Worker;
@@ -312,7 +311,7 @@ void Batched_collapses<Surface, Stop>::remove_dead()
 }
 
 template <class Surface, class Stop>
-Decimation_status Batched_collapses<Surface, Stop>::run(Progressive_mesh& pm)
+Decimation_end Batched_collapses<Surface, Stop>::run(Progressive_mesh& pm)
 {
   const std::size_t n = m_surface.number_of_vertices();
   if constexpr(!Stop::asks_for_costs) {
@@ -345,10 +344,8 @@ Decimation_status Batched_collapses<Surface, Stop>::run(Progressive_mesh& pm)
     is_exhausted = m_stop.is_limited() ? empty_passes == 4
                                        : 2 * done < wanted && 500 * done < before;
   }
-  if(m_progress.is_cancelled())
-    return Decimation_status::CANCELLED;
-  return is_exhausted && !m_stop.is_over(pm) ? Decimation_status::EXHAUSTED
-                                             : Decimation_status::STOPPED;
+  const bool is_cancelled = m_progress.is_cancelled();
+  return {is_exhausted && !is_cancelled && !m_stop.is_over(pm), is_cancelled};
 }
 
 } // namespace internal

@@ -221,10 +221,11 @@ std::vector<bool> locked_vertices(const TriangleMesh& mesh, const NamedParameter
   return result;
 }
 
-// Appends the collapses until `stop`, or says in `surface` what is wrong.
+// Appends the collapses until `stop`, or says in `surface` what is wrong; returns whether nothing more
+// could be collapsed before.
 template <class StopPredicate, class NamedParameters>
-Decimation_status decimate_by(const StopPredicate& stop, const NamedParameters& np,
-                              const std::vector<bool>& is_locked, Progressive_surface& surface)
+bool decimate_by(const StopPredicate& stop, const NamedParameters& np,
+                 const std::vector<bool>& is_locked, Progressive_surface& surface)
 {
   static_assert(!is_given<NamedParameters, internal_np::visitor_t>,
                 "decimate() calls no visitor; see Decimation_options::progress.");
@@ -242,13 +243,13 @@ Decimation_status decimate_by(const StopPredicate& stop, const NamedParameters& 
     for(std::size_t v = 0; v < is_locked.size() && v < options.is_locked.size(); ++v)
       options.is_locked[v] = options.is_locked[v] || is_locked[v];
 
-  Decimation_status status = Decimation_status::BAD_INPUT;
+  bool is_exhausted = false;
   const auto run = [&](auto& engine, const Prepared_mesh& prepared) {
     Indexed_triangle_mesh shown;
     for(const Vertex_index v : prepared.source)
       shown.points.push_back(surface.points[v]);
     Progressive_mesh pm = engine.run(options, stop, shown, 1. / prepared.scale);
-    status = engine.status();
+    is_exhausted = engine.end().is_exhausted;
     return pm;
   };
   constexpr bool has_cost = is_given<NamedParameters, internal_np::get_cost_policy_t>;
@@ -256,7 +257,7 @@ Decimation_status decimate_by(const StopPredicate& stop, const NamedParameters& 
     decimate_as_it_is(options, cost_of(np), filter_of(np, options), run, surface);
   else
     decimate_normalized(options, run, surface);
-  return status;
+  return is_exhausted;
 }
 
 } // namespace internal

@@ -32,6 +32,7 @@ struct Chart_mapping
   bool is_bounded = true; // if not, charts beyond the bound are not cut for that
   double least_fill = 0.75;
   std::size_t coarse_faces = 4000;
+  std::vector<std::uint8_t> no_seams = {}; // of the whole mesh; see Texture_atlas_options
 };
 
 // A chart with its map, in units of length of the surface, and whether it may stay as it is.
@@ -245,8 +246,9 @@ inline std::vector<Chart_mesh> cut_again(const Mapped_chart& mapped,
   growth.effort = effort;
   Segmentation_options segmentation;
   segmentation.coarse_faces = (std::min)(coarse_faces, mapping.coarse_faces);
+  segmentation.no_seams = chart.sides(mapping.no_seams);
   Segmentation_result cut = segment_into_charts(chart.mesh, segmentation, growth);
-  if(!cut.error.empty() || cut.charts.number_of_charts < 2)
+  if(!cut.is_ok() || cut.charts.number_of_charts < 2)
     cut.charts = halve_chart(chart.mesh);
   std::vector<Chart_mesh> parts = chart_meshes(chart.mesh, cut.charts);
   for(Chart_mesh& part : parts) {

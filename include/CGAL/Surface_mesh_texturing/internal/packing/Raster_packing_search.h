@@ -39,9 +39,9 @@ public:
     Packing_result result;
     maximize();
     if(m_is_cancelled)
-      result.error = "cancelled";
+      result.cancel();
     else if(!m_best.is_complete)
-      result.error = misfit_message(0, false, m_options);
+      result.fail(Mesh_status::FAILED, misfit_message(0, false, m_options));
     else
       result = packing_result(m_best, *m_best_charts, m_ladder.density(m_best_level));
     return result;
@@ -290,7 +290,7 @@ inline Packing_result Raster_packing_search::with_density(double density)
 {
   Packing_result result;
   if(!report()) {
-    result.error = "cancelled";
+    result.cancel();
     return result;
   }
   Chart_rasters charts(m_outlines, m_rotations, density, m_exact);
@@ -307,7 +307,7 @@ inline Packing_result Raster_packing_search::with_density(double density)
     for(int r = 0; r < m_rotations; ++r)
       fits = fits || charts.made(i, r).width > 0;
   }
-  result.error = misfit_message(misfit, !fits, m_options);
+  result.fail(Mesh_status::FAILED, misfit_message(misfit, !fits, m_options));
   return result;
 }
 

@@ -163,8 +163,14 @@ public:
     const Vertex_index v = source(h), w = target(h);
     if(o == no_halfedge)
       return m_metric.length(v, w);
-    return m_metric.length(v, w, source(previous_halfedge(h)), source(previous_halfedge(o)));
+    const Length detour = m_avoided.empty() || !is_marked(m_avoided, h) ? 0 : longest_detour;
+    return detour
+         + m_metric.length(v, w, source(previous_halfedge(h)), source(previous_halfedge(o)));
   }
+
+  // Takes edges inside the surface, marked at both of their triangles as in `Face_charts`, to be
+  // longer than any way around. For a mesh that is not refined.
+  void avoid(std::vector<std::uint8_t> sides) { m_avoided = std::move(sides); }
 
   const Crease_metric& metric() const { return m_metric; }
 
@@ -172,6 +178,8 @@ public:
   void split(Halfedge e, Vertex_index r, Vertex_index k);
 
 private:
+  static constexpr Length longest_detour = Length(1) << 40; // 4096 times the extent of the mesh
+
   // What a split does to the two sides of a triangle that it makes, which were one edge before.
   struct Doubled_edge
   {
@@ -185,7 +193,7 @@ private:
 
   Halfedge_triangles& m_refined;
   Crease_metric m_metric;
-  std::vector<std::uint8_t> m_is_on_border, m_is_pinned;
+  std::vector<std::uint8_t> m_is_on_border, m_is_pinned, m_avoided;
 };
 
 // The seams at both ends of a new edge but for those that are yet to be placed.
