@@ -7,6 +7,7 @@
 
 #include <CGAL/Surface_mesh_multiresolution/Level_extractor.h>
 #include <CGAL/Surface_mesh_multiresolution/build_textured_progressive_mesh.h>
+#include <CGAL/Surface_mesh_multiresolution/copy_textured_mesh.h>
 #include <CGAL/Surface_mesh_texturing/IO/GLB.h>
 
 #include <CGAL/boost/graph/generators.h>
