@@ -16,7 +16,7 @@
 #include <CGAL/Surface_mesh_multiresolution/build_textured_progressive_mesh.h>
 #include <CGAL/Surface_mesh_texturing/bake_normal_map.h>
 #include <CGAL/Surface_mesh_texturing/build_texture_atlas.h>
-#include <CGAL/Surface_mesh_texturing/encode_image.h>
+#include <CGAL/Surface_mesh_texturing/Texture_image.h>
 #include <CGAL/Surface_mesh_texturing/rendering_error.h>
 
 #include <CLI/CLI.hpp>

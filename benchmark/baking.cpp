@@ -17,7 +17,7 @@
 #include <CGAL/Surface_mesh_parameterization/conformal_map.h>
 #include <CGAL/Surface_mesh_texturing/bake_by_rays.h>
 #include <CGAL/Surface_mesh_texturing/bake_normal_map.h>
-#include <CGAL/Surface_mesh_texturing/encode_image.h>
+#include <CGAL/Surface_mesh_texturing/Texture_image.h>
 #include <CGAL/Surface_mesh_texturing/rendering_error.h>
 #ifndef HLSCM_WITHOUT_EMBREE
 #include <CGAL/Surface_mesh_texturing/Embree_ray_caster.h>

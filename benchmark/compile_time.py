@@ -7,8 +7,8 @@ CGAL's own parameterizer, the runs of all files taken in turn.
 Usage: compile_time.py [--compiler g++] [--runs 3] > results/compile_time.csv
 
 The file of the comparison is compile_time.cpp, at -O2: with CGAL's LSCM_parameterizer_3, with
-HLSCM_parameterizer_3 from headers alone, and with the compiled library (CGAL_HLSCM_COMPILED). The
-others include one header and have an empty main().
+HLSCM_parameterizer_3 from headers alone, and with the compiled library (CGAL_HLSCM_COMPILED), without
+and with TBB. The others include one header and have an empty main().
 """
 
 import argparse
@@ -25,7 +25,9 @@ INCLUDE = HERE.parent / "include"
 FLAGS = ["-std=c++17", "-O2", "-DNDEBUG", "-DCGAL_EIGEN3_ENABLED", f"-I{INCLUDE}",
          "-isystem", "/usr/include/eigen3"]
 PROGRAMS = {"cgal_lscm": [], "hlscm": ["-DWITH_HLSCM"],
-            "hlscm_compiled": ["-DWITH_HLSCM", "-DCGAL_HLSCM_COMPILED"]}
+            "hlscm_compiled": ["-DWITH_HLSCM", "-DCGAL_HLSCM_COMPILED"],
+            "hlscm_compiled_tbb": ["-DWITH_HLSCM", "-DCGAL_HLSCM_COMPILED",
+                                   "-DCGAL_LINKED_WITH_TBB"]}
 HEADERS = {"LSCM_parameterizer_3.h": "CGAL/Surface_mesh_parameterization/LSCM_parameterizer_3.h",
            "HLSCM_parameterizer_3.h": "CGAL/Surface_mesh_parameterization/HLSCM_parameterizer_3.h",
            "build_progressive_mesh.h":

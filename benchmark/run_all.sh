@@ -146,6 +146,7 @@ compare decimation --decimation
 mapfile -t large < <(find "$charts" -maxdepth 1 -name '*_1[0-9][0-9][0-9]k.ply' | sort)
 "$HLSCM_BIN/live_map" "${large[@]}" > "$out/live_map.csv"
 "$HLSCM_BIN/pins" "$charts"/pins/*.ply "${large[@]}" > "$out/pins.csv"
+"$HLSCM_BIN/decimate" "${large[@]}" > "$out/decimate.csv"
 "$HLSCM_BIN/levels" "${large[@]}" > "$out/levels.csv"
 "$HLSCM_BIN/baking" "${large[@]}" > "$out/baking.csv"
 "$HLSCM_BIN/packing" > "$out/packing.csv"
@@ -166,5 +167,6 @@ for name in side_by_side other_charts; do
   "$python" benchmark/plot.py "$out/$name.csv" -o "$out/$name.png"
 done
 "$python" benchmark/plot_parameters.py "$out/parameters.csv" -o "$out/parameters.png"
+"$python" benchmark/compile_time.py > "$out/compile_time.csv"
 print_machine >> "$out/machine.txt"
 say "done: $out"

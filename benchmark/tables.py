@@ -264,9 +264,29 @@ def levels():
          "it keeps 64-bit coordinates"]])
 
 
+COMPILED = {"cgal_lscm": "example, CGAL's `LSCM_parameterizer_3`",
+            "hlscm": "example, `HLSCM_parameterizer_3`, `CGAL::HLSCM`",
+            "hlscm_compiled": "the same, `CGAL::HLSCM_compiled`",
+            "hlscm_compiled_tbb": "the same with TBB",
+            "header LSCM_parameterizer_3.h": "`LSCM_parameterizer_3.h` alone",
+            "header HLSCM_parameterizer_3.h": "`HLSCM_parameterizer_3.h` alone"}
+
+
+def compile_time():
+    """What the compiler needs, beside CGAL's parameterizer."""
+    rows = {row["file"]: row for row in read("compile_time.csv")}
+    first = rows["cgal_lscm"]
+    lines = []
+    for file, title in COMPILED.items():
+        row = rows[file]
+        ratio = float(row["cpu_seconds"]) / float(first["cpu_seconds"])
+        lines.append([title, row["cpu_seconds"], f"{ratio:.2f}", row["megabytes"]])
+    return table(["compiled, -O2", "CPU s", "to CGAL's", "MB"], lines)
+
+
 TABLES = {table.__name__: table for table in (
     million_faces, ratios, scaling, growth, stages, stages_two_threads, atlases,
-    atlases_beside_paper, atlases_short, live, levels)}
+    atlases_beside_paper, atlases_short, live, levels, compile_time)}
 BEGIN, END = "<!-- table ", "<!-- end of table -->"
 
 

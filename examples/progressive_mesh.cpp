@@ -71,7 +71,7 @@ int main(int argc, char* argv[])
 
   // A file, of which any beginning will do
   std::ostringstream file;
-  const std::string error = SMM::write_progressive_mesh(file, surface);
+  const bool is_written = SMM::write_progressive_mesh(file, surface).is_ok();
   const std::string beginning = file.str().substr(0, file.str().size() / 2);
   const SMM::Read_progressive_mesh read
     = SMM::decode_progressive_mesh(beginning.data(), beginning.size());
@@ -87,6 +87,6 @@ int main(int argc, char* argv[])
   std::cout << decimated.number_of_collapses << " vertices removed, " << num_faces(mesh)
             << " faces left\n";
   const bool is_decimated = argc > 1 || num_vertices(mesh) == num_vertices(level);
-  return is_coarse && is_same_level && is_restored && error.empty() && decimated.error.empty()
+  return is_coarse && is_same_level && is_restored && is_written && decimated.is_ok()
            && is_decimated ? 0 : 1;
 }

@@ -200,7 +200,9 @@ struct Border_first_door
   static std::string what_is_wrong(const Input& input)
   {
     const SMP::Border_first_map map = SMP::border_first_map(input.mesh);
-    EXPECT_EQ(map.error.empty(), !map.uv.empty());
+    EXPECT_EQ(map.is_ok(), !map.uv.empty());
+    EXPECT_EQ(map.status, map.is_ok() ? CGAL::Indexed_mesh::Mesh_status::OK
+                                      : CGAL::Indexed_mesh::Mesh_status::BAD_MESH);
     return map.error;
   }
 };
@@ -281,9 +283,12 @@ TEST(Chart_of_another_mesh, gives_no_levels)
   ASSERT_EQ(parameterizer.parameterize(mesh, border_halfedge(mesh), uvmap), SMP::OK);
   const SMP::Chart_progressive_mesh& chart = parameterizer.progressive_mesh();
   EXPECT_EQ(SMP::build_textured_progressive_mesh(mesh, uvmap, chart).error, "");
-  EXPECT_NE(SMP::build_textured_progressive_mesh(other, new_uv_map(other), chart).error, "");
-  EXPECT_NE(SMP::build_textured_progressive_mesh(mesh, uvmap, SMP::Chart_progressive_mesh()).error,
-            "");
+  for(const auto& result :
+      {SMP::build_textured_progressive_mesh(other, new_uv_map(other), chart),
+       SMP::build_textured_progressive_mesh(mesh, uvmap, SMP::Chart_progressive_mesh())}) {
+    EXPECT_NE(result.error, "");
+    EXPECT_EQ(result.status, CGAL::Indexed_mesh::Mesh_status::BAD_OPTIONS);
+  }
 }
 
 // CGAL's table of texts has one too few.

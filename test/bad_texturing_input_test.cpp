@@ -8,6 +8,7 @@
 
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/build_textured_progressive_mesh.h>
+#include <CGAL/Surface_mesh_multiresolution/texture_deviation.h>
 #include <CGAL/Surface_mesh_texturing/AABB_tree_ray_caster.h>
 #include <CGAL/Surface_mesh_texturing/Horizon_packer.h>
 #include <CGAL/Surface_mesh_texturing/bake_by_rays.h>
@@ -30,10 +31,36 @@ namespace bad_texturing_input_test {
 namespace SMM = CGAL::Surface_mesh_multiresolution;
 namespace SMT = CGAL::Surface_mesh_texturing;
 using namespace test_support;
-
+using CGAL::Indexed_mesh::Mesh_outcome;
+using CGAL::Indexed_mesh::Mesh_status;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// A sentence, and the status that it goes with.
+void expect_error(const Mesh_outcome& result, Mesh_status status, const std::string& where)
+{
+  EXPECT_EQ(result.status, status) << where << ": " << result.error;
+  EXPECT_GT(result.error.size(), 8u) << where;
+  EXPECT_FALSE(result.is_ok()) << where;
+}
+
+void expect_bad_mesh(const Mesh_outcome& result, const std::string& where)
+{
+  expect_error(result, Mesh_status::BAD_MESH, where);
+}
+
+void expect_bad_options(const Mesh_outcome& result, const std::string& where = {})
+{
+  expect_error(result, Mesh_status::BAD_OPTIONS, where);
+}
+
+void expect_good(const Mesh_outcome& result, const std::string& where)
+{
+  EXPECT_EQ(result.status, Mesh_status::OK) << where;
+  EXPECT_EQ(result.error, "") << where;
+  EXPECT_TRUE(result.is_ok()) << where;
+}
 
 // Meshes that no door takes.
 std::vector<Named_mesh> bad_meshes()
@@ -117,34 +144,35 @@ SMT::Given_charts_segmenter one_chart(std::size_t triangles)
   return SMT::Given_charts_segmenter(charts);
 }
 
-typedef std::pair<std::string, std::function<std::string(const Indexed_triangle_mesh&)>> Mesh_door;
+typedef std::pair<std::string, std::function<Mesh_outcome(const Indexed_triangle_mesh&)>> Mesh_door;
 
 // What takes a mesh and finds charts.
 std::vector<Mesh_door> charting_doors()
 {
   return {
     {"build_texture_atlas",
-     [](const auto& m) { return SMT::build_texture_atlas(m, small_texture()).error; }},
+     [](const auto& m) { return SMT::build_texture_atlas(m, small_texture()); }},
     {"build_texture_atlas with given charts",
      [](const auto& m) {
-       return SMT::build_texture_atlas(m, small_texture(), one_chart(m.triangles.size())).error;
+       return SMT::build_texture_atlas(m, small_texture(), one_chart(m.triangles.size()));
      }},
     {"build_texture_atlas with components",
      [](const auto& m) {
-       return SMT::build_texture_atlas(m, small_texture(), SMT::Component_segmenter()).error;
+       return SMT::build_texture_atlas(m, small_texture(), SMT::Component_segmenter());
      }},
     {"build_texture_atlas with constrained edges",
      [](const auto& m) {
        const SMT::Constrained_segmenter<> segmenter(
          std::vector<std::uint8_t>(m.triangles.size(), 0));
-       return SMT::build_texture_atlas(m, small_texture(), segmenter).error;
+       return SMT::build_texture_atlas(m, small_texture(), segmenter);
      }},
-    {"segment_into_charts", [](const auto& m) { return SMT::segment_into_charts(m).error; }},
+    {"grow_charts", [](const auto& m) { return SMT::grow_charts(m); }},
+    {"segment_into_charts", [](const auto& m) { return SMT::segment_into_charts(m); }},
     {"segment_coarse_to_fine",
      [](const auto& m) {
        return SMT::segment_coarse_to_fine(m, {}, [](const Indexed_triangle_mesh& coarse) {
                 return SMT::one_disk_per_component(coarse);
-              }).error;
+              });
      }}};
 }
 
@@ -152,12 +180,12 @@ TEST(Bad_texturing_input, meshes_without_charts_give_a_sentence)
 {
   for(const auto& [mesh_name, mesh] : meshes_without_charts())
     for(const auto& [door_name, door] : charting_doors())
-      EXPECT_FALSE(door(mesh).empty()) << door_name << ", " << mesh_name;
+      expect_bad_mesh(door(mesh), door_name + ", " + mesh_name);
   for(const auto& [door_name, door] : charting_doors())
-    EXPECT_EQ(door(grid(4, 4)), "") << door_name;
+    expect_good(door(grid(4, 4)), door_name);
 }
 
-typedef std::function<std::string(const Textured_triangle_mesh&, const Textured_triangle_mesh&)>
+typedef std::function<Mesh_outcome(const Textured_triangle_mesh&, const Textured_triangle_mesh&)>
   Two_meshes;
 
 // What takes a fine mesh and a light model that share an atlas.
@@ -165,20 +193,20 @@ std::vector<std::pair<std::string, Two_meshes>> baking_doors()
 {
   return {{"bake_normal_map",
            [](const auto& fine, const auto& light) {
-             return SMT::bake_normal_map(fine, light, small_image()).error;
+             return SMT::bake_normal_map(fine, light, small_image());
            }},
           {"bake_displacement",
            [](const auto& fine, const auto& light) {
-             return SMT::bake_displacement(fine, light, small_image()).map.error;
+             return SMT::bake_displacement(fine, light, small_image()).map;
            }},
           {"bake_vertex_colors",
            [](const auto& fine, const auto& light) {
              const std::vector<float> values(fine.points.size(), 1.f);
-             return SMT::bake_vertex_colors(fine, values, 1, light, small_image()).error;
+             return SMT::bake_vertex_colors(fine, values, 1, light, small_image());
            }},
           {"bake_image", [](const auto& fine, const auto& light) {
              const SMT::Texture_image image = {1, 1, 1, {1.f}};
-             return SMT::bake_image(fine, fine, image, light, small_image()).error;
+             return SMT::bake_image(fine, fine, image, light, small_image());
            }}};
 }
 
@@ -186,10 +214,10 @@ TEST(Bad_texturing_input, bad_meshes_are_not_baked)
 {
   const Textured_triangle_mesh good = textured(grid(4, 4));
   for(const auto& [door_name, door] : baking_doors()) {
-    EXPECT_EQ(door(good, good), "") << door_name;
+    expect_good(door(good, good), door_name);
     for(const auto& [mesh_name, mesh] : bad_textured_meshes()) {
-      EXPECT_FALSE(door(mesh, good).empty()) << door_name << ", fine mesh: " << mesh_name;
-      EXPECT_FALSE(door(good, mesh).empty()) << door_name << ", light model: " << mesh_name;
+      expect_bad_mesh(door(mesh, good), door_name + ", fine mesh: " + mesh_name);
+      expect_bad_mesh(door(good, mesh), door_name + ", light model: " + mesh_name);
     }
   }
 }
@@ -199,17 +227,14 @@ TEST(Bad_texturing_input, bad_meshes_are_not_baked_by_rays)
   typedef SMT::AABB_tree_ray_caster Caster;
   const Textured_triangle_mesh light = textured(grid(4, 4));
   for(const auto& [name, mesh] : bad_meshes())
-    EXPECT_FALSE(SMT::bake_normal_map_by_rays<Caster>(mesh, light, small_image()).error.empty())
-      << name;
+    expect_bad_mesh(SMT::bake_normal_map_by_rays<Caster>(mesh, light, small_image()), name);
   for(const auto& [name, mesh] : bad_textured_meshes())
-    EXPECT_FALSE(
-      SMT::bake_normal_map_by_rays<Caster>(grid(4, 4), mesh, small_image()).error.empty())
-      << name;
+    expect_bad_mesh(SMT::bake_normal_map_by_rays<Caster>(grid(4, 4), mesh, small_image()), name);
   for(const double distance : {0., -1., nan, infinity}) {
     SMT::Baking_by_rays_options options = small_image();
     options.max_distance = distance;
-    EXPECT_FALSE(SMT::bake_normal_map_by_rays<Caster>(grid(4, 4), light, options).error.empty())
-      << distance;
+    expect_bad_options(SMT::bake_normal_map_by_rays<Caster>(grid(4, 4), light, options),
+                       std::to_string(distance));
   }
 }
 
@@ -219,19 +244,80 @@ TEST(Bad_texturing_input, bad_meshes_have_no_levels_no_frames_and_no_rendering_e
   const SMT::Tangent_frames frames = SMT::tangent_frames(good, SMT::vertex_normals(good));
   const SMT::Texture_image map = {1, 1, 3, {0.f, 0.f, 1.f}};
   const auto error = [&](const auto& original, const auto& light) {
-    return SMT::rendering_error(original, light, frames, map, SMT::Normal_space::TANGENT, 8).error;
+    return SMT::rendering_error(original, light, frames, map, SMT::Normal_space::TANGENT, 8);
   };
-  EXPECT_EQ(error(good, good), "");
+  expect_good(error(good, good), "rendering_error");
   for(const auto& [name, mesh] : bad_textured_meshes()) {
-    EXPECT_FALSE(SMM::build_textured_progressive_mesh(mesh).error.empty()) << name;
-    EXPECT_FALSE(error(good, mesh).empty()) << name;
+    expect_bad_mesh(SMM::build_textured_progressive_mesh(mesh), name);
+    expect_bad_mesh(error(good, mesh), name);
     SMT::tangent_frames(mesh, SMT::vertex_normals(mesh)); // no signal
   }
   for(const auto& [name, mesh] : bad_meshes())
-    EXPECT_FALSE(error(textured(mesh), good).empty()) << name;
+    expect_bad_mesh(error(textured(mesh), good), name);
   Indexed_triangle_mesh beyond = grid(4, 4);
   beyond.triangles[5][1] = Vertex_index(beyond.points.size());
   EXPECT_TRUE(SMT::vertex_normals(beyond.points, beyond.triangles).empty());
+}
+
+TEST(Bad_texturing_input, texture_deviation_needs_a_texture)
+{
+  const SMM::Textured_progressive_mesh untextured
+    = SMM::coarse_first(SMM::build_progressive_mesh(grid(4, 4)));
+  const SMM::Textured_progressive_mesh good
+    = SMM::build_textured_progressive_mesh(textured(grid(4, 4))).mesh;
+  ASSERT_GT(good.number_of_collapses(), 0u);
+  expect_good(SMM::measure_texture_deviation(good, 0), "textured");
+  expect_bad_options(SMM::measure_texture_deviation(good, good.number_of_collapses() + 1));
+  for(const SMM::Textured_progressive_mesh& mesh : {untextured, SMM::Textured_progressive_mesh()}) {
+    expect_bad_mesh(SMM::measure_texture_deviation(mesh, 0), "untextured");
+    EXPECT_FALSE(SMM::is_within_texture_deviation(mesh, 0, 1.));
+    EXPECT_FALSE(SMM::is_within_distance(mesh, 0, 1.));
+    for(const auto kind : {SMM::Level_error::TEXTURE_DEVIATION, SMM::Level_error::DISTANCE})
+      EXPECT_EQ(SMM::coarsest_level_within(mesh, kind, 1.), 0u);
+  }
+  const SMM::Wedge_mesh whole = SMM::textured_level(good, 0);
+  expect_good(SMM::measure_texture_deviation(whole, whole), "two meshes");
+  std::vector<SMM::Wedge_mesh> bad(7, whole);
+  bad[0].uv.clear();
+  bad[1].triangles.clear();
+  bad[2].triangles[3][1] = Vertex_index(whole.vertex.size());
+  bad[3].vertex[3] = Vertex_index(-1);
+  bad[4].points[3] = SMM::Wedge_mesh::Point_3(0., nan, 0.);
+  bad[5].uv[3] = SMM::Wedge_mesh::Point_2(infinity, 0.);
+  for(auto& p : bad[6].points)
+    p = SMM::Wedge_mesh::Point_3(1., 2., 3.);
+  for(const SMM::Wedge_mesh& mesh : bad) {
+    expect_bad_mesh(SMM::measure_texture_deviation(mesh, whole), "fine");
+    expect_bad_mesh(SMM::measure_texture_deviation(whole, mesh), "coarse");
+  }
+}
+
+TEST(Bad_texturing_input, levels_need_their_own_arrays)
+{
+  const Textured_triangle_mesh mesh = textured(grid(4, 4));
+  SMM::Textured_progressive_mesh_options options;
+  options.is_locked.assign(3, true);
+  expect_bad_options(SMM::build_textured_progressive_mesh(mesh, options));
+  expect_bad_options(SMM::build_progressive_mesh(grid(4, 4), options));
+  const SMM::Progressive_mesh pm = SMM::build_progressive_mesh(grid(4, 4)).progressive_mesh;
+  expect_good(SMM::build_textured_progressive_mesh(pm, mesh.points, mesh.uv), "collapses");
+  expect_bad_options(SMM::build_textured_progressive_mesh(pm, mesh.points, mesh.uv, options));
+  expect_bad_mesh(SMM::build_textured_progressive_mesh(pm, {}, mesh.uv), "points");
+  expect_bad_mesh(SMM::build_textured_progressive_mesh(pm, mesh.points, {}), "uv");
+  SMM::Progressive_mesh wrong = pm;
+  wrong.collapses.push_back({1000, 0});
+  expect_bad_mesh(SMM::build_textured_progressive_mesh(wrong, mesh.points, mesh.uv), "collapse");
+  SMM::Textured_progressive_mesh_options cancelled;
+  cancelled.progress = [](double) { return false; };
+  expect_error(SMM::build_progressive_mesh(grid(40, 40), cancelled), Mesh_status::CANCELLED, "");
+  Textured_triangle_mesh square;
+  square.points = grid(40, 40).points;
+  square.triangles = square.wedges = grid(40, 40).triangles;
+  for(const auto& p : square.points)
+    square.uv.emplace_back(p.x() / 40., p.y() / 40.);
+  const auto levels = SMM::build_textured_progressive_mesh(square, cancelled);
+  expect_error(levels, Mesh_status::CANCELLED, "textured");
+  EXPECT_EQ(levels.mesh.points.size(), square.points.size()); // as far as it came
 }
 
 TEST(Bad_texturing_input, arrays_of_another_length_give_a_sentence)
@@ -245,21 +331,22 @@ TEST(Bad_texturing_input, arrays_of_another_length_give_a_sentence)
   bad_frames[2].corners.pop_back();
   bad_frames[3].corners[0][0] = Vertex_index(frames.frames.size());
   const SMT::Baking_by_rays_options options = small_image();
-  EXPECT_NE(SMT::bake_normal_map(mesh, few, mesh, frames, options).error, "");
-  EXPECT_NE(SMT::bake_displacement(mesh, mesh, few, options).map.error, "");
+  expect_bad_options(SMT::bake_normal_map(mesh, few, mesh, frames, options));
+  expect_bad_options(SMT::bake_displacement(mesh, mesh, few, options).map);
   for(const SMT::Tangent_frames& bad : bad_frames) {
-    EXPECT_NE(SMT::bake_normal_map(mesh, normals, mesh, bad, options).error, "");
-    EXPECT_NE(SMT::bake_normal_map_by_rays<SMT::AABB_tree_ray_caster>(grid(4, 4), normals, mesh,
-                                                                     bad, options).error, "");
+    expect_bad_options(SMT::bake_normal_map(mesh, normals, mesh, bad, options));
+    expect_bad_options(
+      SMT::bake_normal_map_by_rays<SMT::AABB_tree_ray_caster>(grid(4, 4), normals, mesh, bad,
+                                                              options));
   }
-  EXPECT_NE(SMT::bake_vertex_colors(mesh, {1.f}, 3, mesh, options).error, "");
-  EXPECT_NE(SMT::bake_vertex_colors(mesh, {}, 0, mesh, options).error, "");
-  EXPECT_NE(SMT::bake_image(mesh, mesh, {2, 2, 3, {1.f}}, mesh, options).error, "");
-  EXPECT_NE(SMT::bake_image(mesh, mesh, {}, mesh, options).error, "");
+  expect_bad_options(SMT::bake_vertex_colors(mesh, {1.f}, 3, mesh, options));
+  expect_bad_options(SMT::bake_vertex_colors(mesh, {}, 0, mesh, options));
+  expect_bad_options(SMT::bake_image(mesh, mesh, {2, 2, 3, {1.f}}, mesh, options));
+  expect_bad_options(SMT::bake_image(mesh, mesh, {}, mesh, options));
   Textured_triangle_mesh former = mesh;
   former.triangles.pop_back();
   former.wedges.pop_back();
-  EXPECT_NE(SMT::bake_image(mesh, former, {1, 1, 1, {1.f}}, mesh, options).error, "");
+  expect_bad_options(SMT::bake_image(mesh, former, {1, 1, 1, {1.f}}, mesh, options));
 }
 
 TEST(Bad_texturing_input, options_without_sense_give_a_sentence)
@@ -270,17 +357,17 @@ TEST(Bad_texturing_input, options_without_sense_give_a_sentence)
     options.width = width;
     options.height = height;
     options.samples = samples;
-    return SMT::bake_normal_map(mesh, mesh, options).error;
+    return SMT::bake_normal_map(mesh, mesh, options);
   };
-  EXPECT_NE(bake(0, 16, 1), "");
-  EXPECT_NE(bake(16, 0, 1), "");
-  EXPECT_NE(bake(16, 16, 0), "");
-  EXPECT_NE(bake(16, 16, std::size_t(-1)), "");
+  expect_bad_options(bake(0, 16, 1));
+  expect_bad_options(bake(16, 0, 1));
+  expect_bad_options(bake(16, 16, 0));
+  expect_bad_options(bake(16, 16, std::size_t(-1)));
   const auto expect_error = [](const std::string& name, auto change) {
     SMT::Texture_atlas_options options = small_texture();
     change(options);
     const SMT::Texture_atlas_result result = SMT::build_texture_atlas(grid(4, 4), options);
-    EXPECT_NE(result.error, "") << name;
+    expect_bad_options(result, name);
     EXPECT_TRUE(result.atlas.mesh.uv.empty()) << name;
   };
   expect_error("width", [](auto& o) { o.packing.width = 0; });
@@ -303,10 +390,10 @@ TEST(Bad_texturing_input, options_without_sense_give_a_sentence)
 TEST(Bad_texturing_input, charts_of_another_mesh_give_a_sentence)
 {
   for(const std::size_t triangles : {0, 1, 31, 33}) {
-    EXPECT_NE(
-      SMT::build_texture_atlas(grid(4, 4), small_texture(), one_chart(triangles)).error, "");
+    expect_bad_options(
+      SMT::build_texture_atlas(grid(4, 4), small_texture(), one_chart(triangles)));
     const SMT::Constrained_segmenter<> segmenter(std::vector<std::uint8_t>(triangles, 7));
-    EXPECT_NE(SMT::build_texture_atlas(grid(4, 4), small_texture(), segmenter).error, "");
+    expect_bad_options(SMT::build_texture_atlas(grid(4, 4), small_texture(), segmenter));
   }
   SMT::Face_charts charts; // whose numbers make no sense: their seams count
   charts.seams.assign(32, 0xff);
@@ -315,6 +402,62 @@ TEST(Bad_texturing_input, charts_of_another_mesh_give_a_sentence)
     = SMT::build_texture_atlas(grid(4, 4), small_texture(), SMT::Given_charts_segmenter(charts));
   EXPECT_EQ(result.error, "");
   EXPECT_EQ(result.atlas.charts.number_of_charts, 32u);
+}
+
+// Functions of charts have no place for a sentence: they return none, and charts_error() has it.
+void expect_no_charts(const Indexed_triangle_mesh& mesh, const SMT::Face_charts& charts,
+                      Mesh_status status, const std::string& where)
+{
+  expect_error(SMT::charts_error(mesh, charts), status, where);
+  EXPECT_EQ(SMT::straighten_charts(mesh, charts).number_of_charts, 0u) << where;
+  EXPECT_EQ(SMT::cut_to_disks(mesh, charts).number_of_charts, 0u) << where;
+  EXPECT_EQ(SMT::measure_seams(mesh, charts).edges, 0u) << where;
+  EXPECT_TRUE(SMT::chart_meshes(mesh, charts).empty()) << where;
+}
+
+TEST(Bad_texturing_input, functions_of_charts_return_none)
+{
+  const Indexed_triangle_mesh good = grid(4, 4);
+  for(const auto& [name, mesh] : meshes_without_charts()) {
+    const std::size_t n = mesh.triangles.size();
+    const SMT::Face_charts charts
+      = SMT::charts_between(mesh.triangles, std::vector<std::uint8_t>(n, 0)); // no signal
+    EXPECT_EQ(SMT::charts_of_labels(mesh.triangles, std::vector<std::uint32_t>(n, 0)).seams,
+              charts.seams) << name;
+    EXPECT_EQ(SMT::straighten_charts(mesh, charts).number_of_charts, 0u) << name;
+    // Charts know no vertices, and two triangles with one direction of an edge are no neighbours
+    if(name == "isolated vertex" || name == "three triangles at an edge")
+      expect_good(SMT::charts_error(mesh, charts), name);
+    else
+      expect_no_charts(mesh, charts, Mesh_status::BAD_MESH, name);
+  }
+  Indexed_triangle_mesh thrice = good;
+  thrice.triangles.push_back(good.triangles[9]);
+  expect_no_charts(thrice,
+                   SMT::charts_between(thrice.triangles, std::vector<std::uint8_t>(33, 0)),
+                   Mesh_status::BAD_MESH, "edges of three triangles");
+  for(const auto& [name, mesh] : bad_textured_meshes())
+    EXPECT_EQ(SMT::charts_of_texture(mesh).number_of_charts, 0u) << name;
+  const SMT::Face_charts charts
+    = SMT::charts_between(good.triangles, std::vector<std::uint8_t>(32, 0));
+  expect_good(SMT::charts_error(good, charts), "one chart");
+  EXPECT_EQ(SMT::straighten_charts(good, charts).seams, charts.seams);
+  EXPECT_EQ(SMT::cut_to_disks(good, charts).seams, charts.seams);
+  std::vector<SMT::Face_charts> bad(6, charts);
+  bad[0].seams.pop_back();
+  bad[1].chart.pop_back();
+  bad[2].chart[3] = 1;
+  bad[3].number_of_charts = 2;
+  bad[3].chart[3] = 1;                           // in spite of what is no seam
+  bad[4].seams.assign(32, 0);                    // not even the border
+  bad[5].seams[10] = std::uint8_t(~bad[5].seams[10] & 7); // on one side
+  for(std::size_t i = 0; i < bad.size(); ++i)
+    expect_no_charts(good, bad[i], Mesh_status::BAD_OPTIONS, "bad charts " + std::to_string(i));
+  EXPECT_EQ(SMT::charts_between(good.triangles, {}).number_of_charts, 0u);
+  EXPECT_EQ(SMT::charts_of_labels(good.triangles, {1, 2}).number_of_charts, 0u);
+  EXPECT_TRUE(SMT::chart_topologies(good.triangles, SMT::Face_charts()).empty());
+  expect_bad_options(SMT::segment_coarse_to_fine(
+    good, {}, [](const Indexed_triangle_mesh&) { return SMT::Face_charts(); }));
 }
 
 TEST(Bad_texturing_input, charts_that_cannot_be_packed_give_a_sentence)
@@ -327,9 +470,14 @@ TEST(Bad_texturing_input, charts_that_cannot_be_packed_give_a_sentence)
   bad[2].uv[2] = SMT::Chart_shape::Point_2(-1e308, 1e308);
   bad[3].triangles[0][2] = 3;
   for(const SMT::Chart_shape& chart : bad) {
-    EXPECT_NE(SMT::pack_charts({good, chart}).error, "");
-    EXPECT_NE(SMT::pack_charts<SMT::Horizon_packer>({good, chart}).error, "");
+    expect_bad_mesh(SMT::pack_charts({good, chart}), "Raster_packer");
+    expect_bad_mesh(SMT::pack_charts<SMT::Horizon_packer>({good, chart}), "Horizon_packer");
   }
+  SMT::Packing_options too_dense;
+  too_dense.texels_per_unit = 1e4;
+  expect_error(SMT::pack_charts({good}, too_dense), Mesh_status::FAILED, "too dense");
+  expect_error(SMT::pack_charts<SMT::Horizon_packer>({good}, too_dense), Mesh_status::FAILED,
+               "too dense");
   EXPECT_EQ(SMT::pack_charts({}).error, "");
   EXPECT_EQ(SMT::pack_charts({SMT::Chart_shape()}).error, "");
   EXPECT_EQ(SMT::pack_charts<SMT::Horizon_packer>({SMT::Chart_shape()}).error, "");
@@ -347,12 +495,15 @@ TEST(Bad_texturing_input, meshes_of_any_type_give_a_sentence)
     const auto chart = mesh->add_property_map<Mesh::Face_index, std::size_t>("f:chart").first;
     const auto color
       = mesh->add_property_map<Mesh::Vertex_index, std::array<float, 3>>("v:color").first;
-    EXPECT_NE(SMT::build_texture_atlas(*mesh, uv, chart).error, "");
-    EXPECT_NE(SMT::segment_into_charts(*mesh, chart).error, "");
-    EXPECT_NE(SMT::bake_normal_map(*mesh, uv, *mesh, uv).error, "");
-    EXPECT_NE(SMT::bake_displacement(*mesh, uv, *mesh, uv).map.error, "");
-    EXPECT_NE(SMT::bake_vertex_colors(*mesh, uv, color, 3, *mesh, uv).error, "");
-    EXPECT_NE(SMT::bake_normal_map_by_rays<SMT::AABB_tree_ray_caster>(*mesh, *mesh, uv).error, "");
+    expect_bad_mesh(SMT::build_texture_atlas(*mesh, uv, chart), "any type");
+    expect_bad_mesh(SMT::segment_into_charts(*mesh, chart), "any type");
+    expect_bad_mesh(SMT::bake_normal_map(*mesh, uv, *mesh, uv), "any type");
+    expect_bad_mesh(SMT::bake_displacement(*mesh, uv, *mesh, uv).map, "any type");
+    const SMT::Texture_image image = {1, 1, 1, {1.f}};
+    expect_bad_mesh(SMT::bake_image(*mesh, uv, uv, image, *mesh, uv), "any type");
+    expect_bad_mesh(SMT::bake_vertex_colors(*mesh, uv, color, 3, *mesh, uv), "any type");
+    expect_bad_mesh(SMT::bake_normal_map_by_rays<SMT::AABB_tree_ray_caster>(*mesh, *mesh, uv),
+                    "any type");
     EXPECT_FALSE(SMT::mark_seams(*mesh, SMT::Face_charts{{7, 7}, {0, 0}, 1},
                                  mesh->add_property_map<Mesh::Edge_index, bool>("e:seam").first));
   }

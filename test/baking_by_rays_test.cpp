@@ -11,6 +11,7 @@
 #include <CGAL/Surface_mesh_texturing/Embree_ray_caster.h>
 #endif
 #include <CGAL/Surface_mesh_texturing/AABB_tree_ray_caster.h>
+#include <CGAL/Surface_mesh_texturing/Texture_image.h>
 #include <CGAL/Surface_mesh_texturing/bake_by_rays.h>
 #include <CGAL/Surface_mesh_texturing/bake_normal_map.h>
 

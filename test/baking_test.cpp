@@ -7,10 +7,10 @@
 #include <support/baked_models.h>
 #include <support/textured_meshes.h>
 
+#include <CGAL/Surface_mesh_texturing/Texture_image.h>
 #include <CGAL/Surface_mesh_texturing/bake_colors.h>
 #include <CGAL/Surface_mesh_texturing/bake_displacement.h>
 #include <CGAL/Surface_mesh_texturing/bake_normal_map.h>
-#include <CGAL/Surface_mesh_texturing/encode_image.h>
 
 #include <gtest/gtest.h>
 
@@ -333,7 +333,8 @@ TEST(Baking, can_be_stopped)
     return told.size() < 3;
   };
   const Textured_triangle_mesh mesh = over_square(3, flat);
-  EXPECT_NE(bake_normal_map(mesh, mesh, options).error, "");
+  EXPECT_EQ(bake_normal_map(mesh, mesh, options).status,
+            CGAL::Indexed_mesh::Mesh_status::CANCELLED);
   ASSERT_EQ(told.size(), 3u);
   EXPECT_EQ(told[0], 0.);
   EXPECT_LT(told[1], told[2]);

@@ -10,7 +10,7 @@
 #include <CGAL/Surface_mesh_parameterization/border_first_map.h>
 #include <CGAL/Surface_mesh_parameterization/self_overlap.h>
 #include <CGAL/Surface_mesh_texturing/Chart_distortion.h>
-#include <CGAL/Surface_mesh_texturing/internal/charts/map_chart.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/map_charts.h>
 
 #include <gtest/gtest.h>
 
@@ -202,6 +202,7 @@ TEST(Border_first_map, refuses_what_is_no_disk)
   for(const Indexed_triangle_mesh& mesh : {bad, sphere(1), cylinder(8, 4), Indexed_triangle_mesh()}) {
     const SMP::Border_first_map map = SMP::border_first_map(mesh);
     EXPECT_NE(map.error, "");
+    EXPECT_EQ(map.status, CGAL::Indexed_mesh::Mesh_status::BAD_MESH);
     EXPECT_TRUE(map.uv.empty());
   }
 }

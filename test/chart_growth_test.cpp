@@ -421,7 +421,9 @@ TEST(Chart_growth, progress_cancels)
     last = part;
     return ++calls < 10;
   };
-  EXPECT_EQ(grow_charts(test_support::sphere(4), options).error, "cancelled");
+  const Chart_growth_result result = grow_charts(test_support::sphere(4), options);
+  EXPECT_EQ(result.error, "cancelled");
+  EXPECT_EQ(result.status, CGAL::Indexed_mesh::Mesh_status::CANCELLED);
   EXPECT_EQ(calls, 10u);
 }
 

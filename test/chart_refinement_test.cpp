@@ -409,7 +409,10 @@ TEST(Segment_coarse_to_fine, reports_bad_data)
   EXPECT_NE(error(scaled(sphere(2), 0.)), "");
   SMT::Segmentation_options options = coarse(100);
   options.progress = [](double) { return false; };
-  EXPECT_EQ(SMT::segment_coarse_to_fine(sphere(4), options, by_direction).error, "cancelled");
+  const SMT::Segmentation_result result
+    = SMT::segment_coarse_to_fine(sphere(4), options, by_direction);
+  EXPECT_EQ(result.error, "cancelled");
+  EXPECT_EQ(result.status, CGAL::Indexed_mesh::Mesh_status::CANCELLED);
 }
 
 } // namespace chart_refinement_test

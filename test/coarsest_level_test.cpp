@@ -6,7 +6,6 @@
 #include <support/mesh_generators.h>
 #include <support/textured_levels.h>
 
-#include <CGAL/Surface_mesh_multiresolution/coarsest_level.h>
 #include <CGAL/Surface_mesh_multiresolution/texture_deviation.h>
 
 #include <gtest/gtest.h>

@@ -36,6 +36,7 @@ namespace decimate_test {
 using namespace test_support;
 using namespace decimated_hills;
 using CGAL::Indexed_mesh::Vertex_index;
+using CGAL::Indexed_mesh::Mesh_status;
 
 typedef CGAL::Simple_cartesian<double> Kernel;
 typedef CGAL::Polyhedron_3<Kernel> Polyhedron;
@@ -140,7 +141,8 @@ TYPED_TEST(Decimate, leaves_what_the_engine_leaves_of_the_arrays)
       const SMM::Decimation_result result = SMM::decimate(mesh, options);
       ASSERT_EQ(result.error, "");
       EXPECT_EQ(result.number_of_collapses, k);
-      EXPECT_EQ(result.status == Decimation_status::STOPPED,
+      EXPECT_EQ(result.status, Mesh_status::OK);
+      EXPECT_EQ(!result.is_exhausted,
                 arrays.points.size() - k == options.target_vertices);
       EXPECT_EQ(defect_of(mesh), "");
       EXPECT_EQ(numbered_triangles(mesh, number),
@@ -185,7 +187,7 @@ TYPED_TEST(Decimate, keeps_constrained_edges)
   const SMM::Decimation_result result
     = SMM::decimate(mesh, SMS::Count_stop_predicate<TypeParam>(1),
                     CGAL::parameters::edge_is_constrained_map(is_constrained));
-  EXPECT_EQ(result.status, Decimation_status::EXHAUSTED);
+  EXPECT_TRUE(result.is_ok() && result.is_exhausted) << result.error;
   EXPECT_GT(result.number_of_collapses, arrays.points.size() / 2);
   EXPECT_EQ(defect_of(mesh), "");
   for(const auto& [v, w] : kept) {
@@ -215,7 +217,7 @@ TEST(Decimate_policies, are_those_of_edge_collapse)
     CGAL::parameters::get_cost(SMS::Edge_length_cost<Surface_mesh>())
       .get_placement(Placement({}, Filter(), is_locked))
       .filter(SMS::Bounded_normal_change_filter<>()));
-  EXPECT_EQ(result.status, Decimation_status::STOPPED);
+  EXPECT_TRUE(result.is_ok() && !result.is_exhausted) << result.error;
   for(const auto v : locked)
     EXPECT_FALSE(mesh.is_removed(v));
   EXPECT_EQ(defect_of(mesh), "");
@@ -289,7 +291,7 @@ TEST(Decimate_errors, are_sentences_and_leave_the_mesh)
   for(const auto& [mesh, sentence] : bad) {
     Indexed_triangle_mesh copy = mesh;
     const SMM::Decimation_result result = SMM::decimate(copy, options);
-    EXPECT_EQ(result.status, Decimation_status::BAD_INPUT);
+    EXPECT_EQ(result.status, Mesh_status::BAD_MESH);
     EXPECT_EQ(result.error, sentence);
     EXPECT_EQ(result.number_of_collapses, 0u);
     EXPECT_EQ(copy.triangles, mesh.triangles);
@@ -318,7 +320,11 @@ TEST(Decimate_progress, may_cancel)
     return part < 0.5;
   };
   Indexed_triangle_mesh mesh = hills();
-  EXPECT_EQ(SMM::decimate(mesh, options).status, Decimation_status::CANCELLED);
+  const SMM::Decimation_result result = SMM::decimate(mesh, options);
+  EXPECT_EQ(result.status, Mesh_status::CANCELLED);
+  EXPECT_EQ(result.error, "cancelled");
+  EXPECT_FALSE(result.is_exhausted);
+  EXPECT_EQ(mesh.points.size() + result.number_of_collapses, hills().points.size());
   EXPECT_EQ(topology_of(mesh.triangles).defect, "");
   EXPECT_GT(mesh.triangles.size(), 100u);
 }

@@ -8,7 +8,7 @@
 #include <support/mesh_properties.h>
 #include <support/textured_meshes.h>
 
-#include <CGAL/Surface_mesh_texturing/charts_of_texture.h>
+#include <CGAL/Surface_mesh_texturing/Face_charts.h>
 #include <CGAL/Surface_mesh_texturing/chart_topology.h>
 #include <CGAL/Surface_mesh_texturing/cut_to_disks.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/map_charts.h>

@@ -8,9 +8,9 @@
 #include <support/textured_meshes.h>
 
 #include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Surface_mesh_texturing/Texture_image.h>
 #include <CGAL/Surface_mesh_texturing/bake_colors.h>
 #include <CGAL/Surface_mesh_texturing/bake_normal_map.h>
-#include <CGAL/Surface_mesh_texturing/encode_image.h>
 #include <CGAL/Surface_mesh_texturing/rendering_error.h>
 
 #include <gtest/gtest.h>

@@ -262,6 +262,7 @@ TYPED_TEST(Packer_test, stops_when_asked_to)
     };
     const Packing_result result = pack_charts<TypeParam>(mixed_charts(), options);
     EXPECT_EQ(result.error, "cancelled");
+    EXPECT_EQ(result.status, CGAL::Indexed_mesh::Mesh_status::CANCELLED);
     EXPECT_TRUE(result.placements.empty());
     EXPECT_EQ(n, calls);
   }

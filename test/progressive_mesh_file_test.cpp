@@ -22,6 +22,7 @@ namespace progressive_mesh_file_test {
 
 namespace SMM = CGAL::Surface_mesh_multiresolution;
 using namespace test_support;
+using CGAL::Indexed_mesh::Mesh_status;
 using Status = SMM::Progressive_mesh_file_status;
 using Precision = SMM::Progressive_mesh_precision;
 
@@ -258,13 +259,15 @@ TEST(Progressive_mesh_file, is_the_same_through_a_stream)
 {
   const Textured_progressive_mesh mesh = small_mesh();
   std::stringstream file;
-  EXPECT_EQ(SMM::write_progressive_mesh(file, mesh), "");
+  EXPECT_EQ(SMM::write_progressive_mesh(file, mesh).error, "");
   EXPECT_EQ(file.str(), SMM::encode_progressive_mesh(mesh).bytes);
   const SMM::Read_progressive_mesh result = SMM::read_progressive_mesh(file);
   EXPECT_EQ(result.status, Status::COMPLETE);
   EXPECT_EQ(error_in_level(result, mesh), "");
   std::ostream closed(nullptr);
-  EXPECT_EQ(SMM::write_progressive_mesh(closed, mesh), "the file cannot be written");
+  const CGAL::Indexed_mesh::Mesh_outcome written = SMM::write_progressive_mesh(closed, mesh);
+  EXPECT_EQ(written.error, "the file cannot be written");
+  EXPECT_EQ(written.status, Mesh_status::FAILED);
 }
 
 TEST(Progressive_mesh_file, takes_much_less_than_a_ply_file)
@@ -283,7 +286,10 @@ TEST(Progressive_mesh_file, writer_refuses_bad_data_in_a_sentence)
 {
   const Textured_progressive_mesh good = small_mesh();
   const auto error_of = [](const Textured_progressive_mesh& mesh) {
-    return SMM::encode_progressive_mesh(mesh).error;
+    const SMM::Progressive_mesh_bytes file = SMM::encode_progressive_mesh(mesh);
+    EXPECT_EQ(file.status, file.error.empty() ? Mesh_status::OK : Mesh_status::BAD_MESH);
+    EXPECT_EQ(file.bytes.empty(), !file.is_ok());
+    return file.error;
   };
   EXPECT_EQ(error_of(good), "");
   EXPECT_EQ(error_of({}), "the mesh has no triangles");
@@ -292,7 +298,7 @@ TEST(Progressive_mesh_file, writer_refuses_bad_data_in_a_sentence)
   EXPECT_EQ(error_of(mesh), "vertex 3 has a coordinate that is not a finite number");
   mesh = good;
   mesh.uv[2] = Textured_progressive_mesh::Point_2(0, HUGE_VAL);
-  EXPECT_EQ(error_of(mesh), "wedge 2 has a texture coordinate that is not a finite number");
+  EXPECT_EQ(error_of(mesh), "texture coordinate 2 is not a finite number");
   mesh = good;
   mesh.points[0] = Point_3(1e308, 0, 0);
   mesh.points[1] = Point_3(-1e308, 0, 0);
@@ -315,7 +321,9 @@ TEST(Progressive_mesh_file, writer_refuses_bad_data_in_a_sentence)
   EXPECT_NE(error_of(mesh), "");
   SMM::Progressive_mesh_write_options options;
   options.uv_bits = 31;
-  EXPECT_EQ(SMM::encode_progressive_mesh(good, options).error, "coordinates have 1 to 30 bits");
+  const SMM::Progressive_mesh_bytes file = SMM::encode_progressive_mesh(good, options);
+  EXPECT_EQ(file.error, "coordinates have 1 to 30 bits");
+  EXPECT_EQ(file.status, Mesh_status::BAD_OPTIONS);
 }
 
 // --- Beginnings and damage

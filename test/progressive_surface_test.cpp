@@ -146,7 +146,7 @@ std::string file_of(const SMM::Progressive_surface& surface, Precision precision
   SMM::Progressive_mesh_write_options options;
   options.precision = precision;
   std::ostringstream file;
-  EXPECT_EQ(SMM::write_progressive_mesh(file, surface, options), "");
+  EXPECT_EQ(SMM::write_progressive_mesh(file, surface, options).error, "");
   return file.str();
 }
 
@@ -229,12 +229,15 @@ TEST(Progressive_surface_file, damage_is_noticed)
 TEST(Progressive_surface_file, writer_refuses_bad_data_in_a_sentence)
 {
   std::ostringstream file;
-  EXPECT_EQ(SMM::write_progressive_mesh(file, SMM::build_progressive_mesh(Indexed_triangle_mesh())),
-            "the mesh has no triangles");
+  const CGAL::Indexed_mesh::Mesh_outcome written
+    = SMM::write_progressive_mesh(file, SMM::build_progressive_mesh(Indexed_triangle_mesh()));
+  EXPECT_EQ(written.error, "the mesh has no triangles");
+  EXPECT_EQ(written.status, CGAL::Indexed_mesh::Mesh_status::BAD_MESH);
   SMM::Textured_progressive_mesh mesh = SMM::coarse_first(decimated(irregular_grid(8, 8, seed)));
   mesh.vertex.back() -= 1;
   mesh.points.pop_back();
-  EXPECT_EQ(SMM::write_progressive_mesh(file, mesh), "without texture each vertex has one wedge");
+  EXPECT_EQ(SMM::write_progressive_mesh(file, mesh).error,
+            "without texture each vertex has one wedge");
 }
 
 } // namespace progressive_surface_test

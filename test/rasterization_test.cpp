@@ -6,6 +6,7 @@
 #include <support/baked_models.h>
 #include <support/textured_meshes.h>
 
+#include <CGAL/Surface_mesh_texturing/Texture_image.h>
 #include <CGAL/Surface_mesh_texturing/bake_normal_map.h>
 
 #include <gtest/gtest.h>

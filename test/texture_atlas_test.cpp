@@ -315,7 +315,7 @@ TEST(Texture_atlas, can_be_cancelled)
     SMT::Texture_atlas_options options = small_texture();
     options.progress = [limit](double part) { return part < limit; };
     const SMT::Texture_atlas_result result = SMT::build_texture_atlas(sphere(3), options);
-    EXPECT_TRUE(result.report.cancelled);
+    EXPECT_EQ(result.status, CGAL::Indexed_mesh::Mesh_status::CANCELLED);
     EXPECT_EQ(result.error, "cancelled");
     EXPECT_TRUE(result.atlas.mesh.uv.empty());
   }

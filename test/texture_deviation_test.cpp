@@ -423,6 +423,11 @@ TEST(Texture_deviation, across_seams)
 
 TEST(Texture_deviation, does_not_depend_on_the_number_of_threads)
 {
+  const auto numbers = [](const Texture_deviation& d) {
+    return std::array<double, 9>{d.deviation.maximum, d.deviation.mean, d.uv_change.maximum,
+                                 d.uv_change.mean, d.distance.maximum, d.distance.mean, d.outside,
+                                 d.unresolved, d.diagonal};
+  };
   const Case c = hills_over_rectangle(150, 120, seed);
   for(const std::size_t k : {c.mesh.number_of_collapses() / 2, c.mesh.number_of_collapses()}) {
     SCOPED_TRACE(c.name + ", position " + std::to_string(k));
@@ -430,7 +435,9 @@ TEST(Texture_deviation, does_not_depend_on_the_number_of_threads)
     for(const unsigned int threads : {2u, 3u, 8u}) {
       const CGAL::Blocked_execution::Thread_scope scope(threads);
       const Texture_deviation many = measure_texture_deviation(c.mesh, c.mesh.whole_position(k));
-      EXPECT_EQ(std::memcmp(&one, &many, sizeof one), 0) << threads << " threads";
+      EXPECT_EQ(std::memcmp(numbers(one).data(), numbers(many).data(), sizeof numbers(one)), 0)
+        << threads << " threads";
+      EXPECT_EQ(one.triangles, many.triangles);
     }
   }
 }

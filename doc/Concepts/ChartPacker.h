@@ -15,8 +15,8 @@ to it and measure what they get from it.
 class ChartPacker
 {
 public:
-  /// Returns a packing as `options` asks for, or the reason why there is none as its `error`; sets
-  /// `placements`, `pages` and `texels_per_unit`.
+  /// Returns a packing as `options` asks for, or the reason why there is none as its `error` (and
+  /// `status`; `FAILED` without); sets `placements`, `pages` and `texels_per_unit`.
   ///
   /// The packing must not depend on the number of threads; nor, but for the scale, on the unit of
   /// length.

@@ -27,9 +27,9 @@ public:
   /// triangles, if charts are bounded. `CGAL::Tag_false` if the model knows one mesh only.
   typedef unspecified_type Is_for_any_mesh;
 
-  /// Returns the charts of `mesh`, or the reason why there are none as `error`; of the charts only
-  /// `seams` count. `options.progress` is told the part done, and `"cancelled"` is the error if it
-  /// says stop.
+  /// Returns the charts of `mesh`, or the reason why there are none as `error` (and `status`; `FAILED`
+  /// without); of the charts only `seams` count. `options.progress` is told the part done, and if it
+  /// says stop the result is cancelled (`Mesh_outcome::cancel()`).
   ///
   /// \pre `mesh` is an oriented manifold, perhaps with borders and several components, with finite
   /// coordinates. The default model is given any mesh, and finds out.

@@ -69,6 +69,6 @@ add_executable(headers_in_two_files EXCLUDE_FROM_ALL ${folder}/one.cpp ${folder}
 foreach(target IN ITEMS lone_headers headers_in_two_files)
   target_link_libraries(${target} PRIVATE CGAL::HLSCM HLSCM_cholmod HLSCM_embree HLSCM_png)
   target_compile_options(${target} PRIVATE -O0 -Wall -Wextra -Werror)
-  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF UNITY_BUILD OFF)
 endforeach()
 target_compile_options(headers_in_two_files PRIVATE -g1) # the linker then names the header

@@ -8,6 +8,7 @@
 
 #include <support/textured_meshes.h>
 
+#include <CGAL/Surface_mesh_texturing/Texture_image.h>
 #include <CGAL/Surface_mesh_texturing/bake_colors.h>
 #include <CGAL/Surface_mesh_texturing/bake_normal_map.h>
 

@@ -20,7 +20,6 @@ namespace SMM = CGAL::Surface_mesh_multiresolution;
 namespace SMS = CGAL::Surface_mesh_simplification;
 
 using namespace test_support;
-using SMM::Decimation_status;
 
 typedef CGAL::Surface_mesh<Point_3> Surface_mesh;
 

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "commands/Atlas_report.h"
-
-#include <nlohmann/json.hpp>
+#include "commands/Json_number.h"
 
 #include <cmath>
 #include <iomanip>
@@ -15,9 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 namespace SMT = CGAL::Surface_mesh_texturing;
-
-// JSON has no infinity.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json to_json(const SMT::Chart_report& chart)
 {

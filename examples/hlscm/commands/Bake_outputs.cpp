@@ -6,7 +6,7 @@
 #include "writing/Png_file.h"
 #include "writing/Texture_sheet.h"
 
-#include <CGAL/Surface_mesh_texturing/encode_image.h>
+#include <CGAL/Surface_mesh_texturing/Texture_image.h>
 
 #include <utility>
 

@@ -7,7 +7,7 @@
 #include "common/Program_error.h"
 
 #include <CGAL/Surface_mesh_multiresolution/build_textured_progressive_mesh.h>
-#include <CGAL/Surface_mesh_multiresolution/coarsest_level.h>
+#include <CGAL/Surface_mesh_multiresolution/texture_deviation.h>
 
 #include <cmath>
 #include <utility>

@@ -40,7 +40,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t checker_size = 256, checker_squares = 32; // each way
+constexpr std::size_t level_checker_size = 256, level_checker_squares = 32; // each way
 
 constexpr double default_parts[] = {0.5, 0.25, 0.1, 0.04, 0.01};
 
@@ -250,7 +250,8 @@ private:
     }
     m_glb->write([&](std::ostream& stream) {
       return IO::write_GLB(stream, model, triangles,
-                           {"checkerboard", checkerboard_png(checker_size, checker_squares)});
+                           {"checkerboard",
+                            checkerboard_png(level_checker_size, level_checker_squares)});
     });
   }
 

@@ -1,9 +1,8 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include "commands/Json_number.h"
 #include "commands/Run_report.h"
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -17,9 +16,6 @@ namespace hlscm {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// JSON has no infinity.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 /// "label      text" lines with aligned texts.
 class Table

@@ -21,7 +21,7 @@ namespace SMT = CGAL::Surface_mesh_texturing;
 using Pixels = std::vector<std::uint8_t>;
 using Barycentric = std::array<double, 3>;
 
-constexpr double long_side = 760, margin = 16; // pixels
+constexpr double baked_side = 760, baked_margin = 16; // pixels
 constexpr double magnification = 4;
 constexpr Colour clay{0.86, 0.83, 0.78};
 constexpr double gloss = 0.35;
@@ -135,12 +135,12 @@ struct Pictures
   Pixels original, flat, mapped, plain;
 };
 
-struct Size
+struct Image_size
 {
   std::size_t width, height;
 };
 
-Pictures draw_all(const Compared_models& models, const View& view, const Size& size,
+Pictures draw_all(const Compared_models& models, const View& view, const Image_size& size,
                   bool has_colours, Progress_bar& progress)
 {
   const auto picture = [&](const auto& draw) {
@@ -160,7 +160,7 @@ Pictures draw_all(const Compared_models& models, const View& view, const Size& s
 
 /// The centre of the window, a part of the picture of the size of the close-up, in which the flat
 /// picture differs most from the original. Windows that show little of the surface differ little.
-std::array<double, 2> place_of_detail(const Pictures& pictures, const Size& size)
+std::array<double, 2> place_of_detail(const Pictures& pictures, const Image_size& size)
 {
   const std::size_t w = std::size_t(double(size.width) / magnification);
   const std::size_t h = std::size_t(double(size.height) / magnification);
@@ -206,10 +206,10 @@ void Bake_picture_files::draw(const Baking_input& input, const Baked_images& ima
   const Compared_models models(input, images, normals, is_object_space);
   View view = models.view();
   const double aspect = std::clamp(view.aspect_ratio(), 0.4, 2.5);
-  const double width = aspect >= 1 ? long_side : long_side * aspect;
-  const double height = aspect >= 1 ? long_side / aspect : long_side;
-  const Size size{std::size_t(width), std::size_t(height)};
-  view.fit_to({margin, margin, width - 2 * margin, height - 2 * margin});
+  const double width = aspect >= 1 ? baked_side : baked_side * aspect;
+  const double height = aspect >= 1 ? baked_side / aspect : baked_side;
+  const Image_size size{std::size_t(width), std::size_t(height)};
+  view.fit_to({baked_margin, baked_margin, width - 2 * baked_margin, height - 2 * baked_margin});
   const Pictures whole = draw_all(models, view, size, bool(images.colours), progress);
   Picture_strip row(size.width);
   row.add(whole.original);

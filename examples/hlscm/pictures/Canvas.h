@@ -17,6 +17,9 @@ namespace hlscm {
 /// Red, green and blue from 0 to 1, as on a screen (sRGB).
 using Colour = std::array<double, 3>;
 
+/// That of the inside of surfaces.
+constexpr Colour inside_colour{0.70, 0.74, 0.80};
+
 inline Colour mix(const Colour& a, const Colour& b, double t)
 {
   return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};

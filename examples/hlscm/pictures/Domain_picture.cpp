@@ -12,7 +12,7 @@ namespace {
 
 constexpr Colour flipped_colour{0.89, 0.10, 0.11};
 constexpr Colour edge_colour{0.12, 0.16, 0.24};
-constexpr double edge_width = 0.8, border_width = 1.6;                           // pixels
+constexpr double edge_width = 0.8, domain_border_width = 1.6;                    // pixels
 constexpr double smallest_triangle_with_edges = 2, triangle_with_full_edges = 8; // pixels
 constexpr double flip_mark_radius = 2.5; // pixels, for triangles that are too small to be seen
 
@@ -110,7 +110,7 @@ private:
   void draw_borders()
   {
     for(const auto& edge : m_surface.border) {
-      m_canvas.draw_segment(place(edge[0], 2), place(edge[1], 2), border_width, edge_colour);
+      m_canvas.draw_segment(place(edge[0], 2), place(edge[1], 2), domain_border_width, edge_colour);
     }
   }
 

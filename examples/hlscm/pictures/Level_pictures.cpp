@@ -14,7 +14,7 @@ namespace hlscm {
 namespace {
 
 constexpr std::size_t most_levels = 4;
-constexpr double long_side = 620, margin = 16; // pixels
+constexpr double level_side_pixels = 620, level_margin = 16; // pixels
 
 using Triangles = std::vector<CGAL::Indexed_mesh::Triangle_indices>;
 
@@ -48,9 +48,10 @@ void Level_picture_files::draw(const Progressive_model& model,
       = drawn_level(model, cube, model.progressive_mesh.triangles, model.number_of_wedges());
   View view(fine);
   const double aspect = view.aspect_ratio();
-  const double width = aspect >= 1 ? long_side : std::max(long_side * aspect, 0.4 * long_side);
-  const double height = aspect >= 1 ? std::max(long_side / aspect, 0.4 * long_side) : long_side;
-  view.fit_to({margin, margin, width - 2 * margin, height - 2 * margin});
+  const double longer = level_side_pixels, least = 0.4 * longer;
+  const double width = aspect >= 1 ? longer : std::max(longer * aspect, least);
+  const double height = aspect >= 1 ? std::max(longer / aspect, least) : longer;
+  view.fit_to({level_margin, level_margin, width - 2 * level_margin, height - 2 * level_margin});
   const double square = checkerboard_square(fine);
   const auto picture = [&](const Drawn_surface& surface) {
     Canvas canvas{std::size_t(width), std::size_t(height)};

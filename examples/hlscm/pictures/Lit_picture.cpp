@@ -9,7 +9,6 @@ namespace hlscm {
 
 namespace {
 
-constexpr Colour inside{0.70, 0.74, 0.80};
 constexpr double ambient = 0.30, diffuse = 0.66, shininess = 30;
 
 Vector_3 unit(const Vector_3& a) { return (1 / std::max(std::sqrt(dot(a, a)), 1e-300)) * a; }
@@ -54,7 +53,7 @@ void draw_lit(Canvas& canvas, const View& view, const std::vector<Vector_3>& poi
     canvas.draw_triangle({view(a), view(b), view(c)}, [&](const std::array<double, 3>& at) {
       const Surface_look look = shader(t, at);
       return lamp((is_toward ? 1 : -1) * unit(look.normal),
-                  is_outside ? look.colour : mix(look.colour, inside, 0.6),
+                  is_outside ? look.colour : mix(look.colour, inside_colour, 0.6),
                   is_outside ? look.gloss : 0);
     });
   }

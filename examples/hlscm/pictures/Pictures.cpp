@@ -10,21 +10,24 @@ namespace hlscm {
 
 namespace {
 
-constexpr double long_side = 1400, short_side_at_least = 500; // pixels
-constexpr double margin = 24, level_side = 560;
+constexpr double map_side = 1400, short_side_at_least = 500; // pixels
+constexpr double map_margin = 24, level_side = 560;
 
 struct Size
 {
   double width, height;
 
-  Panel inside() const { return {margin, margin, width - 2 * margin, height - 2 * margin}; }
+  Panel inside() const
+  {
+    return {map_margin, map_margin, width - 2 * map_margin, height - 2 * map_margin};
+  }
   Canvas canvas() const { return Canvas(std::size_t(width), std::size_t(height)); }
 };
 
 Size picture_size(double aspect_ratio)
 {
-  const double width = aspect_ratio >= 1 ? long_side : long_side * aspect_ratio;
-  const double height = aspect_ratio >= 1 ? long_side / aspect_ratio : long_side;
+  const double width = aspect_ratio >= 1 ? map_side : map_side * aspect_ratio;
+  const double height = aspect_ratio >= 1 ? map_side / aspect_ratio : map_side;
   return {std::max(width, short_side_at_least), std::max(height, short_side_at_least)};
 }
 
@@ -61,15 +64,15 @@ void draw_level_picture(View view, const std::vector<Drawn_surface>& levels, Out
   };
   const double upper = row_height(view.aspect_ratio()),
                lower = row_height(box.width() / box.height());
-  const Size size{double(levels.size()) * (level_side + margin) + margin,
-                  upper + lower + 3 * margin};
+  const Size size{double(levels.size()) * (level_side + map_margin) + map_margin,
+                  upper + lower + 3 * map_margin};
   Canvas canvas = size.canvas();
-  double left = margin;
+  double left = map_margin;
   for(const Drawn_surface& level : levels) {
-    view.fit_to({left, margin, level_side, upper});
+    view.fit_to({left, map_margin, level_side, upper});
     draw_surface(canvas, view, level, Pattern::ISOLINES, progress);
-    draw_domain(canvas, {left, upper + 2 * margin, level_side, lower}, level, box, progress);
-    left += level_side + margin;
+    draw_domain(canvas, {left, upper + 2 * map_margin, level_side, lower}, level, box, progress);
+    left += level_side + map_margin;
   }
   canvas.write_png(file);
 }

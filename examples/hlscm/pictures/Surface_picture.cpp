@@ -11,7 +11,7 @@ namespace {
 
 constexpr double line_distance = 28; // pixels, at least
 constexpr double square_side = 0.05; // the surface is two units large
-constexpr Colour outside{0.95, 0.94, 0.92}, inside{0.70, 0.74, 0.80};
+constexpr Colour outside{0.95, 0.94, 0.92};
 constexpr Colour u_colour{0.78, 0.13, 0.10}, v_colour{0.09, 0.28, 0.66};
 constexpr Colour dark_square{0.22, 0.40, 0.62}, light_square{0.98, 0.97, 0.95};
 constexpr Colour border_colour{0.25, 0.25, 0.27};
@@ -190,8 +190,8 @@ private:
                           + light[1] * dot(m_view.up(), normal)
                           + light[2] * dot(m_view.toward(), normal);
     const double brightness = 0.42 + 0.60 * std::max(cosine, 0.);
-    const Colour colour = material(is_outside ? outside : inside);
-    return brightness * (is_outside ? colour : mix(colour, inside, 0.5));
+    const Colour colour = material(is_outside ? outside : inside_colour);
+    return brightness * (is_outside ? colour : mix(colour, inside_colour, 0.5));
   }
 
   Canvas& m_canvas;

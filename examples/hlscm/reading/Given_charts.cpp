@@ -6,7 +6,7 @@
 #include "common/Program_error.h"
 #include "reading/Surface_reading.h"
 
-#include <CGAL/Surface_mesh_texturing/charts_of_texture.h>
+#include <CGAL/Surface_mesh_texturing/Face_charts.h>
 
 #include <algorithm>
 #include <charconv>

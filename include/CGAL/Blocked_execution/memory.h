@@ -32,7 +32,6 @@ inline void prefetch(const void* address)
 #endif
 }
 
-
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
 
 constexpr std::size_t large_page = std::size_t(1) << 21;

@@ -6,15 +6,27 @@
 
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
 
+#include <CGAL/Default.h>
+#include <CGAL/Named_function_parameters.h>
 #include <CGAL/assertions.h>
 #include <CGAL/boost/graph/iterator.h>
+#include <CGAL/boost/graph/named_params_helper.h>
 #include <CGAL/boost/graph/properties.h>
 #include <CGAL/number_utils.h>
 
+#include <type_traits>
 #include <vector>
 
 namespace CGAL {
 namespace Indexed_mesh {
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// Whether a sequence of named parameters has `geom_traits`.
+template <class NamedParameters>
+constexpr bool has_geom_traits
+  = !std::is_same<typename internal_np::Lookup_named_param_def<internal_np::geom_traits_t,
+                                                               NamedParameters, Default>::type,
+                  Default>::value;
 
 /// \ingroup PkgHLSCMIndexedMesh
 /// Gives each vertex its position in `vertices(mesh)`; returns their number.
@@ -45,19 +57,65 @@ std::vector<Triangle_indices> copy_triangles(const TriangleMesh& mesh,
   return result;
 }
 
-/// \ingroup PkgHLSCMIndexedMesh
-/// Returns the points of the vertices in the order of `vertices(mesh)`, in double precision.
-template <class TriangleMesh>
-std::vector<Indexed_triangle_mesh::Point_3> copy_points(const TriangleMesh& mesh)
+/*!
+\ingroup PkgHLSCMIndexedMesh
+
+Returns the points of the vertices in the order of `vertices(mesh)`, in double precision.
+
+\param np optional named parameters:
+- `vertex_point_map`: the points; `get(vertex_point, mesh)` by default
+- `geom_traits`: how they are read: a kernel, or any class with `compute_x_3_object()` and its kin,
+  whose numbers `to_double()` takes. Without, `p[0]`, `p[1]` and `p[2]` are the coordinates of `p`.
+*/
+template <class TriangleMesh, class NamedParameters = parameters::Default_named_parameters>
+std::vector<Indexed_triangle_mesh::Point_3>
+copy_points(const TriangleMesh& mesh, const NamedParameters& np = parameters::default_values())
 {
   std::vector<Indexed_triangle_mesh::Point_3> result;
   result.reserve(num_vertices(mesh));
-  const auto vpm = get(CGAL::vertex_point, mesh);
+  const auto vpm
+    = parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
+                                   get_const_property_map(CGAL::vertex_point, mesh));
   for(const auto v : vertices(mesh)) {
     const auto& p = get(vpm, v);
-    result.emplace_back(to_double(p[0]), to_double(p[1]), to_double(p[2]));
+    if constexpr(has_geom_traits<NamedParameters>) {
+      const auto& traits = parameters::get_parameter(np, internal_np::geom_traits);
+      result.emplace_back(to_double(traits.compute_x_3_object()(p)),
+                          to_double(traits.compute_y_3_object()(p)),
+                          to_double(traits.compute_z_3_object()(p)));
+    } else {
+      result.emplace_back(to_double(p[0]), to_double(p[1]), to_double(p[2]));
+    }
   }
   return result;
+}
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// Returns a point of another type: of its three coordinates, or, with the named parameter
+/// `geom_traits`, what its `construct_point_3_object()` makes of them as numbers of its type `FT`.
+template <class Point, class NamedParameters>
+Point converted_point(const Indexed_triangle_mesh::Point_3& p, const NamedParameters& np)
+{
+  if constexpr(has_geom_traits<NamedParameters>) {
+    const auto& traits = parameters::get_parameter(np, internal_np::geom_traits);
+    typedef typename std::decay<decltype(traits)>::type::FT FT;
+    return traits.construct_point_3_object()(FT(p.x()), FT(p.y()), FT(p.z()));
+  } else {
+    (void)np;
+    return Point(p.x(), p.y(), p.z());
+  }
+}
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// Returns the points and the faces of a mesh as arrays, with the named parameters of
+/// `copy_points()`. Precondition: the faces are triangles.
+template <class TriangleMesh, class NamedParameters = parameters::Default_named_parameters>
+Indexed_triangle_mesh copy_mesh(const TriangleMesh& mesh,
+                                const NamedParameters& np = parameters::default_values())
+{
+  const auto position = get(dynamic_vertex_property_t<Vertex_index>(), mesh);
+  number_vertices(mesh, position);
+  return {copy_points(mesh, np), copy_triangles(mesh, position)};
 }
 
 } // namespace Indexed_mesh

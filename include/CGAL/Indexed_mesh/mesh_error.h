@@ -8,10 +8,63 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace Indexed_mesh {
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// What came of a function that takes meshes.
+enum class Mesh_status
+{
+  OK,          ///< all is well
+  BAD_MESH,    ///< a mesh, a chart or its texture coordinates are not what the function takes
+  BAD_OPTIONS, ///< an option makes no sense, or an array is not one of this mesh
+  CANCELLED,   ///< `progress` said stop
+  FAILED       ///< the input is good, but no result was found or could be written
+};
+
+/*!
+\ingroup PkgHLSCMIndexedMesh
+
+The struct `Mesh_outcome` says whether a function succeeded, and why not. All results that may have
+an error derive from it.
+
+Two functions say it otherwise: parameterizers have an `Error_code`, which CGAL's concept
+`Parameterizer_3` asks for, and readers of progressive mesh files a `Progressive_mesh_file_status`,
+since what they could read of a file is a good mesh.
+
+Invariant: there is a sentence unless `status` is `OK`.
+*/
+struct Mesh_outcome
+{
+  Mesh_status status = Mesh_status::OK; ///< what came of it
+  std::string error;                    ///< what is wrong, as a sentence; empty if all is well
+
+  /// Returns whether nothing is wrong.
+  bool is_ok() const { return error.empty(); }
+
+  /// Takes a sentence that says what is wrong, if it says so and none was before; returns whether
+  /// something is wrong then.
+  bool fail(Mesh_status why, std::string sentence)
+  {
+    if(error.empty() && !sentence.empty()) {
+      status = why;
+      error = std::move(sentence);
+    }
+    return !is_ok();
+  }
+
+  /// Takes over what another outcome says is wrong. A sentence alone says that it has failed.
+  bool fail(const Mesh_outcome& other)
+  {
+    return fail(other.status == Mesh_status::OK ? Mesh_status::FAILED : other.status, other.error);
+  }
+
+  /// Says that it was cancelled.
+  void cancel() { fail(Mesh_status::CANCELLED, "cancelled"); }
+};
 
 // What can be wrong with a mesh, as one set of sentences for all packages. Each function returns a
 // sentence on the first thing that is wrong, or nothing if all is well. The mesh may have a name,
@@ -88,6 +141,23 @@ inline std::string ring_error(const Vertex_rings& rings,
     return vertex + " has an edge with more than two faces, or with two faces of different "
                     "orientation; repair the mesh first";
   return "the faces at " + vertex + " do not form one fan; split the vertex first";
+}
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// Says what is wrong with the arrays of a mesh, or which triangle has a vertex twice. Linear time.
+inline std::string surface_error(const Indexed_triangle_mesh& mesh)
+{
+  const std::string error = mesh_error(mesh);
+  return error.empty() ? repeated_vertex_error(mesh.triangles) : error;
+}
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// Says what keeps a mesh from being an oriented manifold, with or without border, all vertices of
+/// which have triangles. Linear time.
+inline std::string manifold_error(const Indexed_triangle_mesh& mesh)
+{
+  const std::string error = surface_error(mesh);
+  return error.empty() ? ring_error(Vertex_rings(mesh)) : error;
 }
 
 } // namespace Indexed_mesh

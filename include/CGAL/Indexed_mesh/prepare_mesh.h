@@ -34,12 +34,12 @@ The struct `Prepared_mesh` is a mesh as the algorithms of all packages like it b
 what is near in space near in memory, and known to be a manifold.
 */
 struct Prepared_mesh
+  : Mesh_outcome
 {
   Indexed_triangle_mesh mesh;       ///< in spatial order
   std::vector<Vertex_index> source; ///< for each vertex the one of the input
   Vertex_rings rings;               ///< of `mesh`
   double scale = 1.;                ///< the lengths of `mesh` to those of the input; 0: no extent
-  std::string error;                ///< what is wrong, in terms of the input; empty if all is well
 
   /// Returns flags of vertices of the input for those of `mesh`; empty if there are none.
   std::vector<bool> flags(const std::vector<bool>& of_input) const
@@ -113,7 +113,7 @@ inline Prepared_mesh prepare_mesh(Indexed_triangle_mesh mesh,
   if(steps.normalizes)
     result.scale = normalize(mesh);
   if(!(result.scale > 0.)) {
-    result.error = "all edges are without length";
+    result.fail(Mesh_status::BAD_MESH, "all edges are without length");
     return result;
   }
   result.source = sort_spatially(mesh);
@@ -121,7 +121,7 @@ inline Prepared_mesh prepare_mesh(Indexed_triangle_mesh mesh,
     v = source[v];
   result.mesh = std::move(mesh);
   result.rings = Vertex_rings(result.mesh);
-  result.error = ring_error(result.rings, result.source);
+  result.fail(Mesh_status::BAD_MESH, ring_error(result.rings, result.source));
   return result;
 }
 

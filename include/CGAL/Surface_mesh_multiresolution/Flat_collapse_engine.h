@@ -8,7 +8,6 @@
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_policies.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/decimation/Batched_collapses.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/decimation/Strict_collapses.h>
 
 #include <algorithm>
 #include <utility>
@@ -97,7 +96,7 @@ public:
   }
 
   /// Returns why the last run ended.
-  Decimation_status status() const { return m_status; }
+  Decimation_end end() const { return m_end; }
 
   /// Returns the number of costs computed so far, one a vertex and its ring.
   std::size_t number_of_evaluations() const { return m_surface.evaluations; }
@@ -112,7 +111,7 @@ private:
   Progressive_mesh run_until(const Flat_collapse_options& options, Stop stop);
 
   Surface m_surface;
-  Decimation_status m_status = Decimation_status::STOPPED;
+  Decimation_end m_end;
 };
 
 template <class Cost, class Filter, class Layer>
@@ -145,7 +144,7 @@ run_until(const Flat_collapse_options& options, Stop stop)
   Blocked_execution::blocked_for(triangles.size(), 16384, [&](std::size_t begin, std::size_t end) {
     std::copy(triangles.begin() + begin, triangles.begin() + end, pm.triangles.begin() + begin);
   });
-  m_status = options.order == Collapse_order::STRICT
+  m_end = options.order == Collapse_order::STRICT
     ? internal::Strict_collapses<Surface, Stop>(m_surface, options, stop).run(pm)
     : internal::Batched_collapses<Surface, Stop>(m_surface, options, stop).run(pm);
   return pm;

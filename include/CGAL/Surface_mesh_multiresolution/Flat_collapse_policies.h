@@ -27,13 +27,11 @@ enum class Collapse_order
 };
 
 /// \ingroup PkgHLSCMMultiresolution
-/// Why a decimation ended.
-enum class Decimation_status
+/// Why a decimation ended: as asked for, unless one of these is set.
+struct Decimation_end
 {
-  STOPPED,   ///< as asked for: the target was reached, or the stop predicate said so
-  EXHAUSTED, ///< before that, because nothing more could be collapsed
-  CANCELLED, ///< because `progress` said so
-  BAD_INPUT  ///< before it began: a sentence says what is wrong
+  bool is_exhausted = false; ///< before that, because nothing more could be collapsed
+  bool is_cancelled = false; ///< because `progress` said so
 };
 
 /// \ingroup PkgHLSCMMultiresolution

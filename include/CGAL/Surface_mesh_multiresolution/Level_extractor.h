@@ -6,7 +6,6 @@
 
 #include <CGAL/Surface_mesh_multiresolution/Textured_progressive_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/levels/triangle_numbers.h>
 
 #include <CGAL/assertions.h>
 
@@ -36,6 +35,20 @@ struct Wedge_mesh
   std::vector<Point_2> uv;                 ///< of each wedge
   std::vector<Triangle_indices> triangles; ///< the wedges of each triangle
 };
+
+namespace internal {
+
+// The first whole position with at most this many triangles, the coarsest if there is none;
+// `numbers` are the `triangle_numbers()`.
+inline std::size_t position_with(const Textured_progressive_mesh& mesh,
+                                 const std::vector<std::uint32_t>& numbers, std::size_t triangles)
+{
+  const auto beyond = std::upper_bound(numbers.begin(), numbers.end(), triangles);
+  const std::size_t collapses = std::size_t(numbers.end() - beyond);
+  return mesh.whole_position((std::min)(collapses, mesh.number_of_collapses()));
+}
+
+} // namespace internal
 
 /// \ingroup PkgHLSCMLevelsOfDetail
 /// Returns the number of triangles after `k` collapses. Linear time; `Level_extractor` knows it for
@@ -95,13 +108,7 @@ public:
   /// level is whole; all collapses if no level has so few. Logarithmic time.
   std::size_t position_of_triangles(std::size_t n) const
   {
-    const auto base = m_triangles_before.begin() + m_mesh.number_of_wedges_after(
-                                                     m_mesh.number_of_collapses());
-    const auto beyond = std::upper_bound(base, m_triangles_before.end(), n);
-    if(beyond == base)
-      return m_mesh.number_of_collapses();
-    const std::size_t wedges = std::size_t(beyond - m_triangles_before.begin()) - 1;
-    return m_mesh.whole_position(m_mesh.number_of_wedges() - wedges);
+    return internal::position_with(m_mesh, m_triangles_before, n);
   }
 
   /// Returns the triangles after `k` collapses, as indices of wedges.

@@ -44,13 +44,14 @@ struct Progressive_mesh_write_options
 /// \ingroup PkgHLSCMLevelsOfDetail
 /// A progressive mesh file in memory.
 struct Progressive_mesh_bytes
+  : Indexed_mesh::Mesh_outcome
 {
   std::string bytes; ///< empty if there is an error
-  std::string error; ///< why the mesh cannot be written, in a sentence; empty if it can
 };
 
 /// \ingroup PkgHLSCMLevelsOfDetail
-/// What there is in a progressive mesh file.
+/// What there is in a progressive mesh file. It has a status of its own since a file that is not
+/// all there, or damaged behind some place, is a good mesh as far as it goes.
 struct Read_progressive_mesh
 {
   Progressive_mesh_file_status status; ///< whether it is all there
@@ -145,45 +146,50 @@ inline Progressive_mesh_bytes
 encode_progressive_mesh(const Textured_progressive_mesh& mesh,
                         const Progressive_mesh_write_options& options = {})
 {
+  Progressive_mesh_bytes file;
   const auto is_possible = [](int bits) { return bits >= 1 && bits <= 30; };
   if(!is_possible(options.position_bits) || !is_possible(options.uv_bits))
-    return {{}, "coordinates have 1 to 30 bits"};
-  const std::string error = internal::error_in_numbers(mesh);
-  if(!error.empty())
-    return {{}, error};
+    file.fail(Mesh_status::BAD_OPTIONS, "coordinates have 1 to 30 bits");
+  if(file.fail(Mesh_status::BAD_MESH, internal::error_in_numbers(mesh)))
+    return file;
   const internal::File_header header = internal::header_for(mesh, options);
-  if(!std::isfinite(header.step[0]) || !std::isfinite(header.step[1]))
-    return {{}, "the mesh is too large to be quantized"};
+  if(!std::isfinite(header.step[0]) || !std::isfinite(header.step[1])) {
+    file.fail(Mesh_status::BAD_MESH, "the mesh is too large to be quantized");
+    return file;
+  }
   internal::Progressive_mesh_encoder encoder(mesh, header);
-  const std::string defect = encoder.run();
-  if(!defect.empty())
-    return {{}, defect};
-  return {encoder.take_bytes(), {}};
+  if(!file.fail(Mesh_status::BAD_MESH, encoder.run()))
+    file.bytes = encoder.take_bytes();
+  return file;
 }
 
 /// \ingroup PkgHLSCMLevelsOfDetail
-/// Writes `mesh` as a progressive mesh file; see `encode_progressive_mesh()`.
-/// \return what went wrong, in a sentence, or an empty string
-inline std::string write_progressive_mesh(std::ostream& to, const Textured_progressive_mesh& mesh,
+/// Writes `mesh` as a progressive mesh file; see `encode_progressive_mesh()`. `FAILED`: the stream
+/// did not take it all.
+inline Indexed_mesh::Mesh_outcome
+write_progressive_mesh(std::ostream& to, const Textured_progressive_mesh& mesh,
                                           const Progressive_mesh_write_options& options = {})
 {
   const Progressive_mesh_bytes file = encode_progressive_mesh(mesh, options);
-  if(!file.error.empty())
-    return file.error;
+  if(!file.is_ok())
+    return file;
   to.write(file.bytes.data(), std::streamsize(file.bytes.size()));
-  return to.flush() ? std::string() : "the file cannot be written";
+  if(to.flush())
+    return {};
+  return {Mesh_status::FAILED, "the file cannot be written"};
 }
 
 /// \ingroup PkgHLSCMLevelsOfDetail
 /// Writes what `build_progressive_mesh()` returns as a progressive mesh file without texture, of
 /// version 2, which is read back as a `Textured_progressive_mesh` without texture: with the
-/// numbering of `coarse_first()`.
-/// \return what went wrong, in a sentence, or an empty string
-inline std::string write_progressive_mesh(std::ostream& to, const Progressive_surface& surface,
+/// numbering of `coarse_first()`. A surface with an error is not written.
+inline Indexed_mesh::Mesh_outcome
+write_progressive_mesh(std::ostream& to, const Progressive_surface& surface,
                                           const Progressive_mesh_write_options& options = {})
 {
-  return surface.error.empty() ? write_progressive_mesh(to, coarse_first(surface), options)
-                               : surface.error;
+  if(!surface.is_ok())
+    return surface;
+  return write_progressive_mesh(to, coarse_first(surface), options);
 }
 
 namespace internal {

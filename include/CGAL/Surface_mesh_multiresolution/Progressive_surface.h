@@ -4,6 +4,8 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_PROGRESSIVE_SURFACE_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_PROGRESSIVE_SURFACE_H
 
+#include <CGAL/Indexed_mesh/mesh_arrays.h>
+#include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/Textured_progressive_mesh.h>
 
@@ -13,8 +15,6 @@
 
 #include <array>
 #include <numeric>
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -23,19 +23,19 @@ namespace Surface_mesh_multiresolution {
 /*!
 \ingroup PkgHLSCMMultiresolution
 
-The struct `Progressive_surface` is a progressive mesh with its points.
+The struct `Progressive_surface` is a progressive mesh with its points. If the mesh was bad, it has no
+collapses; if it was cancelled, those so far.
 
 \sa `level_after()`, `copy_level()`: its levels as meshes
 \sa `coarse_first()`: with a numbering for files and for levels in no time
 */
 struct Progressive_surface
+  : Indexed_mesh::Mesh_outcome
 {
   /// The collapses. Vertices are numbered as in `vertices(mesh)`, triangles as in `faces(mesh)`.
   Progressive_mesh progressive_mesh;
   /// The position of each vertex.
   std::vector<Indexed_triangle_mesh::Point_3> points;
-  /// Why there are no collapses, as a sentence; empty if all is well.
-  std::string error;
 };
 
 /// \ingroup PkgHLSCMMultiresolution
@@ -78,7 +78,8 @@ Appends the mesh after `k` collapses to a mesh, vertices and faces in the order 
 \param surface the progressive mesh
 \param k a number of collapses, at most all
 \param result where the level goes
-\param np `vertex_point_map`: where the points go; `get(vertex_point, result)` by default
+\param np `vertex_point_map`: where the points go, `get(vertex_point, result)` by default;
+       `geom_traits`: what makes them, see `Indexed_mesh::converted_point()`
 
 Linear time in the size of the fine mesh.
 */
@@ -98,7 +99,7 @@ void copy_level(const Progressive_surface& surface, std::size_t k, TriangleMesh&
   copies.reserve(level.points.size());
   for(const auto& p : level.points) {
     copies.push_back(add_vertex(result));
-    put(vpm, copies.back(), Point_3(p.x(), p.y(), p.z()));
+    put(vpm, copies.back(), Indexed_mesh::converted_point<Point_3>(p, np));
   }
   for(const Triangle_indices& t : level.triangles)
     Euler::add_face(std::array<vertex_descriptor, 3>{copies[t[0]], copies[t[1]], copies[t[2]]},

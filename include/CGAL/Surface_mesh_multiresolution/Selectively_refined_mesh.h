@@ -5,7 +5,7 @@
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_SELECTIVELY_REFINED_MESH_H
 
 #include <CGAL/Surface_mesh_multiresolution/Textured_progressive_mesh.h>
-#include <CGAL/Surface_mesh_multiresolution/Vsplit_table.h>
+#include <CGAL/Surface_mesh_multiresolution/Progressive_mesh_cursor.h>
 
 #include <CGAL/assertions.h>
 

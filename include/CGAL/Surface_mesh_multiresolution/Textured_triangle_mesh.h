@@ -6,11 +6,16 @@
 
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
 #include <CGAL/Indexed_mesh/Triangle_adjacency.h>
+#include <CGAL/Indexed_mesh/mesh_arrays.h>
 #include <CGAL/Indexed_mesh/mesh_error.h>
+
+#include <CGAL/Named_function_parameters.h>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -160,7 +165,61 @@ private:
   std::vector<Corner> m_corners;
 };
 
+// The texture coordinate of a halfedge by a function or a property map.
+template <class CornerUv, class Halfedge>
+auto uv_at(const CornerUv& corner_uv, const Halfedge h)
+{
+  if constexpr(std::is_invocable<const CornerUv&, Halfedge>::value)
+    return corner_uv(h);
+  else
+    return get(corner_uv, h);
+}
+
 } // namespace internal
+
+/*!
+\ingroup PkgHLSCMLevelsOfDetail
+
+Returns the triangles of `mesh` with the texture coordinates of their corners. Vertices are numbered
+as in `vertices(mesh)`, triangles as in `faces(mesh)`. Linear time.
+
+\tparam TriangleMesh a model of `FaceListGraph`
+\tparam NamedParameters a sequence of named parameters
+\param mesh a triangle mesh
+\param corner_uv the texture coordinates at the targets of the halfedges of faces, in these: a model
+       of `ReadablePropertyMap` with the halfedge descriptor as key, or a function of it. With a map
+       `m` of vertices that is `[&](auto h) { return get(m, target(h, mesh)); }`. For `mesh` with a
+       `Seam_mesh` of type `S` above it, `seams`, and the map `m` of its vertices that
+       `SMP::parameterize()` fills it is
+       `[&](auto h) { return get(m, target(boost::graph_traits<S>::halfedge_descriptor(h), seams));
+       }`
+\param np `vertex_point_map`: the points; `get(vertex_point, mesh)` by default
+
+\pre all faces are triangles
+*/
+template <class TriangleMesh, class CornerUv,
+          class NamedParameters = parameters::Default_named_parameters>
+Textured_triangle_mesh
+textured_triangle_mesh(const TriangleMesh& mesh, const CornerUv& corner_uv,
+                       const NamedParameters& np = parameters::default_values())
+{
+  Indexed_triangle_mesh arrays = Indexed_mesh::copy_mesh(mesh, np);
+  Textured_triangle_mesh result;
+  result.points = std::move(arrays.points);
+  result.triangles = std::move(arrays.triangles);
+  for(const auto f : faces(mesh)) {
+    auto h = halfedge(f, mesh);
+    Triangle_indices wedges;
+    for(Vertex_index& wedge : wedges) {
+      const auto uv = internal::uv_at(corner_uv, h);
+      wedge = Vertex_index(result.uv.size());
+      result.uv.emplace_back(to_double(uv[0]), to_double(uv[1]));
+      h = next(h, mesh);
+    }
+    result.wedges.push_back(wedges);
+  }
+  return result;
+}
 
 /*!
 \ingroup PkgHLSCMLevelsOfDetail

@@ -13,44 +13,30 @@
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/named_params_helper.h>
 
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_multiresolution {
 
 namespace internal {
 
-// The arrays of a mesh without its collapses, or what is wrong with it.
-template <class TriangleMesh, class VertexPointMap>
-Progressive_surface copy_surface(const TriangleMesh& mesh, const VertexPointMap& vpm)
-{
-  Progressive_surface result;
-  for(const auto v : vertices(mesh)) {
-    const auto& p = get(vpm, v);
-    result.points.emplace_back(to_double(p[0]), to_double(p[1]), to_double(p[2]));
-  }
-  result.error = point_error(result.points);
-  result.progressive_mesh.number_of_vertices = result.points.size();
-  if(is_triangle_mesh(mesh)) {
-    const auto position = get(dynamic_vertex_property_t<Vertex_index>(), mesh);
-    number_vertices(mesh, position);
-    result.progressive_mesh.triangles = copy_triangles(mesh, position);
-  } else {
-    result.error = "not all faces are triangles; triangulate the mesh first";
-  }
-  return result;
-}
-
-// The same with the points and faces that named parameters tell.
+// The arrays of a mesh, with the points of the named parameters, without its collapses, or what is
+// wrong with it.
 template <class TriangleMesh, class NamedParameters>
 Progressive_surface copy_surface_of(const TriangleMesh& mesh, const NamedParameters& np)
 {
-  using parameters::choose_parameter;
-  using parameters::get_parameter;
-  return copy_surface(mesh, choose_parameter(get_parameter(np, internal_np::vertex_point),
-                                             get_const_property_map(vertex_point, mesh)));
+  Progressive_surface result;
+  if(is_triangle_mesh(mesh)) {
+    Indexed_triangle_mesh arrays = Indexed_mesh::copy_mesh(mesh, np);
+    result.points = std::move(arrays.points);
+    result.progressive_mesh.triangles = std::move(arrays.triangles);
+  } else {
+    result.points = Indexed_mesh::copy_points(mesh, np);
+    result.fail(Mesh_status::BAD_MESH, "not all faces are triangles; triangulate the mesh first");
+  }
+  result.fail(Mesh_status::BAD_MESH, point_error(result.points));
+  result.progressive_mesh.number_of_vertices = result.points.size();
+  return result;
 }
 
 inline Progressive_surface copy_surface(const Indexed_triangle_mesh& mesh)
@@ -59,8 +45,16 @@ inline Progressive_surface copy_surface(const Indexed_triangle_mesh& mesh)
   result.points = mesh.points;
   result.progressive_mesh.number_of_vertices = mesh.points.size();
   result.progressive_mesh.triangles = mesh.triangles;
-  result.error = mesh_error(mesh);
+  result.fail(Mesh_status::BAD_MESH, mesh_error(mesh));
   return result;
+}
+
+// What is wrong with the locks of a mesh of n vertices.
+inline Mesh_outcome lock_error(const Progressive_mesh_options& options, std::size_t n)
+{
+  if(options.is_locked.empty() || options.is_locked.size() == n)
+    return {};
+  return {Mesh_status::BAD_OPTIONS, "is_locked does not have an entry for each vertex"};
 }
 
 // Appends the collapses that `run(engine, prepared)` returns, in terms of the input of the mesh that
@@ -69,14 +63,13 @@ template <class Cost, class Filter, class Run>
 void decimate(Prepared_mesh prepared, const Progressive_mesh_options& options, const Cost& cost,
               const Filter& filter, const Run& run, Progressive_surface& result)
 {
-  result.error = prepared.error;
-  if(!options.is_locked.empty() && options.is_locked.size() != result.points.size())
-    result.error = "is_locked does not have an entry for each vertex";
-  if(!result.error.empty())
+  if(result.fail(lock_error(options, result.points.size())) || result.fail(prepared))
     return;
   Flat_collapse_engine<Cost, Filter> engine(prepared.mesh, std::move(prepared.rings),
                                             prepared.flags(options.is_locked), cost, filter);
   Progressive_mesh pm = run(engine, prepared);
+  if(engine.end().is_cancelled)
+    result.cancel();
   result.progressive_mesh.collapses.reserve(pm.collapses.size());
   for(const Halfedge_collapse& c : pm.collapses)
     result.progressive_mesh.collapses.push_back(
@@ -89,7 +82,7 @@ template <class Run>
 void decimate_normalized(const Progressive_mesh_options& options, const Run& run,
                          Progressive_surface& result)
 {
-  if(result.error.empty())
+  if(result.is_ok())
     decimate(prepare_mesh({result.points, result.progressive_mesh.triangles}), options,
              hierarchy_collapse_cost(), hierarchy_collapse_filter(options.angular_defect_bound),
              run, result);
@@ -102,7 +95,7 @@ void decimate_as_it_is(const Progressive_mesh_options& options, const Cost& cost
 {
   Preparation as_it_is;
   as_it_is.normalizes = false;
-  if(result.error.empty())
+  if(result.is_ok())
     decimate(prepare_mesh({result.points, result.progressive_mesh.triangles}, as_it_is), options,
              cost, filter, run, result);
 }
@@ -124,7 +117,7 @@ Returns a progressive mesh of `mesh`, made by `Flat_collapse_engine` with its de
 \tparam NamedParameters a sequence of named parameters
 \param mesh a triangle mesh of any size and place, which is not changed
 \param options where to stop, and what must stay
-\param np `vertex_point_map`: the points, `get(vertex_point, mesh)` by default
+\param np `vertex_point_map` and `geom_traits`; see `Indexed_mesh::copy_points()`
 
 Bad data (faces that are no triangles, vertices without a face or with several fans of faces,
 coordinates that are not finite) give a result with `error` set and no collapses.

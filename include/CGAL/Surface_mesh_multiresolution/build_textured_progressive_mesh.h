@@ -13,8 +13,6 @@
 #include <CGAL/Surface_mesh_multiresolution/internal/textured/Texture_layer.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/textured/replay_collapses.h>
 
-#include <algorithm>
-#include <functional>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -44,19 +42,19 @@ struct Textured_progressive_mesh_options
 /// \ingroup PkgHLSCMLevelsOfDetail
 /// What `build_textured_progressive_mesh()` returns.
 struct Textured_progressive_mesh_result
+  : Indexed_mesh::Mesh_outcome
 {
-  Textured_progressive_mesh mesh; ///< empty if there is an error
-  std::string error;              ///< why there is no mesh, as a sentence; empty if all is well
+  Textured_progressive_mesh mesh; ///< empty if the input is bad; as far as it came if cancelled
 };
 
 namespace internal {
 
 // Collapses of wedges, with the ends of the passes.
 struct Wedge_collapses
+  : Mesh_outcome
 {
   std::vector<Halfedge_collapse> collapses;
   std::vector<std::size_t> batch_ends;
-  std::string error;
 };
 
 #ifdef CGAL_HLSCM_DEFINITIONS
@@ -67,8 +65,7 @@ inline Wedge_collapses decimate_textured(const Textured_triangle_mesh& mesh,
 {
   Wedge_collapses result;
   Prepared_mesh prepared = prepare_mesh({mesh.points, mesh.triangles});
-  result.error = prepared.error;
-  if(!result.error.empty())
+  if(result.fail(prepared))
     return result;
   Texture_layer texture(mesh, prepared.mesh, prepared.source, prepared.rings,
                         options.texture_deviation_weight);
@@ -78,6 +75,8 @@ inline Wedge_collapses decimate_textured(const Textured_triangle_mesh& mesh,
     prepared.mesh, std::move(prepared.rings), prepared.flags(options.is_locked),
     hierarchy_collapse_cost(), hierarchy_collapse_filter(options.angular_defect_bound), texture);
   const Progressive_mesh pm = engine.run(options);
+  if(engine.end().is_cancelled)
+    result.cancel();
   auto batch_end = pm.batch_ends.begin();
   for(std::size_t i = 0; i < pm.collapses.size(); ++i) {
     engine.layer().wedges().for_each_collapse(
@@ -89,6 +88,25 @@ inline Wedge_collapses decimate_textured(const Textured_triangle_mesh& mesh,
       ++batch_end;
     }
   }
+  return result;
+}
+
+// What is wrong with the arrays of a chart and its collapses.
+inline Mesh_outcome chart_error(const Progressive_mesh& pm,
+                                const std::vector<Textured_triangle_mesh::Point_3>& points,
+                                const std::vector<Textured_triangle_mesh::Point_2>& uv)
+{
+  const std::size_t n = pm.number_of_vertices;
+  Mesh_outcome result;
+  if(points.size() != n || uv.size() != n)
+    result.fail(Mesh_status::BAD_MESH,
+                "there is not a point and a texture coordinate for each vertex");
+  if(!result.fail(Mesh_status::BAD_MESH, index_error(pm.triangles, n))
+     && !result.fail(Mesh_status::BAD_MESH, point_error(points)))
+    result.fail(Mesh_status::BAD_MESH, uv_error(uv));
+  for(const Halfedge_collapse& c : pm.collapses)
+    if(c.removed >= n || c.kept >= n)
+      result.fail(Mesh_status::BAD_MESH, "a collapse is of a vertex that does not exist");
   return result;
 }
 
@@ -109,7 +127,8 @@ to cross a border (`keep_chart_borders_simple`). What the collapses cost is the 
 chart loses or gains.
 
 `mesh` may have any size and place, several components and borders. Bad data (vertices without a
-face or with several fans of faces, coordinates that are not finite) give a result with `error` set.
+face or with several fans of faces, coordinates that are not finite, `is_locked` of another mesh) give
+a result with an error.
 
 Expected linear time; see `Flat_collapse_engine`.
 */
@@ -123,17 +142,14 @@ CGAL_HLSCM_INLINE Textured_progressive_mesh_result
 build_textured_progressive_mesh(const Textured_triangle_mesh& mesh,
                                 const Textured_progressive_mesh_options& options)
 {
-  CGAL_precondition(options.is_locked.empty() || options.is_locked.size() == mesh.points.size());
   Textured_progressive_mesh_result result;
-  result.error = texture_error(mesh);
-  if(result.error.empty())
-    result.error = point_error(mesh.points);
-  if(!result.error.empty())
+  if(result.fail(Mesh_status::BAD_MESH, texture_error(mesh))
+     || result.fail(Mesh_status::BAD_MESH, point_error(mesh.points))
+     || result.fail(internal::lock_error(options, mesh.points.size())))
     return result;
   const Textured_triangle_mesh wedged = with_wedges(mesh);
   internal::Wedge_collapses wedges = internal::decimate_textured(wedged, options);
-  result.error = std::move(wedges.error);
-  if(!result.error.empty())
+  if(result.fail(wedges) && result.status != Mesh_status::CANCELLED)
     return result;
   Textured_progressive_mesh fine;
   fine.progressive_mesh.number_of_vertices = wedged.uv.size();
@@ -163,7 +179,7 @@ left out, and those that are no longer possible without them. Then decimation go
 coarsest level that `options` ask for, of which `order` and `angular_defect_bound` count for this
 part only.
 
-Bad data: as above. Linear time.
+Bad data: as above, and arrays of another length. Linear time.
 */
 CGAL_HLSCM_INLINE Textured_progressive_mesh_result
 build_textured_progressive_mesh(const Progressive_mesh& pm,
@@ -179,21 +195,18 @@ build_textured_progressive_mesh(const Progressive_mesh& pm,
                                 std::vector<Textured_triangle_mesh::Point_2> uv,
                                 const Textured_progressive_mesh_options& options)
 {
-  CGAL_precondition(points.size() == pm.number_of_vertices && uv.size() == pm.number_of_vertices);
   Textured_progressive_mesh_result result;
   Textured_progressive_mesh fine;
   fine.progressive_mesh.number_of_vertices = pm.number_of_vertices;
   fine.progressive_mesh.triangles = pm.triangles;
   fine.vertex.resize(points.size());
   std::iota(fine.vertex.begin(), fine.vertex.end(), Vertex_index(0));
-  result.error = point_error(points);
-  if(result.error.empty())
-    result.error = uv_error(uv);
   internal::Replay replay;
-  if(result.error.empty())
-    result.error = replay.run(pm, points, uv, options.target_vertices, options.is_locked,
-                              options.keep_chart_borders_simple);
-  if(!result.error.empty())
+  if(result.fail(internal::chart_error(pm, points, uv))
+     || result.fail(internal::lock_error(options, points.size()))
+     || result.fail(Mesh_status::BAD_MESH,
+                    replay.run(pm, points, uv, options.target_vertices, options.is_locked,
+                               options.keep_chart_borders_simple)))
     return result;
   fine.progressive_mesh.collapses = std::move(replay.collapses);
   fine.progressive_mesh.batch_ends = std::move(replay.batch_ends);
@@ -212,6 +225,8 @@ build_textured_progressive_mesh(const Progressive_mesh& pm,
     rest.is_locked.resize(options.is_locked.empty() ? 0 : coarse.points.size());
     coarse.triangles = coarse.wedges = replay.triangles;
     const internal::Wedge_collapses more = internal::decimate_textured(coarse, rest);
+    if(more.status == Mesh_status::CANCELLED)
+      result.cancel();
     const std::size_t first = fine.progressive_mesh.collapses.size();
     for(const Halfedge_collapse& c : more.collapses)
       fine.progressive_mesh.collapses.push_back(

@@ -9,29 +9,16 @@
 #include <CGAL/Surface_mesh_multiresolution/build_textured_progressive_mesh.h>
 
 #include <CGAL/Named_function_parameters.h>
-#include <CGAL/assertions.h>
 #include <CGAL/boost/graph/Euler_operations.h>
 #include <CGAL/boost/graph/named_params_helper.h>
 
 #include <array>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_multiresolution {
 
 namespace internal {
-
-// The texture coordinate of a halfedge by a function or a property map.
-template <class CornerUv, class Halfedge>
-auto uv_at(const CornerUv& corner_uv, const Halfedge h)
-{
-  if constexpr(std::is_invocable<const CornerUv&, Halfedge>::value)
-    return corner_uv(h);
-  else
-    return get(corner_uv, h);
-}
 
 // Appends triangles to a mesh; `use(h, w)` is called for each halfedge with its wedge.
 template <class TriangleMesh, class NamedParameters, class Use>
@@ -54,7 +41,7 @@ void append_level(const Textured_progressive_mesh& mesh,
       const Vertex_index v = mesh.vertex[t[c]];
       if(copies[v] == Graph_traits::null_vertex()) {
         copies[v] = add_vertex(result);
-        put(vpm, copies[v], Point_3(mesh.points[v].x(), mesh.points[v].y(), mesh.points[v].z()));
+        put(vpm, copies[v], Indexed_mesh::converted_point<Point_3>(mesh.points[v], np));
       }
       face[c] = copies[v];
     }
@@ -74,51 +61,6 @@ void append_level(const Textured_progressive_mesh& mesh,
 /*!
 \ingroup PkgHLSCMLevelsOfDetail
 
-Returns the triangles of `mesh` with the texture coordinates of their corners. Vertices are numbered
-as in `vertices(mesh)`, triangles as in `faces(mesh)`. Linear time.
-
-\tparam TriangleMesh a model of `FaceListGraph`
-\tparam NamedParameters a sequence of named parameters
-\param mesh a triangle mesh
-\param corner_uv the texture coordinates at the targets of the halfedges of faces, in these: a model
-       of `ReadablePropertyMap` with the halfedge descriptor as key, or a function of it. With a map
-       `m` of vertices that is `[&](auto h) { return get(m, target(h, mesh)); }`. For `mesh` with a
-       `Seam_mesh` of type `S` above it, `seams`, and the map `m` of its vertices that
-       `SMP::parameterize()` fills it is
-       `[&](auto h) { return get(m, target(boost::graph_traits<S>::halfedge_descriptor(h), seams));
-       }`
-\param np `vertex_point_map`: the points; `get(vertex_point, mesh)` by default
-
-\pre all faces are triangles
-*/
-template <class TriangleMesh, class CornerUv,
-          class NamedParameters = parameters::Default_named_parameters>
-Textured_triangle_mesh
-textured_triangle_mesh(const TriangleMesh& mesh, const CornerUv& corner_uv,
-                       const NamedParameters& np = parameters::default_values())
-{
-  Progressive_surface surface = internal::copy_surface_of(mesh, np);
-  Textured_triangle_mesh result;
-  result.points = std::move(surface.points);
-  result.triangles = std::move(surface.progressive_mesh.triangles);
-  CGAL_precondition(!result.triangles.empty() || faces(mesh).begin() == faces(mesh).end());
-  for(const auto f : faces(mesh)) {
-    auto h = halfedge(f, mesh);
-    Triangle_indices wedges;
-    for(Vertex_index& wedge : wedges) {
-      const auto uv = internal::uv_at(corner_uv, h);
-      wedge = Vertex_index(result.uv.size());
-      result.uv.emplace_back(to_double(uv[0]), to_double(uv[1]));
-      h = next(h, mesh);
-    }
-    result.wedges.push_back(wedges);
-  }
-  return result;
-}
-
-/*!
-\ingroup PkgHLSCMLevelsOfDetail
-
 Returns a progressive mesh of `mesh` all levels of which share its texture coordinates; see
 `build_textured_progressive_mesh()` of a `Textured_triangle_mesh`.
 
@@ -126,7 +68,7 @@ Returns a progressive mesh of `mesh` all levels of which share its texture coord
 \param mesh a triangle mesh; faces that are no triangles are an error, too
 \param corner_uv as for `textured_triangle_mesh()`
 \param options where to stop, and what must stay
-\param np `vertex_point_map`: the points; `get(vertex_point, mesh)` by default
+\param np `vertex_point_map` and `geom_traits`; see `Indexed_mesh::copy_points()`
 */
 template <class TriangleMesh, class CornerUv,
           class NamedParameters = parameters::Default_named_parameters>
@@ -135,8 +77,11 @@ build_textured_progressive_mesh(const TriangleMesh& mesh, const CornerUv& corner
                                 const Textured_progressive_mesh_options& options,
                                 const NamedParameters& np = parameters::default_values())
 {
-  if(!is_triangle_mesh(mesh))
-    return {{}, "not all faces are triangles; triangulate the mesh first"};
+  Textured_progressive_mesh_result result;
+  if(!is_triangle_mesh(mesh)) {
+    result.fail(Mesh_status::BAD_MESH, "not all faces are triangles; triangulate the mesh first");
+    return result;
+  }
   return build_textured_progressive_mesh(textured_triangle_mesh(mesh, corner_uv, np), options);
 }
 
@@ -154,7 +99,8 @@ Appends a level to a mesh.
 \param corner_uvmap a model of `WritablePropertyMap` with the halfedge descriptor of `result` as key
        and `Point_2` as value: gets the texture coordinate at the target of each halfedge of a face;
        nothing if there is no texture
-\param np `vertex_point_map`: where the points go; `get(vertex_point, result)` by default
+\param np `vertex_point_map`: where the points go, `get(vertex_point, result)` by default;
+       `geom_traits`: what makes them, see `Indexed_mesh::converted_point()`
 
 Linear time in the number of triangles and of vertices of the fine mesh.
 */

@@ -6,14 +6,12 @@
 
 #include <CGAL/Surface_mesh_multiresolution/build_progressive_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/decimation/collapse_in_mesh.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/decimation/named_policies.h>
 
 #include <CGAL/tags.h>
 
 #include <cstddef>
 #include <limits>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -52,10 +50,10 @@ struct Decimation_options
 /// \ingroup PkgHLSCMMultiresolution
 /// What `decimate()` returns.
 struct Decimation_result
+  : Indexed_mesh::Mesh_outcome
 {
-  Decimation_status status = Decimation_status::STOPPED; ///< why it ended
-  std::string error;                     ///< if it is `BAD_INPUT` what is wrong, as a sentence
   std::size_t number_of_collapses = 0;   ///< what `edge_collapse()` returns: the vertices removed
+  bool is_exhausted = false;             ///< whether nothing more could be collapsed before `stop`
   /// For arrays the old number of each vertex that is left, ascending; empty for other meshes, whose
   /// vertices stay what they are.
   std::vector<Vertex_index> source_vertex;
@@ -71,8 +69,8 @@ A vertex is removed by moving it onto a neighbour: the vertices that are left, w
 descriptors, points and properties, are vertices of `mesh` that never moved, and the same holds for
 faces and their properties; properties of halfedges are not kept at edges that were joined. Removed
 elements are removed as by the Euler operations of CGAL: a `Surface_mesh` or a mesh of OpenMesh then
-has garbage to collect. If there is an error the mesh is not changed. The result does not depend on
-the number of threads.
+has garbage to collect. If the input is bad the mesh is not changed; if it was cancelled, as far as
+that. The result does not depend on the number of threads.
 
 \tparam ConcurrencyTag `Sequential_tag` (default; what the caller's `Blocked_execution::Thread_scope`
         allows), `Parallel_tag` or `Parallel_if_available_tag` (all threads of the machine)
@@ -88,7 +86,7 @@ the number of threads.
 \param stop when to stop; how batched collapses ask it see `Flat_collapse_engine::run()`. In the
        order `STRICT` it is asked for each collapse
 \param np named parameters of CGAL:
-- `vertex_point_map`: the points; `get(vertex_point, mesh)` by default
+- `vertex_point_map` and `geom_traits`: the points; see `Indexed_mesh::copy_points()`
 - `edge_is_constrained_map`: neither end of a constrained edge is removed, so that these edges stay
   as they are; none by default
 - `get_cost`: a model of CGAL's concept `GetCost` for a `Flat_collapse_profile`; by default
@@ -98,7 +96,7 @@ the number of threads.
   default `hierarchy_collapse_filter()`
 - `get_placement`: only `Surface_mesh_simplification::Halfedge_collapse_placement`, whose filter and
   locks count; any other placement does not compile, as no vertex may move
-- `geom_traits` does not matter: coordinates are converted to `double`; a `visitor` does not compile
+- a `visitor` does not compile
 
 Policies that are given see the coordinates of `mesh`; see `build_progressive_mesh()`.
 
@@ -114,12 +112,12 @@ Decimation_result decimate(TriangleMesh& mesh, const StopPredicate& stop,
 {
   Progressive_surface surface = internal::copy_surface_of(mesh, np);
   Decimation_result result;
-  if(surface.error.empty())
-    result.status = internal::run_with_threads<ConcurrencyTag>([&] {
+  if(surface.is_ok())
+    result.is_exhausted = internal::run_with_threads<ConcurrencyTag>([&] {
       return internal::decimate_by(stop, np, internal::locked_vertices(mesh, np), surface);
     });
-  if(!surface.error.empty())
-    return {Decimation_status::BAD_INPUT, surface.error, 0, {}};
+  if(result.fail(surface) && result.status != Mesh_status::CANCELLED)
+    return result;
   result.number_of_collapses = surface.progressive_mesh.collapses.size();
   internal::collapse_in_mesh(surface.progressive_mesh.collapses, mesh);
   return result;
@@ -139,12 +137,12 @@ Decimation_result decimate(Indexed_triangle_mesh& mesh, const StopPredicate& sto
 {
   Progressive_surface surface = internal::copy_surface(mesh);
   Decimation_result result;
-  if(surface.error.empty())
-    result.status = internal::run_with_threads<ConcurrencyTag>([&] {
+  if(surface.is_ok())
+    result.is_exhausted = internal::run_with_threads<ConcurrencyTag>([&] {
       return internal::decimate_by(stop, np, {}, surface);
     });
-  if(!surface.error.empty())
-    return {Decimation_status::BAD_INPUT, surface.error, 0, {}};
+  if(result.fail(surface) && result.status != Mesh_status::CANCELLED)
+    return result;
   const Progressive_mesh& pm = surface.progressive_mesh;
   result.number_of_collapses = pm.collapses.size();
   mesh = level_after(surface, pm.collapses.size(), result.source_vertex);

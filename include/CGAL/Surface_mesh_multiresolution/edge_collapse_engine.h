@@ -11,9 +11,6 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
-#include <utility>
-#include <vector>
-
 namespace CGAL {
 namespace Surface_mesh_multiresolution {
 

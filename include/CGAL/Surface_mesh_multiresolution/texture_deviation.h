@@ -6,12 +6,17 @@
 
 #include <CGAL/Surface_mesh_multiresolution/Level_extractor.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/deviation/Deviation_meter.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/deviation/walk_starts.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/deviation/Uv_walk.h>
+#include <CGAL/Surface_mesh_multiresolution/Textured_progressive_mesh.h>
 
 #include <CGAL/assertions.h>
+#include <CGAL/number_utils.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_multiresolution {
@@ -52,6 +57,7 @@ the texture, edges are not followed across: there the maximum is that at the ver
 `unresolved` are the parts of the area concerned.
 */
 struct Texture_deviation
+  : Indexed_mesh::Mesh_outcome
 {
   Surface_error deviation;       ///< between points of equal uv; a length in space
   Surface_error uv_change;       ///< between nearest points; a length in the texture
@@ -70,7 +76,8 @@ struct Texture_deviation
 };
 
 /// \ingroup PkgHLSCMLevelsOfDetail
-/// The errors that `coarsest_level_within()` bounds; each is a maximum of `Texture_deviation`.
+/// The geometric errors that `coarsest_level_within()` bounds; each is a maximum of
+/// `Texture_deviation`.
 enum class Level_error
 {
   TEXTURE_DEVIATION, ///< `deviation`, a length in space
@@ -109,6 +116,39 @@ inline Textured_view fine_view(const Textured_progressive_mesh& mesh)
                        mesh.number_of_wedges());
 }
 
+// What keeps a level from being measured.
+inline Mesh_outcome deviation_error(const Textured_progressive_mesh& mesh, std::size_t k)
+{
+  if(!mesh.has_texture())
+    return {Mesh_status::BAD_MESH, "the mesh has no texture"};
+  if(k > mesh.number_of_collapses() || !mesh.is_whole(k))
+    return {Mesh_status::BAD_OPTIONS,
+            "there is no whole level after " + std::to_string(k) + " collapses"};
+  return {};
+}
+
+// What keeps one of two meshes from being measured.
+inline Mesh_outcome deviation_error(const Wedge_mesh& mesh, const std::string& name)
+{
+  Mesh_outcome result;
+  if(mesh.uv.empty() || mesh.uv.size() != mesh.vertex.size())
+    result.fail(Mesh_status::BAD_MESH, name + " has no texture");
+  for(const Vertex_index v : mesh.vertex)
+    if(v >= mesh.points.size())
+      result.fail(Mesh_status::BAD_MESH, name + " has a wedge of a vertex that does not exist");
+  if(result.fail(Mesh_status::BAD_MESH, index_error(mesh.triangles, mesh.vertex.size(), name))
+     || result.fail(Mesh_status::BAD_MESH, point_error(mesh.points, name))
+     || result.fail(Mesh_status::BAD_MESH, uv_error(mesh.uv, name)))
+    return result;
+  const auto has_area = [&mesh](const Triangle_indices& t) {
+    const auto point = [&](int c) { return mesh.points[mesh.vertex[t[c]]]; };
+    return squared_area(point(0), point(1), point(2)) > 0.;
+  };
+  if(std::none_of(mesh.triangles.begin(), mesh.triangles.end(), has_area))
+    result.fail(Mesh_status::BAD_MESH, name + " has no triangle with an area");
+  return result;
+}
+
 inline bool is_within(const Fine_surface& fine, const Textured_progressive_mesh& mesh,
                       std::size_t k, Level_error kind, double bound)
 {
@@ -124,7 +164,8 @@ inline bool is_within(const Fine_surface& fine, const Textured_progressive_mesh&
 /*!
 \ingroup PkgHLSCMLevelsOfDetail
 
-Returns the errors of the level of `mesh` after `k` collapses.
+Returns the errors of the level of `mesh` after `k` collapses. The result has a status and a sentence
+if the mesh has no texture, or `mesh.is_whole(k)` does not hold.
 
 The points of equal uv are found by walks in the texture that start at the ancestor of a wedge. So
 nothing is asked of the map: where it covers the texture twice, the walk is on the right sheet. The
@@ -134,12 +175,14 @@ equal uv. They end in local minima; the nearer one is no farther than either sta
 Expected linear time; loops use the threads of a `Blocked_execution::Thread_scope`, with the same
 result to the bit.
 
-\pre `mesh.is_whole(k)`, and every wedge of the level has a triangle.
+\pre every wedge of the level has a triangle.
 */
 inline Texture_deviation measure_texture_deviation(const Textured_progressive_mesh& mesh,
                                                    std::size_t k)
 {
-  CGAL_precondition(k <= mesh.number_of_collapses() && mesh.is_whole(k));
+  Texture_deviation result;
+  if(result.fail(internal::deviation_error(mesh, k)))
+    return result;
   const internal::Textured_view view = internal::fine_view(mesh);
   const internal::Fine_surface fine(view);
   const internal::Level_start level(mesh, k);
@@ -158,13 +201,18 @@ the neighbours of a vertex are if that leads out of the chart. `uv_change` is me
 nearest point of the chart around, `distance` from the nearest point of all. The vertices of
 `coarse` count in the maximum of `deviation` as far as they lie in the charts of `fine`.
 
-Time \f$ O(n \log n) \f$ as a rule.
+The result has a status and a sentence if one of them has no texture, no triangle with an area,
+indices out of range or coordinates that are not finite.
 
-\pre both have triangles with an area.
+Time \f$ O(n \log n) \f$ as a rule.
 */
 inline Texture_deviation measure_texture_deviation(const Wedge_mesh& fine,
                                                    const Wedge_mesh& coarse)
 {
+  Texture_deviation result;
+  if(result.fail(internal::deviation_error(fine, "the fine mesh"))
+     || result.fail(internal::deviation_error(coarse, "the coarse mesh")))
+    return result;
   const internal::Textured_view fine_view(fine), coarse_view(coarse);
   const internal::Fine_surface fine_surface(fine_view), coarse_surface(coarse_view);
   const internal::Nearest_start to_coarse(fine_view, coarse_view), to_fine(coarse_view, fine_view);
@@ -172,7 +220,7 @@ inline Texture_deviation measure_texture_deviation(const Wedge_mesh& fine,
   Meter meter(fine_surface, coarse_view, to_coarse), back(coarse_surface, fine_view, to_fine);
   meter.locate_wedges();
   meter.relocate_outside();
-  Texture_deviation result = internal::all_errors(meter, fine_surface, coarse_view);
+  result = internal::all_errors(meter, fine_surface, coarse_view);
   result.deviation.maximum
     = (std::max)(result.deviation.maximum, back.locate_wedges().maximum);
   return result;
@@ -180,10 +228,12 @@ inline Texture_deviation measure_texture_deviation(const Wedge_mesh& fine,
 
 /// \ingroup PkgHLSCMLevelsOfDetail
 /// Returns whether `measure_texture_deviation(mesh, k).deviation.maximum <= bound`; faster, above
-/// all if it is not. Precondition: as there.
+/// all if it is not. False if that has an error.
 inline bool is_within_texture_deviation(const Textured_progressive_mesh& mesh, std::size_t k,
                                         double bound)
 {
+  if(!internal::deviation_error(mesh, k).is_ok())
+    return false;
   const internal::Textured_view view = internal::fine_view(mesh);
   return internal::is_within(internal::Fine_surface(view), mesh, k,
                              Level_error::TEXTURE_DEVIATION, bound);
@@ -191,11 +241,82 @@ inline bool is_within_texture_deviation(const Textured_progressive_mesh& mesh, s
 
 /// \ingroup PkgHLSCMLevelsOfDetail
 /// Returns whether `measure_texture_deviation(mesh, k).distance.maximum <= bound`; faster, above
-/// all if it is not. Precondition: as there.
+/// all if it is not. False if that has an error.
 inline bool is_within_distance(const Textured_progressive_mesh& mesh, std::size_t k, double bound)
 {
+  if(!internal::deviation_error(mesh, k).is_ok())
+    return false;
   const internal::Textured_view view = internal::fine_view(mesh);
   return internal::is_within(internal::Fine_surface(view), mesh, k, Level_error::DISTANCE, bound);
+}
+
+/*!
+\ingroup PkgHLSCMLevelsOfDetail
+
+Returns a position \f$ k \f$, whole, at which the maximum of an error is within `bound`, with about
+as few triangles as possible.
+
+It is found by bisection on the logarithm of the number of triangles, down to 1 %, and what is
+returned was measured. The errors grow with \f$ k \f$ on the whole but not from collapse to
+collapse, so that a coarser level may be within the bound too. The finest level, 0, always is, and
+the only one of a mesh without texture.
+
+\param mesh a mesh all of whose whole levels satisfy the precondition of
+       `measure_texture_deviation()`
+\param kind which error
+\param bound its greatest value, a length in space, not negative
+
+Time of about ten calls of the predicate `is_within_texture_deviation()` or `is_within_distance()`.
+*/
+inline std::size_t coarsest_level_within(const Textured_progressive_mesh& mesh, Level_error kind,
+                                         double bound)
+{
+  CGAL_precondition(bound >= 0.);
+  constexpr double precision = 1.01; // of the number of triangles
+  const std::vector<std::uint32_t> numbers = internal::triangle_numbers(mesh);
+  const auto triangles = [&](std::size_t k) {
+    return double(numbers[mesh.number_of_wedges_after(k)]);
+  };
+  if(!mesh.has_texture())
+    return 0;
+  const internal::Textured_view view = internal::fine_view(mesh);
+  const internal::Fine_surface fine(view);
+  const auto is_within = [&](std::size_t k) {
+    return k == 0 || internal::is_within(fine, mesh, k, kind, bound);
+  };
+  std::size_t within = 0, beyond = mesh.number_of_collapses();
+  if(is_within(beyond))
+    return beyond;
+  while(triangles(within) > precision * triangles(beyond)) {
+    const double middle = std::sqrt(triangles(within) * triangles(beyond));
+    const std::size_t k = internal::position_with(mesh, numbers, std::size_t(middle));
+    if(k <= within || k >= beyond)
+      break;
+    (is_within(k) ? within : beyond) = k;
+  }
+  return within;
+}
+
+/// \ingroup PkgHLSCMLevelsOfDetail
+/// Returns how many pixels a length in space spans in a picture, seen at a right angle in the
+/// middle.
+///
+/// \param length a length in space
+/// \param distance from the eye, in the same unit, positive
+/// \param height of the picture in pixels
+/// \param field_of_view the angle between its upper and lower side seen from the eye, in radians
+inline double pixels(double length, double distance, double height, double field_of_view)
+{
+  CGAL_precondition(distance > 0. && field_of_view > 0. && field_of_view < CGAL_PI);
+  return length * height / (2. * distance * std::tan(0.5 * field_of_view));
+}
+
+/// \ingroup PkgHLSCMLevelsOfDetail
+/// Returns the length in space that spans this many pixels: the inverse of `pixels()`.
+inline double length_of_pixels(double pixels, double distance, double height, double field_of_view)
+{
+  CGAL_precondition(height > 0. && field_of_view > 0. && field_of_view < CGAL_PI);
+  return pixels * 2. * distance * std::tan(0.5 * field_of_view) / height;
 }
 
 } // namespace Surface_mesh_multiresolution

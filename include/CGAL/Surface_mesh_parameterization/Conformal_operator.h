@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <complex>
-#include <utility>
 #include <vector>
 
 namespace CGAL {

@@ -5,13 +5,12 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_BORDER_FIRST_MAP_H
 
 #include <CGAL/Blocked_execution/compile_once.h>
-#include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
+#include <CGAL/Indexed_mesh/mesh_error.h>
 
 #ifdef CGAL_HLSCM_DEFINITIONS
 #include <CGAL/Surface_mesh_parameterization/internal/border_first/Border_first_flattening.h>
 #endif
 
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -21,10 +20,10 @@ namespace Surface_mesh_parameterization {
 /// \ingroup PkgHLSCMParameterizer
 /// What `border_first_map()` returns.
 struct Border_first_map
+  : Indexed_mesh::Mesh_outcome
 {
   /// The parameter of each vertex; (0, 0) for vertices without a face; empty if there is an error.
   std::vector<Simple_cartesian<double>::Point_2> uv;
-  std::string error; ///< why there is no map, as a sentence; empty if all is well
 };
 
 /*!
@@ -56,14 +55,13 @@ CGAL_HLSCM_INLINE Border_first_map border_first_map(Indexed_mesh::Indexed_triang
   const std::size_t n = mesh.points.size();
   const internal::Prepared_chart prepared = internal::chart_of_arrays(std::move(mesh));
   const internal::Chart& chart = prepared.chart;
-  result.error = prepared.status.message;
   if(prepared.status.is_ok() && chart.borders.size() != 1)
-    result.error = "the surface has several borders; cut it to a disk first";
-  if(!result.error.empty())
+    result.fail(Mesh_status::BAD_MESH, "the surface has several borders; cut it to a disk first");
+  if(result.fail(Mesh_status::BAD_MESH, prepared.status.message))
     return result;
   const auto z = internal::Border_first_flattening(chart).run();
   if(z.empty())
-    result.error = "the matrix cannot be factorized";
+    result.fail(Mesh_status::FAILED, "the matrix cannot be factorized");
   else
     result.uv = internal::points_of_values(chart.source, z, n);
   return result;

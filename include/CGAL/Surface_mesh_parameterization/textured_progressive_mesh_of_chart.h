@@ -59,10 +59,11 @@ build_textured_progressive_mesh(
 {
   namespace SMM = Surface_mesh_multiresolution;
   SMM::Textured_progressive_mesh_result result;
-  result.error = internal::chart_error(chart, num_vertices(mesh));
   if(!options.is_locked.empty() && options.is_locked.size() != chart.vertices.size())
-    result.error = "`is_locked` is not in the order of the chart's vertices";
-  if(!result.error.empty())
+    result.fail(Indexed_mesh::Mesh_status::BAD_OPTIONS,
+                "`is_locked` is not in the order of the chart's vertices");
+  if(result.fail(Indexed_mesh::Mesh_status::BAD_OPTIONS,
+                 internal::chart_error(chart, num_vertices(mesh))))
     return result;
   const auto rank = Indexed_mesh::ranks(chart.vertices, num_vertices(mesh));
   std::vector<SMM::Textured_triangle_mesh::Point_3> points(chart.vertices.size());

@@ -6,7 +6,6 @@
 
 #include <CGAL/Indexed_mesh/aabb_tree.h>
 #include <CGAL/Surface_mesh_texturing/Along_rays.h>
-#include <CGAL/Surface_mesh_texturing/internal/baking/ray_triangle.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 

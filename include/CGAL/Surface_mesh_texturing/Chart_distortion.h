@@ -10,7 +10,6 @@
 #include <CGAL/assertions.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>

@@ -4,13 +4,12 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_CHART_PACKING_H
 #define CGAL_SURFACE_MESH_TEXTURING_CHART_PACKING_H
 
-#include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
+#include <CGAL/Indexed_mesh/mesh_error.h>
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <string>
 #include <vector>
 
 namespace CGAL {
@@ -103,13 +102,13 @@ struct Chart_placement
 /// \ingroup PkgHLSCMTexturing
 /// What `pack_charts()` returns.
 struct Packing_result
+  : Indexed_mesh::Mesh_outcome
 {
   std::vector<Chart_placement> placements; ///< of each chart; empty if there is an error
   std::size_t pages = 0;                   ///< their number
   double texels_per_unit = 0.;             ///< the scale of all placements
   double utilisation = 0.;       ///< area of the charts' triangles to the area of all pages
   double texel_utilisation = 0.; ///< texels that charts touch to all texels of all pages
-  std::string error;             ///< why there are no placements; empty if there are
 };
 
 } // namespace Surface_mesh_texturing

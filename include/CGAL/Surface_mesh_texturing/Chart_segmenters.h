@@ -40,6 +40,7 @@ struct Chart_growth_segmenter
     growth.least_fill = options.least_fill;
     Segmentation_options segmentation;
     segmentation.coarse_faces = options.coarse_faces;
+    segmentation.no_seams = options.no_seams;
     segmentation.progress = options.progress;
     return segment_into_charts(mesh, segmentation, growth);
   }
@@ -69,8 +70,7 @@ public:
                                  const Texture_atlas_options&) const
   {
     Segmentation_result result;
-    result.error = internal::error_of_foreign_seams(mesh, m_charts.seams);
-    if(result.error.empty())
+    if(!result.fail(internal::foreign_seams_error(mesh, m_charts.seams)))
       result.charts = m_charts;
     return result;
   }

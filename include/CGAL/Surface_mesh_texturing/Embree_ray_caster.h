@@ -5,8 +5,7 @@
 #define CGAL_SURFACE_MESH_TEXTURING_EMBREE_RAY_CASTER_H
 
 #include <CGAL/Surface_mesh_texturing/Along_rays.h>
-#include <CGAL/Surface_mesh_texturing/internal/baking/Bounding_ball.h>
-#include <CGAL/Surface_mesh_texturing/internal/baking/ray_triangle.h>
+#include <CGAL/Surface_mesh_texturing/Surface_point.h>
 
 #include <embree3/rtcore.h>
 

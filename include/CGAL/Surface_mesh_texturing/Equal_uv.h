@@ -7,7 +7,6 @@
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
 #include <CGAL/Surface_mesh_texturing/Surface_point.h>
 #include <CGAL/Surface_mesh_texturing/bake.h>
-#include <CGAL/Surface_mesh_texturing/internal/baking/Nearest_covered.h>
 #include <CGAL/Surface_mesh_texturing/internal/baking/Uv_rasterizer.h>
 
 #include <algorithm>
@@ -56,8 +55,6 @@ public:
     }
   }
 
-  static constexpr std::uint32_t no_chart = std::uint32_t(-1);
-
   std::uint32_t size() const { return m_size; }
   std::uint32_t operator[](std::uint32_t triangle) const { return m_chart[triangle]; }
 
@@ -93,7 +90,7 @@ public:
                                   - (q.y() - p.y()) * (r.x() - p.x()))});
     }
     std::sort(areas.begin(), areas.end());
-    std::vector<std::uint32_t> partner(charts.size(), Uv_charts::no_chart);
+    std::vector<std::uint32_t> partner(charts.size(), no_chart);
     std::vector<double> largest(charts.size(), -1.);
     for(auto a = areas.begin(); a != areas.end();) {
       const Pair pair = a->first;
@@ -113,7 +110,7 @@ public:
   // Whether a fine triangle lies in the chart that belongs to that of a light one, or none does.
   bool match(std::uint32_t fine_triangle, std::uint32_t light_triangle) const
   {
-    return m_partner.empty() || m_partner[light_triangle] == Uv_charts::no_chart
+    return m_partner.empty() || m_partner[light_triangle] == no_chart
         || m_partner[light_triangle] == m_fine[fine_triangle];
   }
 

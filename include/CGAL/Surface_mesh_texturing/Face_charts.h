@@ -6,10 +6,13 @@
 
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
 #include <CGAL/Indexed_mesh/Triangle_adjacency.h>
+#include <CGAL/Indexed_mesh/mesh_error.h>
+#include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
 
-#include <CGAL/assertions.h>
-
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -42,7 +45,23 @@ struct Face_charts
   bool is_seam(Halfedge h) const { return is_seam(triangle_of(h), int(corner_of(h))); }
 };
 
+/*!
+\ingroup PkgHLSCMTexturing
+
+How much shorter than flat edges creases are taken to be, so that short seams lie on creases, where
+they are least seen. Angles are those between the normals of the two triangles at an edge.
+*/
+struct Crease_weights
+{
+  double flat_angle = 25.;    ///< up to which an edge counts in full; degrees
+  double sharp_angle = 70.;   ///< from which an edge is a crease; degrees
+  double crease_length = 0.2; ///< what a crease counts for each unit of its length, in (0, 1]
+  double concave_gain = 1.5;  ///< how much faster the length of concave edges falls with the angle
+};
+
 namespace internal {
+
+constexpr std::uint32_t no_chart = std::uint32_t(-1);
 
 // The bit of a halfedge among the seams of its triangle.
 inline bool is_marked(const std::vector<std::uint8_t>& seams, Halfedge h)
@@ -108,34 +127,98 @@ std::vector<Halfedge> first_corners_of_wedges(std::size_t n, const Across& acros
 
 } // namespace internal
 
+namespace internal {
+
+// What is wrong with seams that somebody else found.
+inline Mesh_outcome foreign_seams_error(const Indexed_triangle_mesh& mesh,
+                                        const std::vector<std::uint8_t>& seams)
+{
+  const std::size_t n = mesh.triangles.size();
+  if(seams.size() == n)
+    return {};
+  return {Mesh_status::BAD_OPTIONS, "the charts have seams for " + std::to_string(seams.size())
+                                      + " triangles, but the mesh has " + std::to_string(n)};
+}
+
+// What keeps charts from being those of a mesh with `surface_error()` none and this adjacency.
+inline Mesh_outcome adjacency_error(const Indexed_triangle_mesh& mesh,
+                                    const Triangle_adjacency& adjacency, const Face_charts& charts)
+{
+  Mesh_outcome result = foreign_seams_error(mesh, charts.seams);
+  const std::size_t n = mesh.triangles.size();
+  if(charts.chart.size() != n || adjacency.number_of_halfedges() != 3 * n)
+    result.fail(Mesh_status::BAD_OPTIONS, "there is not a chart for each triangle of the mesh");
+  for(Halfedge h = 0; h < 3 * n && result.is_ok(); ++h) {
+    const Triangle_index t = triangle_of(h);
+    const Halfedge o = adjacency.opposite(h);
+    const std::string triangle = "triangle " + std::to_string(t);
+    if(o != no_halfedge && adjacency.opposite(o) != h)
+      return {Mesh_status::BAD_MESH, triangle + " has an edge with more than two triangles"};
+    if(charts.chart[t] >= charts.number_of_charts)
+      return {Mesh_status::BAD_OPTIONS, triangle + " is in a chart that does not exist"};
+    if(charts.is_seam(h) ? o != no_halfedge && !charts.is_seam(o)
+                         : o == no_halfedge || charts.chart[triangle_of(o)] != charts.chart[t])
+      return {Mesh_status::BAD_OPTIONS,
+              "the seams at " + triangle + " are not those between the charts"};
+  }
+  return result;
+}
+
+} // namespace internal
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+Says what keeps `charts` from being those of `mesh`: indices out of range, coordinates that are not
+finite, an edge of more than two triangles, a triangle that has a vertex twice, arrays of another
+length, or invariants of `Face_charts` that do not hold. Linear time.
+
+Functions that take and return charts, which have no place for a sentence, check it first and return
+charts of nothing (`number_of_charts` is 0) where this is not `OK`.
+*/
+inline Indexed_mesh::Mesh_outcome charts_error(const Indexed_triangle_mesh& mesh,
+                                               const Face_charts& charts)
+{
+  Mesh_outcome result;
+  if(!result.fail(Mesh_status::BAD_MESH, surface_error(mesh)))
+    result = internal::adjacency_error(mesh, Triangle_adjacency(mesh.triangles), charts);
+  return result;
+}
+
 /*!
 \ingroup PkgHLSCMTexturing
 
 Returns the charts between `seams`, to which the seams that are marked on one side only are added on
 the other one, and the border edges of the mesh, whose triangles must have at most one neighbour
-across each edge. Linear time.
+across each edge; none if there are not as many triangles. Linear time.
 */
 inline Face_charts charts_between(const Indexed_mesh::Triangle_adjacency& adjacency,
                                   std::vector<std::uint8_t> seams)
 {
-  CGAL_precondition(3 * seams.size() == adjacency.number_of_halfedges());
+  if(3 * seams.size() != adjacency.number_of_halfedges())
+    return {};
   return internal::label_charts(adjacency, std::move(seams));
 }
 
 /// \ingroup PkgHLSCMTexturing
-/// The same without an adjacency at hand.
+/// The same without an adjacency at hand. Memory in proportion to the greatest index too; none if one
+/// is `no_vertex`.
 inline Face_charts charts_between(const std::vector<Triangle_indices>& triangles,
                                   std::vector<std::uint8_t> seams)
 {
+  if(!index_error(triangles, Indexed_mesh::no_vertex).empty())
+    return {};
   return charts_between(Indexed_mesh::Triangle_adjacency(triangles), std::move(seams));
 }
 
 /// \ingroup PkgHLSCMTexturing
-/// Returns the charts whose borders are the edges between triangles of different `label`.
+/// Returns the charts whose borders are the edges between triangles of different `label`; none if
+/// there are not as many triangles.
 inline Face_charts charts_of_labels(const Indexed_mesh::Triangle_adjacency& adjacency,
                                     const std::vector<std::uint32_t>& label)
 {
-  CGAL_precondition(3 * label.size() == adjacency.number_of_halfedges());
+  if(3 * label.size() != adjacency.number_of_halfedges())
+    return {};
   std::vector<std::uint8_t> seams(label.size(), 0);
   for(Halfedge h = 0; h < adjacency.number_of_halfedges(); ++h) {
     const Halfedge opposite = adjacency.opposite(h);
@@ -146,10 +229,12 @@ inline Face_charts charts_of_labels(const Indexed_mesh::Triangle_adjacency& adja
 }
 
 /// \ingroup PkgHLSCMTexturing
-/// The same without an adjacency at hand.
+/// The same without an adjacency at hand; see `charts_between()`.
 inline Face_charts charts_of_labels(const std::vector<Triangle_indices>& triangles,
                                     const std::vector<std::uint32_t>& label)
 {
+  if(!index_error(triangles, Indexed_mesh::no_vertex).empty())
+    return {};
   return charts_of_labels(Indexed_mesh::Triangle_adjacency(triangles), label);
 }
 
@@ -161,6 +246,16 @@ struct Chart_mesh
   std::vector<Vertex_index> vertices;   ///< for each vertex the one of the whole mesh
   std::vector<Triangle_index> triangles; ///< for each triangle the one of the whole mesh
   std::vector<Halfedge> border;         ///< the halfedges of `mesh` on seams, which are its border
+
+  /// Returns the entries of an array of the triangles of the whole mesh that are those of the chart:
+  /// of marks of their edges, for example, as corners are the same. Empty if the array is.
+  std::vector<std::uint8_t> sides(const std::vector<std::uint8_t>& of_whole_mesh) const
+  {
+    std::vector<std::uint8_t> result;
+    for(std::size_t i = 0; i < triangles.size() && !of_whole_mesh.empty(); ++i)
+      result.push_back(of_whole_mesh[triangles[i]]);
+    return result;
+  }
 
   /// Returns the ends of the edges of the border.
   std::vector<Border_edge> border_edges() const
@@ -234,7 +329,6 @@ template <class Adjacency>
 std::vector<Chart_mesh> cut_out_charts(const Indexed_triangle_mesh& mesh,
                                        const Adjacency& adjacency, const Face_charts& charts)
 {
-  CGAL_precondition(charts.chart.size() == mesh.triangles.size());
   std::vector<std::vector<Triangle_index>> triangles(charts.number_of_charts);
   for(Triangle_index t = 0; t < mesh.triangles.size(); ++t)
     triangles[charts.chart[t]].push_back(t);
@@ -250,12 +344,15 @@ std::vector<Chart_mesh> cut_out_charts(const Indexed_triangle_mesh& mesh,
 /*!
 \ingroup PkgHLSCMTexturing
 
-Returns each chart of `mesh`, whose adjacency is given, as a mesh of its own. Linear time.
+Returns each chart of `mesh`, whose adjacency is given, as a mesh of its own; none if there is a
+`charts_error()`. Linear time.
 */
 inline std::vector<Chart_mesh> chart_meshes(const Indexed_triangle_mesh& mesh,
                                             const Indexed_mesh::Triangle_adjacency& adjacency,
                                             const Face_charts& charts)
 {
+  if(!surface_error(mesh).empty() || !internal::adjacency_error(mesh, adjacency, charts).is_ok())
+    return {};
   return internal::cut_out_charts(mesh, adjacency, charts);
 }
 
@@ -264,7 +361,30 @@ inline std::vector<Chart_mesh> chart_meshes(const Indexed_triangle_mesh& mesh,
 inline std::vector<Chart_mesh> chart_meshes(const Indexed_triangle_mesh& mesh,
                                             const Face_charts& charts)
 {
+  if(!surface_error(mesh).empty())
+    return {};
   return chart_meshes(mesh, Indexed_mesh::Triangle_adjacency(mesh.triangles), charts);
+}
+
+using Surface_mesh_multiresolution::Textured_triangle_mesh;
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+Returns the charts of a texture: an edge is a seam unless the texture coordinates of both its ends
+are equal on both sides, whatever their indices. Charts need not be disks; see `cut_to_disks()`. None
+for a mesh with a `mesh_error()` or `texture_error()`. Linear time.
+*/
+inline Face_charts charts_of_texture(const Textured_triangle_mesh& mesh)
+{
+  if(!mesh_error(mesh).empty() || !texture_error(mesh).empty())
+    return {};
+  const Indexed_mesh::Triangle_adjacency adjacency(mesh.triangles);
+  std::vector<std::uint8_t> seams(mesh.triangles.size(), 0);
+  for(Halfedge h = 0; h < adjacency.number_of_halfedges(); ++h)
+    if(adjacency.opposite(h) != no_halfedge && !is_smooth(mesh, h, adjacency.opposite(h)))
+      internal::mark(seams, h);
+  return charts_between(adjacency, std::move(seams));
 }
 
 } // namespace Surface_mesh_texturing

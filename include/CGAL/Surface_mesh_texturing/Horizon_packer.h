@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -120,7 +119,7 @@ inline Packing_result horizon_packing(const std::vector<Chart_outline>& outlines
     std::size_t page = 0;
     for(;; ++page) {
       if(profile.height == 0 || (options.max_pages != 0 && page == options.max_pages)) {
-        result.error = misfit_message(chart, profile.height == 0, options);
+        result.fail(Mesh_status::FAILED, misfit_message(chart, profile.height == 0, options));
         return result;
       }
       if(page == pages.size())
@@ -180,8 +179,10 @@ public:
         result = trial;
       return !trial.placements.empty();
     });
-    if(is_cancelled)
-      return {{}, 0, 0., 0., 0., "cancelled"};
+    if(is_cancelled) {
+      result = Packing_result();
+      result.cancel();
+    }
     return result;
   }
 };

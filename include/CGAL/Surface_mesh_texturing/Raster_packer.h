@@ -7,7 +7,6 @@
 #include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Surface_mesh_texturing/internal/packing/Raster_packing_search.h>
 
-#include <string>
 #include <vector>
 
 namespace CGAL {

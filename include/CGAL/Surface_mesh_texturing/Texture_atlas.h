@@ -13,7 +13,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <string>
 #include <vector>
 
 namespace CGAL {
@@ -45,6 +44,10 @@ struct Texture_atlas_options
   /// For each triangle the texels that it is to have along a unit of length, relative to others; a
   /// chart gets the mean over its area. Empty for equal texel density.
   std::vector<float> density;
+  /// Edges that shall not be seams; see `Segmentation_options::no_seams`. They are kept free of seams
+  /// by `Chart_growth_segmenter`, and where charts are cut again, as far as charts can be disks with
+  /// one-to-one maps: `Texture_atlas_report::unwanted_seams`. Empty for none.
+  std::vector<std::uint8_t> no_seams;
   /// The textures, and how charts are placed in them.
   Packing_options packing;
   /// Threads with `Parallel_tag`; 0 for all that the machine has. The result does not depend on it.
@@ -94,6 +97,7 @@ struct Texture_atlas_report
   std::vector<Chart_report> charts; ///< of each chart
   /// Charts of the first segmentation that failed on the fine mesh and were cut again.
   std::size_t recut_charts = 0;
+  std::size_t unwanted_seams = 0; ///< edges that are seams in spite of the option `no_seams`
   double seam_length = 0.;     ///< of all seams, each once, without the border of the surface
   /// Of the whole atlas, in texels to units of length: so `area_scale_range` compares charts too.
   Surface_mesh_parameterization::Distortion_measures distortion;
@@ -103,16 +107,15 @@ struct Texture_atlas_report
   double seconds_map = 0.;     ///< time of the maps, their validation, and of cutting charts again
   double seconds_pack = 0.;    ///< time of the packing
   double seconds_total = 0.;   ///< time of all
-  bool cancelled = false;      ///< whether the progress function said stop
 };
 
 /// \ingroup PkgHLSCMTexturing
 /// What `build_texture_atlas()` returns.
 struct Texture_atlas_result
+  : Indexed_mesh::Mesh_outcome
 {
-  Texture_atlas atlas;         ///< empty if there is an error or it was cancelled
+  Texture_atlas atlas;         ///< empty if there is an error
   Texture_atlas_report report; ///< what was done
-  std::string error;           ///< why there is no atlas, as a sentence; empty if all is well
 };
 
 } // namespace Surface_mesh_texturing

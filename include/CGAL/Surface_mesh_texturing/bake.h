@@ -5,18 +5,166 @@
 #define CGAL_SURFACE_MESH_TEXTURING_BAKE_H
 
 #include <CGAL/Blocked_execution/blocked_for.h>
-#include <CGAL/Surface_mesh_texturing/Baking_options.h>
 #include <CGAL/Surface_mesh_texturing/Surface_point.h>
-#include <CGAL/Surface_mesh_texturing/internal/baking/Nearest_covered.h>
+#include <CGAL/Surface_mesh_texturing/Texture_image.h>
 #include <CGAL/Surface_mesh_texturing/internal/baking/Uv_rasterizer.h>
-#include <CGAL/Surface_mesh_texturing/internal/baking/baking_errors.h>
+#include <CGAL/Surface_mesh_texturing/tangent_frames.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <string>
 #include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_texturing {
+
+/// \ingroup PkgHLSCMTexturing
+/// What the vectors of a normal map are relative to.
+enum class Normal_space
+{
+  TANGENT, ///< the frame of tangent space of the light model; see `Tangent_frames`
+  OBJECT   ///< the coordinates of the mesh
+};
+
+/// \ingroup PkgHLSCMTexturing
+/// `Baking_options::dilation` for all texels.
+constexpr std::size_t unlimited_dilation = std::size_t(-1);
+
+/// \ingroup PkgHLSCMTexturing
+/// The options of all functions that bake.
+struct Baking_options
+{
+  std::size_t width = 1024;  ///< of the image, in texels
+  std::size_t height = 1024; ///< of the image, in texels
+  /// Samples of a texel in each direction; a texel has the mean of those that lie in a chart.
+  std::size_t samples = 2;
+  /// How far beyond the charts texels are filled, in texels. Each has the value of the nearest
+  /// texel of a chart, so that what filters the image across its border finds no other colour.
+  std::size_t dilation = unlimited_dilation;
+  /// Of the vectors of normal maps.
+  Normal_space space = Normal_space::TANGENT;
+  /// Threads with `Parallel_tag`; 0 for all that the machine has. The result does not depend on it.
+  unsigned int threads = 0;
+  /// Told the part done in [0, 1] from time to time; returning false stops early.
+  std::function<bool(double)> progress;
+};
+
+/// \ingroup PkgHLSCMTexturing
+/// An image that has been baked; none if there is an error.
+struct Baked_map
+  : Indexed_mesh::Mesh_outcome
+{
+  /// Texels beyond the charts and out of reach of the dilation are 0 in all channels.
+  Texture_image image;
+  /// For each texel, row by row, whether a sample of it lies in a chart of the light model and has
+  /// a value of its own.
+  std::vector<bool> is_covered;
+  std::size_t number_of_covered_texels = 0; ///< in `is_covered`
+  std::size_t number_of_samples = 0;        ///< that lie in a chart of the light model
+  /// Of these, those that lie beside the right chart of the fine surface in the texture and have
+  /// the value of the nearest sample that does not; see `Equal_uv`.
+  std::size_t number_of_samples_beside = 0;
+  std::size_t number_of_samples_without = 0; ///< Of these, those that found no point at all.
+};
+
+namespace internal {
+
+// What is wrong with a mesh in an atlas, or nothing. Its texture coordinates may leave the texture by
+// its size, which is more than rounding or a chart at the border may need.
+inline Mesh_outcome atlas_error(const Textured_triangle_mesh& mesh, const std::string& name)
+{
+  Mesh_outcome result;
+  if(result.fail(Mesh_status::BAD_MESH, mesh_error(mesh, name))
+     || result.fail(Mesh_status::BAD_MESH, texture_error(mesh, name)))
+    return result;
+  for(std::size_t w = 0; w < mesh.uv.size(); ++w)
+    for(int c = 0; c < 2; ++c)
+      if(mesh.uv[w][c] < -1. || mesh.uv[w][c] > 2.)
+        return {Mesh_status::BAD_MESH, "texture coordinate " + std::to_string(w) + " of " + name
+                                         + " lies far beyond the texture [0, 1] x [0, 1]"};
+  return {};
+}
+
+// What is wrong with an array that has `size` entries where there should be `n`, or nothing.
+inline Mesh_outcome size_error(std::size_t size, std::size_t n, const std::string& what)
+{
+  if(size == n)
+    return {};
+  return {Mesh_status::BAD_OPTIONS,
+          "there are " + std::to_string(size) + " " + what + " instead of " + std::to_string(n)};
+}
+
+// What is wrong with frames that are said to be those of a mesh, or nothing.
+inline Mesh_outcome frame_error(const Tangent_frames& frames, const Textured_triangle_mesh& light)
+{
+  Mesh_outcome result = size_error(frames.normals.size(), light.points.size(),
+                                   "normals in the frames of the light model");
+  if(result.fail(size_error(frames.corners.size(), light.triangles.size(),
+                            "triangles in the frames of the light model")))
+    return result;
+  for(std::size_t t = 0; t < frames.corners.size(); ++t)
+    for(const Vertex_index f : frames.corners[t])
+      if(f >= frames.frames.size())
+        return {Mesh_status::BAD_OPTIONS,
+                "triangle " + std::to_string(t) + " has a corner without frame"};
+  return {};
+}
+
+inline Mesh_outcome image_error(const Texture_image& image, const std::string& name)
+{
+  if(image.width == 0 || image.height == 0 || image.channels == 0)
+    return {Mesh_status::BAD_OPTIONS, name + " has no texels"};
+  return size_error(image.texels.size(), image.width * image.height * image.channels,
+                    "values in " + name);
+}
+
+inline Mesh_outcome options_error(const Baking_options& options)
+{
+  if(options.width == 0 || options.height == 0)
+    return {Mesh_status::BAD_OPTIONS, "the image has no texels"};
+  if(options.samples == 0)
+    return {Mesh_status::BAD_OPTIONS, "there are no samples in a texel"};
+  const std::size_t most = 65534; // what Nearest_covered counts in 16 bits
+  if((std::max)(options.width, options.height) > most / (std::min)(options.samples, most))
+    return {Mesh_status::BAD_OPTIONS,
+            "there are more than 65534 samples in a row or column of the image"};
+  return {};
+}
+
+// What is wrong with the model that gets the image, or nothing.
+inline Mesh_outcome light_error(const Textured_triangle_mesh& light, const Baking_options& options)
+{
+  Mesh_outcome result = options_error(options);
+  if(result.is_ok())
+    result = atlas_error(light, "the light model");
+  return result;
+}
+
+// What is wrong with the two meshes of a bake at equal texture coordinates, or nothing.
+inline Mesh_outcome baking_error(const Textured_triangle_mesh& fine,
+                                 const Textured_triangle_mesh& light,
+                                 const Baking_options& options)
+{
+  Mesh_outcome result = options_error(options);
+  if(result.is_ok() && !result.fail(atlas_error(fine, "the fine mesh")))
+    result = atlas_error(light, "the light model");
+  return result;
+}
+
+// What is wrong with the two meshes of a bake by rays, or nothing.
+inline Mesh_outcome ray_baking_error(const Indexed_triangle_mesh& fine,
+                                     const Textured_triangle_mesh& light,
+                                     const Baking_options& options)
+{
+  Mesh_outcome result = options_error(options);
+  if(result.is_ok() && !result.fail(Mesh_status::BAD_MESH, mesh_error(fine, "the fine mesh")))
+    result = atlas_error(light, "the light model");
+  return result;
+}
+
+} // namespace internal
 
 /// \ingroup PkgHLSCMTexturing
 /// A sample of a row of a texture that lies in a chart of a light model.
@@ -167,8 +315,7 @@ Baked_map bake(const Textured_triangle_mesh& light, const Correspondence& corres
   typedef internal::Band_baker<Correspondence, Shader> Baker;
   const std::size_t texel_rows = 8, bands_between_progress = 16;
   Baked_map map;
-  map.error = internal::light_error(light, options);
-  if(!map.error.empty())
+  if(map.fail(internal::light_error(light, options)))
     return map;
   map.image = {options.width, options.height, shader.channels(), {}};
   map.image.texels.assign(options.width * options.height * shader.channels(), 0.f);
@@ -181,7 +328,7 @@ Baked_map bake(const Textured_triangle_mesh& light, const Correspondence& corres
   const std::size_t bands = raster.number_of_bands();
   for(std::size_t first = 0; first < bands; first += bands_between_progress) {
     if(options.progress && !options.progress(double(first) / double(bands))) {
-      map.error = "cancelled";
+      map.cancel();
       map.image = Texture_image();
       return map;
     }

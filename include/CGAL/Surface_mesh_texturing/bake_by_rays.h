@@ -6,7 +6,7 @@
 
 #include <CGAL/Surface_mesh_texturing/Along_rays.h>
 #include <CGAL/Surface_mesh_texturing/bake_normal_map.h>
-#include <CGAL/Surface_mesh_texturing/internal/baking/Bounding_ball.h>
+#include <CGAL/Surface_mesh_texturing/Surface_point.h>
 #include <CGAL/Surface_mesh_texturing/internal/mesh_of_graph.h>
 
 #include <cmath>
@@ -45,19 +45,17 @@ Baked_map bake_normal_map_by_rays(const Indexed_triangle_mesh& fine,
                                   const Baking_by_rays_options& options = Baking_by_rays_options())
 {
   Baked_map result;
-  result.error = internal::ray_baking_error(fine, light, options);
-  if(result.error.empty())
-    result.error = internal::size_error(fine_normals.size(), fine.points.size(),
-                                        "normals of the fine mesh");
-  if(result.error.empty())
-    result.error = internal::frame_error(frames, light);
-  if(result.error.empty() && !(options.max_distance > 0. && std::isfinite(options.max_distance)))
-    result.error = "the distance that rays go is not a positive number";
-  if(!result.error.empty())
+  if(result.fail(internal::ray_baking_error(fine, light, options))
+     || result.fail(internal::size_error(fine_normals.size(), fine.points.size(),
+                                         "normals of the fine mesh"))
+     || result.fail(internal::frame_error(frames, light)))
     return result;
+  if(!(options.max_distance > 0. && std::isfinite(options.max_distance))) {
+    result.fail(Mesh_status::BAD_OPTIONS, "the distance that rays go is not a positive number");
+    return result;
+  }
   const RayCaster_ caster(fine.points, fine.triangles);
-  result.error = caster.error();
-  if(!result.error.empty())
+  if(result.fail(Mesh_status::FAILED, caster.error()))
     return result;
   const double radius = internal::Bounding_ball({&light.points}).radius;
   const Along_rays<RayCaster_> correspondence(caster, fine.points, fine.triangles, light,
@@ -76,8 +74,7 @@ Baked_map bake_normal_map_by_rays(const Indexed_triangle_mesh& fine,
                                   const Baking_by_rays_options& options = Baking_by_rays_options())
 {
   Baked_map result;
-  result.error = internal::ray_baking_error(fine, light, options);
-  if(!result.error.empty())
+  if(result.fail(internal::ray_baking_error(fine, light, options)))
     return result;
   return bake_normal_map_by_rays<RayCaster_>(fine, vertex_normals(fine.points, fine.triangles),
                                             light, tangent_frames(light, vertex_normals(light)),
@@ -87,17 +84,9 @@ Baked_map bake_normal_map_by_rays(const Indexed_triangle_mesh& fine,
 /*!
 \ingroup PkgHLSCMTexturing
 
-Bakes the normals of the fine surface, which needs no texture, into
-a texture of `light`, with meshes of any types: see the other overloads.
-
-\tparam ConcurrencyTag `Sequential_tag`, or `Parallel_tag` for `options.threads` threads, or
-        `Default` for the threads of the caller's `Blocked_execution::Thread_scope`
-\tparam FineMesh a model of `FaceListGraph`
-\tparam LightMesh a model of `FaceListGraph`
-\param light_uv a model of `ReadablePropertyMap` with a point with two coordinates as value, and with
-       the halfedge descriptor as key, for the corner at its target, or the vertex descriptor
-\param np_fine optional named parameters of the fine mesh: `vertex_point_map`
-\param np_light the same of the light model
+Bakes the normals of the fine surface, which needs no texture, into a texture of `light`, with meshes
+of any types: see the other overloads. Parameters and errors are those of `bake_normal_map()` with
+meshes of any types.
 */
 template <class RayCaster_, class ConcurrencyTag = Default, class FineMesh, class LightMesh, class LightUVMap,
           class NamedParameters_fine = parameters::Default_named_parameters,
@@ -111,11 +100,10 @@ Baked_map bake_normal_map_by_rays(const FineMesh& fine,
 {
   const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   Baked_map result;
-  result.error = internal::polygon_error_of_models(fine, light);
-  if(!result.error.empty())
+  if(result.fail(internal::polygon_error_of_models(fine, light)))
     return result;
   return bake_normal_map_by_rays<RayCaster_>(
-    internal::arrays_of_graph(fine, np_fine),
+    Indexed_mesh::copy_mesh(fine, np_fine),
     internal::textured_arrays_of_graph(light, light_uv, np_light), options);
 }
 

@@ -96,13 +96,10 @@ inline Baked_map bake_vertex_colors(const Textured_triangle_mesh& fine,
                                     const Baking_options& options = Baking_options())
 {
   Baked_map result;
-  result.error = internal::baking_error(fine, light, options);
-  if(result.error.empty() && channels == 0)
-    result.error = "the vertices have no values";
-  if(result.error.empty())
-    result.error = internal::size_error(values.size(), channels * fine.points.size(),
-                                        "values of the vertices of the fine mesh");
-  if(!result.error.empty())
+  if(result.fail(internal::baking_error(fine, light, options))
+     || result.fail(Mesh_status::BAD_OPTIONS, channels == 0 ? "the vertices have no values" : "")
+     || result.fail(internal::size_error(values.size(), channels * fine.points.size(),
+                                         "values of the vertices of the fine mesh")))
     return result;
   return bake(light, Equal_uv(fine, light, options),
               Vertex_value_shader(fine.triangles, values, channels), options);
@@ -121,15 +118,11 @@ inline Baked_map bake_image(const Textured_triangle_mesh& fine,
                             const Baking_options& options = Baking_options())
 {
   Baked_map result;
-  result.error = internal::baking_error(fine, light, options);
-  if(result.error.empty())
-    result.error = internal::image_error(image, "the former image");
-  if(result.error.empty())
-    result.error = internal::size_error(former.wedges.size(), fine.triangles.size(),
-                                        "triangles of the former texture");
-  if(result.error.empty())
-    result.error = texture_error(former, "the former texture");
-  if(!result.error.empty())
+  if(result.fail(internal::baking_error(fine, light, options))
+     || result.fail(internal::image_error(image, "the former image"))
+     || result.fail(internal::size_error(former.wedges.size(), fine.triangles.size(),
+                                         "triangles of the former texture"))
+     || result.fail(Mesh_status::BAD_MESH, texture_error(former, "the former texture")))
     return result;
   return bake(light, Equal_uv(fine, light, options), Image_shader(former, image), options);
 }
@@ -137,21 +130,13 @@ inline Baked_map bake_image(const Textured_triangle_mesh& fine,
 /*!
 \ingroup PkgHLSCMTexturing
 
-Bakes values of the vertices of `fine`, such as colours, into a texture of `light`, which
-shares its atlas, with meshes of any types: see the other overloads.
+Bakes values of the vertices of `fine`, such as colours, into a texture of `light`, which shares its
+atlas, with meshes of any types: see the other overloads. Parameters and errors are those of
+`bake_normal_map()` with meshes of any types.
 
-\tparam ConcurrencyTag `Sequential_tag`, or `Parallel_tag` for `options.threads` threads, or
-        `Default` for the threads of the caller's `Blocked_execution::Thread_scope`
-\tparam FineMesh a model of `FaceListGraph`
-\tparam LightMesh a model of `FaceListGraph`
-\param fine_uv a model of `ReadablePropertyMap` with a point with two coordinates as value, and with
-       the halfedge descriptor as key, for the corner at its target, or the vertex descriptor
-\param light_uv the same for the light model
 \param values a model of `ReadablePropertyMap` with the vertex descriptor as key; `value[c]` is number c
        of a value, as for `std::array` and `IO::Color`
 \param channels the numbers of a value
-\param np_fine optional named parameters of the fine mesh: `vertex_point_map`
-\param np_light the same of the light model
 */
 template <class ConcurrencyTag = Default, class FineMesh, class FineUVMap, class FineValueMap, class LightMesh, class LightUVMap,
           class NamedParameters_fine = parameters::Default_named_parameters,
@@ -166,8 +151,7 @@ Baked_map bake_vertex_colors(const FineMesh& fine, FineUVMap fine_uv,
 {
   const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   Baked_map result;
-  result.error = internal::polygon_error_of_models(fine, light);
-  if(!result.error.empty())
+  if(result.fail(internal::polygon_error_of_models(fine, light)))
     return result;
   std::vector<float> arrays;
   for(const auto v : vertices(fine)) {
@@ -177,6 +161,36 @@ Baked_map bake_vertex_colors(const FineMesh& fine, FineUVMap fine_uv,
   }
   return bake_vertex_colors(internal::textured_arrays_of_graph(fine, fine_uv, np_fine), arrays, channels,
                             internal::textured_arrays_of_graph(light, light_uv, np_light), options);
+}
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+Bakes an image that `fine` has had before its atlas, of colours or of anything else, into a texture of
+`light`, which shares the atlas, with meshes of any types: see the other overload. Parameters and
+errors are those of `bake_normal_map()` with meshes of any types.
+
+\param former_uv as `fine_uv`: the coordinates in `image`
+\param image what is seen through them
+*/
+template <class ConcurrencyTag = Default, class FineMesh, class FineUVMap, class FormerUVMap,
+          class LightMesh, class LightUVMap,
+          class NamedParameters_fine = parameters::Default_named_parameters,
+          class NamedParameters_light = parameters::Default_named_parameters,
+          class = typename boost::property_traits<FineUVMap>::key_type>
+Baked_map bake_image(const FineMesh& fine, FineUVMap fine_uv, FormerUVMap former_uv,
+                     const Texture_image& image, const LightMesh& light, LightUVMap light_uv,
+                     const Baking_options& options = Baking_options(),
+                     const NamedParameters_fine& np_fine = parameters::default_values(),
+                     const NamedParameters_light& np_light = parameters::default_values())
+{
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
+  Baked_map result;
+  if(result.fail(internal::polygon_error_of_models(fine, light)))
+    return result;
+  return bake_image(internal::textured_arrays_of_graph(fine, fine_uv, np_fine),
+                    internal::textured_arrays_of_graph(fine, former_uv, np_fine), image,
+                    internal::textured_arrays_of_graph(light, light_uv, np_light), options);
 }
 
 } // namespace Surface_mesh_texturing

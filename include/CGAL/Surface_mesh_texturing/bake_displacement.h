@@ -7,7 +7,7 @@
 #include <CGAL/Surface_mesh_texturing/Equal_uv.h>
 #include <CGAL/Surface_mesh_texturing/bake.h>
 #include <CGAL/Surface_mesh_texturing/internal/mesh_of_graph.h>
-#include <CGAL/Surface_mesh_texturing/vertex_normals.h>
+#include <CGAL/Surface_mesh_texturing/tangent_frames.h>
 
 #include <algorithm>
 #include <vector>
@@ -62,7 +62,7 @@ private:
 /// What `bake_displacement()` returns: one channel, in units of length.
 struct Baked_displacement
 {
-  Baked_map map;      ///< the image and what is known of it
+  Baked_map map;      ///< the image and what is known of it, errors too
   double lowest = 0.; ///< of all covered texels; `encode_values()` asks for it
   double highest = 0.; ///< of all covered texels
 };
@@ -80,11 +80,9 @@ inline Baked_displacement bake_displacement(const Textured_triangle_mesh& fine,
                                             const Baking_options& options = Baking_options())
 {
   Baked_displacement result;
-  result.map.error = internal::baking_error(fine, light, options);
-  if(result.map.error.empty())
-    result.map.error = internal::size_error(normals.size(), light.points.size(),
-                                            "normals of the light model");
-  if(!result.map.error.empty())
+  if(result.map.fail(internal::baking_error(fine, light, options))
+     || result.map.fail(internal::size_error(normals.size(), light.points.size(),
+                                             "normals of the light model")))
     return result;
   result.map = bake(light, Equal_uv(fine, light, options),
                     Displacement_shader(fine.points, fine.triangles, light, normals), options);
@@ -107,25 +105,16 @@ inline Baked_displacement bake_displacement(const Textured_triangle_mesh& fine,
                                             const Baking_options& options = Baking_options())
 {
   Baked_displacement result;
-  result.map.error = internal::baking_error(fine, light, options);
-  return result.map.error.empty() ? bake_displacement(fine, light, vertex_normals(light), options)
-                                  : result;
+  if(result.map.fail(internal::baking_error(fine, light, options)))
+    return result;
+  return bake_displacement(fine, light, vertex_normals(light), options);
 }
 
 /*!
 \ingroup PkgHLSCMTexturing
 
-Bakes how far `fine` lies above `light`, which shares its atlas, with meshes of any types: see the other overloads.
-
-\tparam ConcurrencyTag `Sequential_tag`, or `Parallel_tag` for `options.threads` threads, or
-        `Default` for the threads of the caller's `Blocked_execution::Thread_scope`
-\tparam FineMesh a model of `FaceListGraph`
-\tparam LightMesh a model of `FaceListGraph`
-\param fine_uv a model of `ReadablePropertyMap` with a point with two coordinates as value, and with
-       the halfedge descriptor as key, for the corner at its target, or the vertex descriptor
-\param light_uv the same for the light model
-\param np_fine optional named parameters of the fine mesh: `vertex_point_map`
-\param np_light the same of the light model
+Bakes how far `fine` lies above `light`, which shares its atlas, with meshes of any types: see the
+other overloads. Parameters and errors are those of `bake_normal_map()` with meshes of any types.
 */
 template <class ConcurrencyTag = Default, class FineMesh, class FineUVMap, class LightMesh, class LightUVMap,
           class NamedParameters_fine = parameters::Default_named_parameters,
@@ -139,8 +128,7 @@ Baked_displacement bake_displacement(const FineMesh& fine, FineUVMap fine_uv,
 {
   const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   Baked_displacement result;
-  result.map.error = internal::polygon_error_of_models(fine, light);
-  if(!result.map.error.empty())
+  if(result.map.fail(internal::polygon_error_of_models(fine, light)))
     return result;
   return bake_displacement(internal::textured_arrays_of_graph(fine, fine_uv, np_fine),
                            internal::textured_arrays_of_graph(light, light_uv, np_light), options);

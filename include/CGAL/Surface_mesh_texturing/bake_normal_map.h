@@ -8,10 +8,8 @@
 #include <CGAL/Surface_mesh_texturing/bake.h>
 #include <CGAL/Surface_mesh_texturing/internal/mesh_of_graph.h>
 #include <CGAL/Surface_mesh_texturing/tangent_frames.h>
-#include <CGAL/Surface_mesh_texturing/vertex_normals.h>
 
 #include <array>
-#include <cmath>
 #include <vector>
 
 namespace CGAL {
@@ -121,7 +119,7 @@ of `light`, which a renderer must use in the same way. The texels are unit vecto
 
 `normals` has a vector for each vertex of `fine`, `frames` are those of `light`. Bad data (no
 triangles, indices out of range, coordinates that are not finite, arrays of another length, an image
-without texels) give a result with `error` set. Linear time.
+without texels) give a result with an error. Linear time.
 */
 inline Baked_map bake_normal_map(const Textured_triangle_mesh& fine,
                                  const std::vector<Vector_3>& normals,
@@ -129,13 +127,10 @@ inline Baked_map bake_normal_map(const Textured_triangle_mesh& fine,
                                  const Baking_options& options = Baking_options())
 {
   Baked_map result;
-  result.error = internal::baking_error(fine, light, options);
-  if(result.error.empty())
-    result.error = internal::size_error(normals.size(), fine.points.size(),
-                                        "normals of the fine mesh");
-  if(result.error.empty())
-    result.error = internal::frame_error(frames, light);
-  if(!result.error.empty())
+  if(result.fail(internal::baking_error(fine, light, options))
+     || result.fail(internal::size_error(normals.size(), fine.points.size(),
+                                         "normals of the fine mesh"))
+     || result.fail(internal::frame_error(frames, light)))
     return result;
   return bake(light, Equal_uv(fine, light, options),
               Normal_shader(fine.triangles, normals, light.triangles, frames, options.space),
@@ -153,8 +148,7 @@ inline Baked_map bake_normal_map(const Textured_triangle_mesh& fine,
                                  const Baking_options& options = Baking_options())
 {
   Baked_map result;
-  result.error = internal::baking_error(fine, light, options);
-  if(!result.error.empty())
+  if(result.fail(internal::baking_error(fine, light, options)))
     return result;
   return bake_normal_map(fine, vertex_normals(fine), light,
                          tangent_frames(light, vertex_normals(light)), options);
@@ -163,7 +157,8 @@ inline Baked_map bake_normal_map(const Textured_triangle_mesh& fine,
 /*!
 \ingroup PkgHLSCMTexturing
 
-Bakes the normals of `fine` into a texture of `light`, which shares its atlas, with meshes of any types: see the other overloads.
+Bakes the normals of `fine` into a texture of `light`, which shares its atlas, with meshes of any
+types: see the other overloads. What is said here holds for all functions that bake.
 
 \tparam ConcurrencyTag `Sequential_tag`, or `Parallel_tag` for `options.threads` threads, or
         `Default` for the threads of the caller's `Blocked_execution::Thread_scope`
@@ -172,8 +167,12 @@ Bakes the normals of `fine` into a texture of `light`, which shares its atlas, w
 \param fine_uv a model of `ReadablePropertyMap` with a point with two coordinates as value, and with
        the halfedge descriptor as key, for the corner at its target, or the vertex descriptor
 \param light_uv the same for the light model
-\param np_fine optional named parameters of the fine mesh: `vertex_point_map`
+\param options size, samples, dilation, threads and progress
+\param np_fine optional named parameters of the fine mesh: `vertex_point_map` and `geom_traits`; see
+       `Indexed_mesh::copy_points()`
 \param np_light the same of the light model
+
+Errors are those of the other overloads, and faces that are no triangles.
 */
 template <class ConcurrencyTag = Default, class FineMesh, class FineUVMap, class LightMesh, class LightUVMap,
           class NamedParameters_fine = parameters::Default_named_parameters,
@@ -187,8 +186,7 @@ Baked_map bake_normal_map(const FineMesh& fine, FineUVMap fine_uv,
 {
   const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   Baked_map result;
-  result.error = internal::polygon_error_of_models(fine, light);
-  if(!result.error.empty())
+  if(result.fail(internal::polygon_error_of_models(fine, light)))
     return result;
   return bake_normal_map(internal::textured_arrays_of_graph(fine, fine_uv, np_fine),
                          internal::textured_arrays_of_graph(light, light_uv, np_light), options);

@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_BUILD_TEXTURE_ATLAS_H
 #define CGAL_SURFACE_MESH_TEXTURING_BUILD_TEXTURE_ATLAS_H
 
-#include <CGAL/Blocked_execution/Tagged_threads.h>
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_texturing/Chart_parameterizers.h>
 #include <CGAL/Surface_mesh_texturing/Chart_segmenters.h>
 #include <CGAL/Surface_mesh_texturing/Texture_atlas.h>
@@ -55,8 +55,8 @@ cut where their maps are not one-to-one. The atlas does not depend on the unit o
 
 `mesh` may be closed, of any genus, and have several components and borders. Bad data (no triangles,
 an index without vertex, vertices without a face or with several fans of faces, coordinates that are
-not finite, options that make no sense, charts or densities of another mesh) give a result with
-`error` set.
+not finite, options that make no sense, charts or densities of another mesh) give a result with an
+error.
 
 Expected linear time. About 250 bytes a triangle of temporary memory.
 */
@@ -72,8 +72,7 @@ Texture_atlas_result build_texture_atlas(const Indexed_triangle_mesh& mesh,
   typedef typename Default::Get<Segmenter, Chart_growth_segmenter>::type Used_segmenter;
   const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   Texture_atlas_result result;
-  result.error = internal::packing_options_error(options.packing);
-  if(!result.error.empty())
+  if(result.fail(Mesh_status::BAD_OPTIONS, internal::packing_options_error(options.packing)))
     return result;
   const auto& used_segmenter = internal::model_or_default<Chart_growth_segmenter>(segmenter);
   const auto& used_parameterizer
@@ -109,9 +108,9 @@ Builds the texture atlas of a mesh of any type: see the other overload.
 \param segmenter what finds the charts
 \param parameterizer what maps them
 \param packer what packs them
-\param np optional named parameters: `vertex_point_map`, and `edge_is_constrained_map` for edges that
-       shall be seams (see `Constrained_segmenter`); points are taken as three numbers of type
-       `double`, so that no `geom_traits` are needed
+\param np optional named parameters: `vertex_point_map` and `geom_traits` (see
+       `Indexed_mesh::copy_points()`), and `edge_is_constrained_map` for edges that shall be seams
+       (see `Constrained_segmenter`); for edges that shall not be, see `options.no_seams`
 
 If there is an error, the maps are left as they are. See `mark_seams()` for the seams.
 */
@@ -128,22 +127,21 @@ Texture_atlas_result build_texture_atlas(const FaceGraph& mesh, HalfedgeUVMap uv
 {
   typedef typename boost::property_traits<HalfedgeUVMap>::value_type Uv;
   Texture_atlas_result result;
-  result.error = internal::polygon_error(mesh, "the mesh");
-  if(!result.error.empty())
+  if(result.fail(internal::polygon_error(mesh, "the mesh")))
     return result;
-  const Indexed_triangle_mesh arrays = internal::arrays_of_graph(mesh, np);
+  const Indexed_triangle_mesh arrays = Indexed_mesh::copy_mesh(mesh, np);
   if constexpr(internal::has_constrained_edges<NamedParameters>) {
     typedef typename Default::Get<Segmenter, Chart_growth_segmenter>::type Used_segmenter;
     result = build_texture_atlas<ConcurrencyTag>(
       arrays, options,
       Constrained_segmenter<Used_segmenter>(
-        internal::constrained_sides(mesh, np),
+        mark_sides(mesh, parameters::get_parameter(np, internal_np::edge_is_constrained)),
         internal::model_or_default<Chart_growth_segmenter>(segmenter)),
       parameterizer, packer);
   } else {
     result = build_texture_atlas<ConcurrencyTag>(arrays, options, segmenter, parameterizer, packer);
   }
-  if(!result.error.empty())
+  if(!result.is_ok())
     return result;
   std::size_t t = 0;
   for(const auto f : faces(mesh)) {

@@ -77,12 +77,18 @@ inline std::vector<std::uint8_t> without_lonely_seams(const Triangle_adjacency& 
 \ingroup PkgHLSCMTexturing
 
 Returns the topology of each chart of a mesh with this adjacency. A seam that is a single edge with
-both ends inside a chart does not cut and is not counted. Linear time.
+both ends inside a chart does not cut and is not counted. None if the arrays differ in length. Linear
+time.
+
+\pre the invariants of `Face_charts`: this is a part of functions that check them; see
+`charts_error()`
 */
 inline std::vector<Chart_topology>
 chart_topologies(const Indexed_mesh::Triangle_adjacency& adjacency, const Face_charts& charts)
 {
-  CGAL_precondition(3 * charts.seams.size() == adjacency.number_of_halfedges());
+  if(3 * charts.seams.size() != adjacency.number_of_halfedges()
+     || charts.chart.size() != charts.seams.size())
+    return {};
   const std::vector<std::uint8_t> seams = internal::without_lonely_seams(adjacency, charts.seams);
   const auto is_seam = [&](Halfedge h) { return internal::is_marked(seams, h); };
   const std::vector<Halfedge> first = internal::first_corners_of_wedges(

@@ -53,6 +53,7 @@ struct Chart_growth_options
 /// \ingroup PkgHLSCMTexturing
 /// What `grow_charts()` returns.
 struct Chart_growth_result
+  : Indexed_mesh::Mesh_outcome
 {
   Face_charts charts;                       ///< the charts; empty if there is an error
   std::vector<Chart_distortion> distortion; ///< of the trial map of each chart
@@ -60,21 +61,20 @@ struct Chart_growth_result
   /// `max_charts`, or single patches that cannot be mapped any better.
   std::size_t number_of_bad_charts = 0;
   std::vector<bool> is_bad; ///< for each chart whether it is among them
-  std::string error;        ///< why there are no charts, as a sentence; empty if all is well
 };
 
 namespace internal {
 
-inline std::string growth_error(const Indexed_triangle_mesh& mesh,
-                                const Chart_growth_options& options)
+inline Mesh_outcome growth_error(const Indexed_triangle_mesh& mesh,
+                                 const Chart_growth_options& options)
 {
-  const std::string error = mesh_error(mesh);
-  if(!error.empty())
-    return error;
+  Mesh_outcome result;
+  if(result.fail(Mesh_status::BAD_MESH, manifold_error(mesh)))
+    return result;
   if(!(options.bound.area_scale > 1.) || !(options.bound.quasi_conformal > 1.))
-    return "a distortion bound is not larger than 1";
+    return {Mesh_status::BAD_OPTIONS, "a distortion bound is not larger than 1"};
   if(!(options.bound_part > 0. && options.bound_part <= 1.))
-    return "the part of the bound that is used is not between 0 and 1";
+    return {Mesh_status::BAD_OPTIONS, "the part of the bound that is used is not between 0 and 1"};
   return {};
 }
 
@@ -121,8 +121,8 @@ sharp features of the surface. Other than there, they are then merged across the
 as long as the map of the union, which is computed, is within the bound; a search takes small charts
 and their neighbours apart and merges them in other ways to get along with fewer.
 
-Errors: a mesh without triangles or extent, a coordinate that is not finite, a bound not larger than
-1 or a part of it not in (0, 1], and "cancelled".
+Errors: a mesh that is no manifold or has no extent, a bound not larger than 1 or a part of it not in
+(0, 1], and "cancelled".
 
 Meant for coarse meshes of 1K to 10K triangles. Time about linear, in proportion to
 `Chart_growth_options::effort`. Trial maps are computed in parallel; the result does not depend on
@@ -132,12 +132,11 @@ inline Chart_growth_result grow_charts(const Indexed_triangle_mesh& mesh,
                                        const Chart_growth_options& options = Chart_growth_options())
 {
   Chart_growth_result result;
-  result.error = internal::growth_error(mesh, options);
-  if(!result.error.empty())
+  if(result.fail(internal::growth_error(mesh, options)))
     return result;
   const internal::Growth_surface surface(mesh);
   if(!(surface.scale > 0.)) {
-    result.error = "all vertices lie in one point";
+    result.fail(Mesh_status::BAD_MESH, "all vertices lie in one point");
     return result;
   }
   internal::Search_options search;
@@ -152,7 +151,7 @@ inline Chart_growth_result grow_charts(const Indexed_triangle_mesh& mesh,
   internal::Chart_search growth(surface, search);
   if(growth.run())
     return internal::growth_result(mesh, growth.best().graph, options.bound);
-  result.error = "cancelled";
+  result.cancel();
   return result;
 }
 

@@ -95,18 +95,17 @@ inline std::string chart_error(const Chart_shape& chart)
 }
 
 // What is wrong with the input of `pack_charts()`, or nothing.
-inline std::string packing_error(const std::vector<Chart_shape>& charts,
-                                 const Packing_options& options)
+inline Mesh_outcome packing_error(const std::vector<Chart_shape>& charts,
+                                  const Packing_options& options)
 {
-  const std::string error = packing_options_error(options);
-  if(!error.empty())
-    return error;
-  for(std::size_t i = 0; i < charts.size(); ++i) {
+  Mesh_outcome result;
+  result.fail(Mesh_status::BAD_OPTIONS, packing_options_error(options));
+  for(std::size_t i = 0; i < charts.size() && result.is_ok(); ++i) {
     const std::string reason = chart_error(charts[i]);
     if(!reason.empty())
-      return "chart " + std::to_string(i) + " has " + reason;
+      result.fail(Mesh_status::BAD_MESH, "chart " + std::to_string(i) + " has " + reason);
   }
-  return {};
+  return result;
 }
 
 // What is wrong with what a packer returns without an error, or nothing.
@@ -149,13 +148,13 @@ Packing_result pack_charts(const std::vector<Chart_shape>& charts,
                            const Packer& packer = Packer())
 {
   Packing_result result;
-  result.error = internal::packing_error(charts, options);
-  if(!result.error.empty() || charts.empty())
+  if(result.fail(internal::packing_error(charts, options)) || charts.empty())
     return result;
   result = packer(charts, options);
-  if(result.error.empty())
-    result.error = internal::foreign_packing_error(charts, result);
-  if(result.error.empty())
+  if(!result.is_ok() && result.status == Mesh_status::OK) // it gave the sentence alone
+    result.status = Mesh_status::FAILED;
+  if(result.is_ok()
+     && !result.fail(Mesh_status::FAILED, internal::foreign_packing_error(charts, result)))
     internal::measure_utilisation(charts, options, result);
   else
     result.placements.clear();

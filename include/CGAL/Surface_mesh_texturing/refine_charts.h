@@ -10,7 +10,6 @@
 #include <CGAL/assertions.h>
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -70,6 +69,9 @@ about two edges of the coarse mesh at most.
 border, as those of `Flat_collapse_engine`
 \param points of the fine mesh
 \param options of the straightening; with `rounds` 0 the seams are only carried along
+
+\pre all that: this is a part of `segment_coarse_to_fine()`, which makes `pm` itself and checks the
+rest, and whom a check of the collapses would cost more than they do
 
 Time linear in the number of triangles of `pm`.
 */

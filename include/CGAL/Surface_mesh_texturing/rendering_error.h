@@ -4,9 +4,11 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_RENDERING_ERROR_H
 #define CGAL_SURFACE_MESH_TEXTURING_RENDERING_ERROR_H
 
-#include <CGAL/Surface_mesh_texturing/bake_normal_map.h>
-#include <CGAL/Surface_mesh_texturing/internal/baking/Orthographic_view.h>
+#include <CGAL/Surface_mesh_texturing/Surface_point.h>
 #include <CGAL/Surface_mesh_texturing/Texture_image.h>
+#include <CGAL/Surface_mesh_texturing/bake_normal_map.h>
+#include <CGAL/Surface_mesh_texturing/internal/baking/Uv_rasterizer.h>
+#include <CGAL/Surface_mesh_texturing/tangent_frames.h>
 
 #include <algorithm>
 #include <array>
@@ -16,10 +18,75 @@
 
 namespace CGAL {
 namespace Surface_mesh_texturing {
+namespace internal {
+
+// The unit vectors to the vertices of an icosahedron.
+inline std::array<Vector_3, 12> icosahedron_directions()
+{
+  const double golden = 0.5 * (1. + std::sqrt(5.));
+  std::array<Vector_3, 12> result;
+  for(int i = 0; i < 12; ++i) {
+    std::array<double, 3> v = {0., 0., 0.};
+    v[(i / 4 + 1) % 3] = i % 2 == 0 ? 1. : -1.;
+    v[(i / 4 + 2) % 3] = i / 2 % 2 == 0 ? golden : -golden;
+    result[i] = normalized(Vector_3(v[0], v[1], v[2]));
+  }
+  return result;
+}
+
+// A square image of what lies in a ball, seen from the direction `towards`.
+class Orthographic_view
+{
+public:
+  typedef Indexed_triangle_mesh::Point_3 Point_3;
+
+  Orthographic_view(const Vector_3& towards, const Bounding_ball& ball, std::size_t size)
+    : m_size(size), m_ball(ball), m_z(towards), m_x(any_orthogonal(towards))
+    , m_y(cross_product(m_z, m_x))
+  {}
+
+  // For each pixel, row by row, the point that is seen there; of equally near ones that of the
+  // first triangle.
+  std::vector<Surface_point> visible_points(const std::vector<Point_3>& points,
+                                            const std::vector<Triangle_indices>& triangles) const
+  {
+    std::vector<Textured_triangle_mesh::Point_2> places(points.size());
+    std::vector<double> heights(points.size());
+    const double scale = m_ball.radius > 0. ? 0.499 / m_ball.radius : 0.;
+    for(std::size_t v = 0; v < points.size(); ++v) {
+      const Vector_3 p = points[v] - m_ball.center;
+      places[v] = {0.5 + scale * (p * m_x), 0.5 + scale * (p * m_y)};
+      heights[v] = scale * (p * m_z);
+    }
+    const Uv_rasterizer raster(places, triangles, m_size, m_size, m_size);
+    std::vector<Surface_point> result(m_size * m_size);
+    std::vector<double> highest(m_size * m_size, -1.);
+    raster.visit(0, [&](std::uint32_t t, std::int64_t x, std::int64_t y) {
+      const Surface_point p = raster.point(t, std::size_t(x), std::size_t(y));
+      const std::size_t pixel = std::size_t(y) * m_size + std::size_t(x);
+      const double height = p.weights[0] * heights[triangles[t][0]]
+                          + p.weights[1] * heights[triangles[t][1]]
+                          + p.weights[2] * heights[triangles[t][2]];
+      if(height > highest[pixel]) {
+        highest[pixel] = height;
+        result[pixel] = p;
+      }
+    });
+    return result;
+  }
+
+private:
+  std::size_t m_size;
+  Bounding_ball m_ball;
+  Vector_3 m_z, m_x, m_y;
+};
+
+} // namespace internal
 
 /// \ingroup PkgHLSCMTexturing
 /// How much a light model looks unlike the original; angles are in degrees.
 struct Rendering_error
+  : Indexed_mesh::Mesh_outcome
 {
   double mean_angle = 0.;                 ///< between the normals that are seen, with the map
   double angle_95 = 0.;                   ///< that 95 % of the pixels do not exceed, with the map
@@ -27,7 +94,6 @@ struct Rendering_error
   double angle_95_without_map = 0.;       ///< with the interpolated normals of the light model
   double silhouette_difference = 0.;      ///< pixels that show one model only, to those of any
   std::size_t number_of_pixels = 0;       ///< that show both models, in all views together
-  std::string error; ///< why nothing was measured, as a sentence; empty if all is well
 };
 
 namespace internal {
@@ -59,23 +125,21 @@ struct View_error
   std::size_t one = 0, any = 0; // pixels
 };
 
-inline std::string rendering_input_error(const Textured_triangle_mesh& original,
-                                         const Textured_triangle_mesh& light,
-                                         const Tangent_frames& frames, const Texture_image& map,
-                                         std::size_t size)
+inline Mesh_outcome rendering_input_error(const Textured_triangle_mesh& original,
+                                          const Textured_triangle_mesh& light,
+                                          const Tangent_frames& frames, const Texture_image& map,
+                                          std::size_t size)
 {
-  std::string error = size == 0 ? "the pictures have no pixels" : std::string();
-  if(error.empty())
-    error = mesh_error(original, "the original");
-  if(error.empty())
-    error = mesh_error(light, "the light model");
-  if(error.empty())
-    error = texture_error(light, "the light model");
-  if(error.empty())
-    error = frame_error(frames, light);
-  if(error.empty())
-    error = image_error(map, "the normal map");
-  return error.empty() && map.channels != 3 ? "the normal map has not three channels" : error;
+  Mesh_outcome result;
+  if(size == 0)
+    result.fail(Mesh_status::BAD_OPTIONS, "the pictures have no pixels");
+  if(!result.fail(Mesh_status::BAD_MESH, mesh_error(original, "the original"))
+     && !result.fail(Mesh_status::BAD_MESH, mesh_error(light, "the light model"))
+     && !result.fail(Mesh_status::BAD_MESH, texture_error(light, "the light model"))
+     && !result.fail(frame_error(frames, light)) && !result.fail(image_error(map, "the normal map"))
+     && map.channels != 3)
+    result.fail(Mesh_status::BAD_OPTIONS, "the normal map has not three channels");
+  return result;
 }
 
 // The normals that renderers see on a model.
@@ -126,7 +190,7 @@ The result does not depend on the unit of length, nor on the number of threads. 
 numbers of triangles and of pixels.
 
 Bad data (no triangles, indices out of range, coordinates that are not finite, frames of another mesh,
-a map that has not three channels, pictures without pixels) give a result with `error` set.
+a map that has not three channels, pictures without pixels) give a result with an error.
 */
 inline Rendering_error rendering_error(const Textured_triangle_mesh& original,
                                        const Textured_triangle_mesh& light,
@@ -134,8 +198,7 @@ inline Rendering_error rendering_error(const Textured_triangle_mesh& original,
                                        Normal_space space, std::size_t size = 512)
 {
   Rendering_error result;
-  result.error = internal::rendering_input_error(original, light, frames, map, size);
-  if(!result.error.empty())
+  if(result.fail(internal::rendering_input_error(original, light, frames, map, size)))
     return result;
   const std::vector<Vector_3> normals = vertex_normals(original);
   const internal::Seen_normals seen(light, frames);
@@ -167,8 +230,8 @@ inline Rendering_error rendering_error(const Textured_triangle_mesh& original,
   }
   const auto with = internal::mean_and_quantile(all.with_map);
   const auto without = internal::mean_and_quantile(all.without_map);
-  return {with[0], with[1], without[0], without[1],
-          all.any > 0 ? double(all.one) / double(all.any) : 0., all.with_map.size(), {}};
+  return {{}, with[0], with[1], without[0], without[1],
+          all.any > 0 ? double(all.one) / double(all.any) : 0., all.with_map.size()};
 }
 
 } // namespace Surface_mesh_texturing

@@ -8,11 +8,12 @@
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
 #include <CGAL/Surface_mesh_multiresolution/build_progressive_mesh.h>
 #include <CGAL/Blocked_execution/Progress.h>
-#include <CGAL/Surface_mesh_texturing/cut_to_disks.h>
+#include <CGAL/Surface_mesh_texturing/keep_seams_off.h>
 #include <CGAL/Surface_mesh_texturing/refine_charts.h>
 
 #include <functional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,10 @@ struct Segmentation_options
   std::size_t coarse_faces = 4000;
   Straightening_options straightening; ///< of the seams, on the way to the fine mesh
   Disk_cut_options cut;                ///< of coarse charts that are no disks
+  /// Edges that shall not be seams, marked at one of their triangles as in `Face_charts::seams` (see
+  /// `mark_sides()`): they are seams only where there is no other way to cut a chart to a disk; see
+  /// `keep_seams_off()`, which moves seams from them at the end. Empty for none.
+  std::vector<std::uint8_t> no_seams;
   /// Threads with `Parallel_tag`; 0 for all that the machine has. The result does not depend on it.
   unsigned int threads = 0;
   /// Told the part done in [0, 1] from time to time; returning false stops.
@@ -37,30 +42,31 @@ struct Segmentation_options
 /// \ingroup PkgHLSCMTexturing
 /// What `segment_coarse_to_fine()` returns.
 struct Segmentation_result
+  : Indexed_mesh::Mesh_outcome
 {
   Face_charts charts;           ///< of the mesh; all are disks
   std::size_t coarse_faces = 0; ///< triangles of the coarse mesh
+  std::size_t unwanted_seams = 0; ///< edges that are seams in spite of `no_seams`
   double decimation_seconds = 0.; ///< time to make the coarse mesh
   double coarse_seconds = 0.;   ///< time to find charts there
   double refinement_seconds = 0.; ///< time to carry them to the mesh and to make seams straight
-  std::string error;            ///< why there are no charts, as a sentence; empty if all is well
 };
 
 namespace internal {
 
 // What the policy of `segment_coarse_to_fine()` returns.
-inline std::string error_of(const Face_charts&) { return {}; }
+inline Mesh_outcome outcome_of(const Face_charts&) { return {}; }
 inline const Face_charts& charts_of(const Face_charts& charts) { return charts; }
 template <class Result>
-std::string error_of(const Result& result) { return result.error; }
+Mesh_outcome outcome_of(const Result& result)
+{
+  if constexpr(std::is_base_of<Mesh_outcome, Result>::value)
+    return result;
+  else
+    return {Mesh_status::OK, result.error};
+}
 template <class Result>
 const Face_charts& charts_of(const Result& result) { return result.charts; }
-
-inline std::string segmentation_error(const Indexed_triangle_mesh& mesh)
-{
-  const std::string error = mesh_error(mesh);
-  return error.empty() ? repeated_vertex_error(mesh.triangles) : error;
-}
 
 // The mesh after the collapses, with the vertices that are left.
 inline Indexed_triangle_mesh coarse_mesh(const Indexed_triangle_mesh& mesh,
@@ -110,8 +116,7 @@ inline Face_charts charts_of_original(const std::vector<Triangle_indices>& origi
                                       const Prepared_mesh& prepared, const Face_charts& charts)
 {
   const std::vector<Halfedge> corners = prepared_corners(original, prepared);
-  constexpr std::uint32_t no_number = std::uint32_t(-1);
-  std::vector<std::uint32_t> number(charts.number_of_charts, no_number);
+  std::vector<std::uint32_t> number(charts.number_of_charts, no_chart);
   std::uint32_t numbers = 0;
   Face_charts result;
   result.number_of_charts = charts.number_of_charts;
@@ -123,7 +128,7 @@ inline Face_charts charts_of_original(const std::vector<Triangle_indices>& origi
       if(charts.is_seam(h))
         mark(result.seams, g);
     std::uint32_t& chart = number[charts.chart[triangle_of(h)]];
-    if(chart == no_number)
+    if(chart == no_chart)
       chart = numbers++;
     result.chart[t] = chart;
   }
@@ -142,25 +147,32 @@ public:
 
   Segmentation_result run()
   {
-    m_result.error = segmentation_error(m_original);
-    if(!m_result.error.empty())
+    if(m_result.fail(Mesh_status::BAD_MESH, surface_error(m_original)))
+      return m_result;
+    const std::vector<std::uint8_t>& no_seams = m_options.no_seams;
+    if(!no_seams.empty() && m_result.fail(foreign_seams_error(m_original, no_seams)))
       return m_result;
     Prepared_mesh prepared = prepare_mesh(m_original);
     const Indexed_triangle_mesh& mesh = prepared.mesh;
-    m_result.error = prepared.error;
-    if(!m_result.error.empty())
+    if(m_result.fail(prepared))
       return m_result;
     const Progressive_mesh pm = decimate(mesh, std::move(prepared.rings));
     m_result.decimation_seconds = m_watch.lap();
-    if(!m_result.error.empty() || is_cancelled(0.5))
+    if(!m_result.is_ok() || is_cancelled(0.5))
       return m_result;
     const Face_charts coarse = segment(coarse_mesh(mesh, pm));
     m_result.coarse_seconds = m_watch.lap();
-    if(!m_result.error.empty() || is_cancelled(0.7))
+    if(!m_result.is_ok() || is_cancelled(0.7))
       return m_result;
     m_result.charts = charts_of_original(
       m_original.triangles, prepared,
       refine_charts(pm, mesh.points, pm.collapses.size(), coarse, m_options.straightening));
+    if(!no_seams.empty()) {
+      m_result.charts = keep_seams_off(m_original, m_result.charts, no_seams,
+                                       m_options.straightening, m_options.cut);
+      m_result.unwanted_seams
+        = number_of_seams_on(m_original.triangles, m_result.charts, no_seams);
+    }
     m_result.refinement_seconds = m_watch.lap();
     return m_result;
   }
@@ -170,7 +182,7 @@ private:
   {
     if(!m_options.progress || m_options.progress(part))
       return false;
-    m_result.error = "cancelled";
+    m_result.cancel();
     return true;
   }
 
@@ -196,10 +208,9 @@ private:
   {
     m_result.coarse_faces = coarse.triangles.size();
     const auto found = m_segment_coarse(coarse);
-    m_result.error = error_of(found);
-    if(!m_result.error.empty())
+    if(m_result.fail(outcome_of(found))
+       || m_result.fail(charts_error(coarse, charts_of(found))))
       return {};
-    CGAL_precondition(charts_of(found).seams.size() == coarse.triangles.size());
     return cut_to_disks(coarse, charts_of(found), m_options.cut);
   }
 
@@ -221,12 +232,14 @@ found there, and their seams are carried back and made straight.
 \param mesh any number of components, closed or not, of any genus, size and place
 \param options see there
 \param segment_coarse finds the charts of the coarse mesh, an `Indexed_triangle_mesh`: a function
-       object that returns `Face_charts`, or a struct with `charts` and `error`. Charts that are no
+       object that returns `Face_charts`, or a struct with `charts` and `error`, which may be a
+       `Mesh_outcome`. Charts that are no
        disks are cut. `one_disk_per_component()` is one.
 
 Bad data (an index that is no vertex, a triangle that has a vertex twice, coordinates that are not
 finite, vertices without a triangle or with several fans of triangles, all edges without length)
-give a result with `error` set and no charts.
+give a result with an error and no charts, as does `segment_coarse` if it finds charts of another
+mesh.
 
 Expected linear time beside that of `segment_coarse`.
 */

@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_SEGMENT_INTO_CHARTS_H
 #define CGAL_SURFACE_MESH_TEXTURING_SEGMENT_INTO_CHARTS_H
 
-#include <CGAL/Blocked_execution/Tagged_threads.h>
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_texturing/grow_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/mesh_of_graph.h>
 #include <CGAL/Surface_mesh_texturing/segment_coarse_to_fine.h>
@@ -19,23 +19,6 @@
 namespace CGAL {
 namespace Surface_mesh_texturing {
 namespace internal {
-
-// What keeps a mesh from having charts that are disks, as a sentence.
-inline std::string manifold_error(const Indexed_triangle_mesh& mesh)
-{
-  const std::string error = segmentation_error(mesh);
-  return error.empty() ? ring_error(Indexed_mesh::Vertex_rings(mesh)) : error;
-}
-
-// What is wrong with charts that somebody else found, as a sentence.
-inline std::string error_of_foreign_seams(const Indexed_triangle_mesh& mesh,
-                                          const std::vector<std::uint8_t>& seams)
-{
-  const std::size_t n = mesh.triangles.size();
-  return seams.size() == n ? std::string()
-                           : "the charts have seams for " + std::to_string(seams.size())
-                               + " triangles, but the mesh has " + std::to_string(n);
-}
 
 // The mesh cut open along the seams of its charts, with its triangles in the same order.
 inline Indexed_triangle_mesh cut_along(const Indexed_triangle_mesh& mesh,
@@ -60,15 +43,11 @@ Segmentation_result segment_between(const Indexed_triangle_mesh& mesh,
                                     std::vector<std::uint8_t> seams, const Segment& segment)
 {
   Segmentation_result result;
-  result.error = manifold_error(mesh);
-  if(result.error.empty())
-    result.error = error_of_foreign_seams(mesh, seams);
-  if(!result.error.empty())
+  if(result.fail(Mesh_status::BAD_MESH, manifold_error(mesh))
+     || result.fail(foreign_seams_error(mesh, seams)))
     return result;
   result = segment(cut_along(mesh, charts_between(mesh.triangles, std::move(seams))));
-  if(result.error.empty())
-    result.error = error_of_foreign_seams(mesh, result.charts.seams);
-  if(result.error.empty())
+  if(result.is_ok() && !result.fail(foreign_seams_error(mesh, result.charts.seams)))
     result.charts = charts_between(mesh.triangles, std::move(result.charts.seams));
   return result;
 }
@@ -100,6 +79,26 @@ segment_into_charts(const Indexed_triangle_mesh& mesh, const Segmentation_option
 /*!
 \ingroup PkgHLSCMTexturing
 
+Returns the edges of a mesh that a map marks, three bits for each face in the order of `faces(mesh)`, as
+in `Face_charts::seams`: for `Segmentation_options::no_seams` and `Constrained_segmenter`. Linear time.
+
+\param edgemap a model of `ReadablePropertyMap` with the edge descriptor as key and `bool` as value
+*/
+template <class FaceGraph, class EdgeMap>
+std::vector<std::uint8_t> mark_sides(const FaceGraph& mesh, const EdgeMap& edgemap)
+{
+  std::vector<std::uint8_t> result; // num_faces() would count removed faces
+  internal::for_each_side(mesh, [&](std::size_t t, int c, auto h) {
+    result.resize(t + 1, 0);
+    if(get(edgemap, edge(h, mesh)))
+      result[t] |= std::uint8_t(1 << c);
+  });
+  return result;
+}
+
+/*!
+\ingroup PkgHLSCMTexturing
+
 Cuts a mesh of any type into charts: see the other overload.
 
 \tparam ConcurrencyTag `Sequential_tag`, or `Parallel_tag` for `options.threads` threads, or
@@ -110,9 +109,9 @@ Cuts a mesh of any type into charts: see the other overload.
        as value: gets the chart of each face
 \param options where charts are looked for
 \param growth which charts are looked for
-\param np optional named parameters: `vertex_point_map`, and `edge_is_constrained_map` for edges that
-       shall be seams (see `Constrained_segmenter`); points are taken as three numbers of type
-       `double`, so that no `geom_traits` are needed
+\param np optional named parameters: `vertex_point_map` and `geom_traits` (see
+       `Indexed_mesh::copy_points()`), and `edge_is_constrained_map` for edges that shall be seams
+       (see `Constrained_segmenter`); for edges that shall not be, see `options.no_seams`
 
 If there is an error, the map is left as it is. See `mark_seams()` for the seams.
 */
@@ -127,18 +126,19 @@ Segmentation_result segment_into_charts(const FaceGraph& mesh, FaceChartMap char
 {
   const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   Segmentation_result result;
-  result.error = internal::polygon_error(mesh, "the mesh");
-  if(!result.error.empty())
+  if(result.fail(internal::polygon_error(mesh, "the mesh")))
     return result;
-  const Indexed_triangle_mesh arrays = internal::arrays_of_graph(mesh, np);
+  const Indexed_triangle_mesh arrays = Indexed_mesh::copy_mesh(mesh, np);
   const auto segment
     = [&](const Indexed_triangle_mesh& m) { return segment_into_charts(m, options, growth); };
   if constexpr(internal::has_constrained_edges<NamedParameters>)
-    result = internal::segment_between(arrays, internal::constrained_sides(mesh, np), segment);
+    result = internal::segment_between(
+      arrays, mark_sides(mesh, parameters::get_parameter(np, internal_np::edge_is_constrained)),
+      segment);
   else
     result = segment(arrays);
   std::size_t t = 0;
-  if(result.error.empty())
+  if(result.is_ok())
     for(const auto f : faces(mesh))
       put(chartmap, f, std::size_t(result.charts.chart[t++]));
   return result;

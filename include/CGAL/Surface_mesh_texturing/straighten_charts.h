@@ -7,10 +7,8 @@
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/seams/Seam_straightener.h>
 
-#include <CGAL/assertions.h>
-
 #include <cmath>
-#include <vector>
+#include <utility>
 
 namespace CGAL {
 namespace Surface_mesh_texturing {
@@ -48,10 +46,13 @@ struct Seam_length
 };
 
 /// \ingroup PkgHLSCMTexturing
-/// Returns the length of the seams of `mesh` inside the surface. Linear time.
+/// Returns the length of the seams of `mesh` inside the surface; 0 if there is a `charts_error()`.
+/// Linear time.
 inline Seam_length measure_seams(const Indexed_triangle_mesh& mesh, const Face_charts& charts,
                                  const Crease_weights& creases = Crease_weights())
 {
+  if(!charts_error(mesh, charts).is_ok())
+    return {};
   internal::Halfedge_triangles halfedges(mesh.triangles, mesh.points.size());
   internal::Refinable_seam_graph graph(halfedges, mesh.points, creases);
   graph.set_seams(charts.seams);
@@ -67,6 +68,25 @@ inline Seam_length measure_seams(const Indexed_triangle_mesh& mesh, const Face_c
   return result;
 }
 
+namespace internal {
+
+// As the public one, of a mesh and charts that have been checked; `avoided` may be empty, see
+// Refinable_seam_graph::avoid().
+inline Face_charts straighten_charts(const Indexed_triangle_mesh& mesh, const Face_charts& charts,
+                                     const Straightening_options& options,
+                                     std::vector<std::uint8_t> avoided)
+{
+  Halfedge_triangles halfedges(mesh.triangles, mesh.points.size());
+  Refinable_seam_graph graph(halfedges, mesh.points, options.creases);
+  graph.avoid(std::move(avoided));
+  graph.set_seams(charts.seams);
+  graph.pin_curved(options.pinned_defect);
+  Seam_straightener(graph).run(reach_of(options));
+  return label_charts(halfedges, graph.seams());
+}
+
+} // namespace internal
+
 /*!
 \ingroup PkgHLSCMTexturing
 
@@ -74,7 +94,8 @@ Returns charts with shorter seams: pieces of `window` edges are replaced by the 
 edges in a band of `rings` edges around them, where creases count less, and junctions of seams move
 to where their seams are shortest, those on the border of the surface along it. The ends of seams
 within a chart, and vertices of much curvature, stay. If all charts are disks, they still are, and
-their number does not change. The weighted length of the seams never grows.
+their number does not change. The weighted length of the seams never grows. If the mesh is no manifold
+(`Indexed_mesh::manifold_error()`), or there is a `charts_error()`, there are no charts.
 
 Time linear in the number of triangles, with a small constant, plus that of the seam edges times
 `rounds * rings`.
@@ -83,13 +104,9 @@ inline Face_charts straighten_charts(const Indexed_triangle_mesh& mesh, const Fa
                                      const Straightening_options& options
                                        = Straightening_options())
 {
-  CGAL_precondition(charts.seams.size() == mesh.triangles.size());
-  internal::Halfedge_triangles halfedges(mesh.triangles, mesh.points.size());
-  internal::Refinable_seam_graph graph(halfedges, mesh.points, options.creases);
-  graph.set_seams(charts.seams);
-  graph.pin_curved(options.pinned_defect);
-  internal::Seam_straightener(graph).run(internal::reach_of(options));
-  return internal::label_charts(halfedges, graph.seams());
+  if(!manifold_error(mesh).empty() || !charts_error(mesh, charts).is_ok())
+    return {};
+  return internal::straighten_charts(mesh, charts, options, {});
 }
 
 } // namespace Surface_mesh_texturing

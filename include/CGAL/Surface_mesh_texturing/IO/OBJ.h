@@ -114,7 +114,8 @@ The same for a mesh of any type, in the order of `vertices(mesh)` and `faces(mes
 \param os the stream
 \param mesh a mesh
 \param uvmap its texture coordinates
-\param np optional named parameters: `vertex_point_map`
+\param np optional named parameters: `vertex_point_map` and `geom_traits`; see
+       `Indexed_mesh::copy_points()`
 
 \return `false` also if not all faces are triangles, or there are none.
 */

@@ -5,7 +5,6 @@
 #define CGAL_SURFACE_MESH_TEXTURING_IO_PNG_H
 
 #include <CGAL/Surface_mesh_texturing/Texture_image.h>
-#include <CGAL/Surface_mesh_texturing/encode_image.h>
 #include <CGAL/Surface_mesh_texturing/internal/writing/Byte_output.h>
 
 #include <png.h>

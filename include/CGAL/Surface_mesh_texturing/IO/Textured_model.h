@@ -7,7 +7,6 @@
 #include <CGAL/Surface_mesh_texturing/Texture_atlas.h>
 #include <CGAL/Surface_mesh_texturing/internal/mesh_of_graph.h>
 #include <CGAL/Surface_mesh_texturing/tangent_frames.h>
-#include <CGAL/Surface_mesh_texturing/vertex_normals.h>
 
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/boost/graph/helpers.h>

@@ -4,8 +4,9 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_MESH_OF_GRAPH_H
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_MESH_OF_GRAPH_H
 
-#include <CGAL/Blocked_execution/Tagged_threads.h>
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Indexed_mesh/mesh_arrays.h>
+#include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
 
 #include <CGAL/Default.h>
@@ -13,7 +14,6 @@
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/named_params_helper.h>
 
-#include <cstdint>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -27,69 +27,42 @@ using Surface_mesh_multiresolution::Textured_triangle_mesh;
 namespace internal {
 
 template <class FaceGraph>
-std::string polygon_error(const FaceGraph& mesh, const std::string& name)
+Mesh_outcome polygon_error(const FaceGraph& mesh, const std::string& name)
 {
-  return is_triangle_mesh(mesh)
-         ? std::string()
-         : "not all faces of " + name + " are triangles; triangulate it first";
+  if(is_triangle_mesh(mesh))
+    return {};
+  return {Mesh_status::BAD_MESH,
+          "not all faces of " + name + " are triangles; triangulate it first"};
 }
 
 // What keeps these two from being baked; empty if nothing does.
 template <class FineMesh, class LightMesh>
-std::string polygon_error_of_models(const FineMesh& fine, const LightMesh& light)
+Mesh_outcome polygon_error_of_models(const FineMesh& fine, const LightMesh& light)
 {
-  const std::string error = polygon_error(fine, "the fine mesh");
-  return error.empty() ? polygon_error(light, "the light model") : error;
+  const Mesh_outcome result = polygon_error(fine, "the fine mesh");
+  return result.is_ok() ? polygon_error(light, "the light model") : result;
 }
 
-// The arrays of a mesh in the order of vertices(mesh) and faces(mesh), with the points of the named
-// parameter `vertex_point_map`. Precondition: all faces are triangles.
-template <class FaceGraph, class NamedParameters>
-Indexed_triangle_mesh arrays_of_graph(const FaceGraph& mesh, const NamedParameters& np)
-{
-  const auto position = get(dynamic_vertex_property_t<Vertex_index>(), mesh);
-  Indexed_mesh::number_vertices(mesh, position);
-  const auto vpm
-    = parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
-                                   get_const_property_map(CGAL::vertex_point, mesh));
-  Indexed_triangle_mesh result;
-  for(const auto v : vertices(mesh)) {
-    const auto& p = get(vpm, v);
-    result.points.emplace_back(to_double(p[0]), to_double(p[1]), to_double(p[2]));
-  }
-  result.triangles = Indexed_mesh::copy_triangles(mesh, position);
-  return result;
-}
-
-// The same with texture coordinates. `uvmap` has a halfedge as key, which stands for the corner at
-// its target, or a vertex.
+// The arrays of a mesh with texture coordinates. `uvmap` has a halfedge as key, which stands for the
+// corner at its target, or a vertex.
 template <class FaceGraph, class UVMap, class NamedParameters>
 Textured_triangle_mesh textured_arrays_of_graph(const FaceGraph& mesh, const UVMap& uvmap,
                                                 const NamedParameters& np)
 {
   typedef typename boost::graph_traits<FaceGraph>::halfedge_descriptor Halfedge_descriptor;
   typedef typename boost::property_traits<UVMap>::key_type Key;
-  Indexed_triangle_mesh arrays = arrays_of_graph(mesh, np);
-  Textured_triangle_mesh result;
-  result.points = std::move(arrays.points);
-  result.triangles = std::move(arrays.triangles);
-  const auto add = [&result](const auto& uv) {
-    result.uv.emplace_back(to_double(uv[0]), to_double(uv[1]));
-  };
   if constexpr(std::is_same<Key, Halfedge_descriptor>::value) {
-    for(const auto f : faces(mesh)) {
-      const auto h = halfedge(f, mesh), h1 = next(h, mesh);
-      const Vertex_index first = Vertex_index(result.uv.size());
-      add(get(uvmap, h));
-      add(get(uvmap, h1));
-      add(get(uvmap, next(h1, mesh)));
-      result.wedges.push_back({first, first + 1, first + 2});
-    }
-    return Surface_mesh_multiresolution::with_wedges(result);
+    return Surface_mesh_multiresolution::with_wedges(
+      Surface_mesh_multiresolution::textured_triangle_mesh(mesh, uvmap, np));
   } else {
-    for(const auto v : vertices(mesh))
-      add(get(uvmap, v));
-    result.wedges = result.triangles;
+    Indexed_triangle_mesh arrays = Indexed_mesh::copy_mesh(mesh, np);
+    Textured_triangle_mesh result;
+    result.points = std::move(arrays.points);
+    result.triangles = result.wedges = std::move(arrays.triangles);
+    for(const auto v : vertices(mesh)) {
+      const auto& uv = get(uvmap, v);
+      result.uv.emplace_back(to_double(uv[0]), to_double(uv[1]));
+    }
     return result;
   }
 }
@@ -114,21 +87,6 @@ constexpr bool has_constrained_edges
   = !std::is_same<typename internal_np::Lookup_named_param_def<internal_np::edge_is_constrained_t,
                                                                NamedParameters, Default>::type,
                   Default>::value;
-
-// The edges of the named parameter `edge_is_constrained_map`, three bits a triangle as in
-// `Face_charts::seams`.
-template <class FaceGraph, class NamedParameters>
-std::vector<std::uint8_t> constrained_sides(const FaceGraph& mesh, const NamedParameters& np)
-{
-  const auto is_constrained = parameters::get_parameter(np, internal_np::edge_is_constrained);
-  std::vector<std::uint8_t> result; // num_faces() would count removed faces
-  for_each_side(mesh, [&](std::size_t t, int c, auto h) {
-    result.resize(t + 1, 0);
-    if(get(is_constrained, edge(h, mesh)))
-      result[t] |= std::uint8_t(1 << c);
-  });
-  return result;
-}
 
 } // namespace internal
 } // namespace Surface_mesh_texturing

@@ -14,12 +14,100 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <limits>
+#include <queue>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_multiresolution {
 namespace internal {
+
+// Decimates a `Decimated_surface` by the cheapest collapse of all, one at a time.
+template <class Surface, class Stop>
+class Strict_collapses
+{
+public:
+  // All of these must outlive this.
+  Strict_collapses(Surface& surface, const Flat_collapse_options& options, Stop& stop)
+    : m_surface(surface), m_worker(surface), m_stop(stop), m_progress(options.progress)
+  {}
+
+  // Appends the collapses.
+  Decimation_end run(Progressive_mesh& pm);
+
+private:
+  static constexpr std::size_t steps_between_reports = 16384;
+
+  bool goes_on(const Progressive_mesh& pm)
+  {
+    return ++m_steps % steps_between_reports != 0 || m_progress(pm);
+  }
+
+  void enqueue(Vertex_index v)
+  {
+    m_worker.evaluate(v, true);
+    if(m_surface.best_cost[v] < Surface::no_cost)
+      m_queue.push({m_surface.best_cost[v], v});
+  }
+
+  typedef std::pair<float, Vertex_index> Entry; // smallest cost first, then smallest index
+
+  // Whether the collapse of v, the next one, is one too many.
+  bool stops_at(Vertex_index v, float cost, const Progressive_mesh& pm)
+  {
+    if constexpr(Stop::asks_for_costs)
+      return m_stop.stops_at(v, m_surface.best_target[v], cost, pm);
+    return false;
+  }
+
+  Surface& m_surface;
+  Collapse_worker<Surface> m_worker;
+  Stop& m_stop;
+  Collapse_progress m_progress;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> m_queue;
+  std::size_t m_steps = 0;
+};
+
+template <class Surface, class Stop>
+Decimation_end Strict_collapses<Surface, Stop>::run(Progressive_mesh& pm)
+{
+  const std::size_t n = m_surface.number_of_vertices();
+  if constexpr(Stop::asks_for_costs)
+    m_progress.expect(n);
+  else
+    m_progress.expect(m_stop.left(pm));
+  for(Vertex_index v = 0; v < n && goes_on(pm); ++v)
+    enqueue(v);
+  std::size_t next_pass = n / 2; // vertices left
+  bool has_stopped = m_stop.is_over(pm);
+  while(!m_queue.empty() && !has_stopped && !m_progress.is_cancelled() && goes_on(pm)) {
+    if(n - pm.collapses.size() <= next_pass) {
+      m_surface.begin_pass();
+      next_pass /= 2;
+    }
+    const auto [cost, v] = m_queue.top();
+    m_queue.pop();
+    if(m_surface.state[v].is_gone || cost != m_surface.best_cost[v]) // a later entry replaced it
+      continue;
+    has_stopped = stops_at(v, cost, pm);
+    if(has_stopped)
+      break;
+    const Vertex_index* r = m_surface.rings.ring(v);
+    const std::uint32_t d = m_surface.rings.degree(v);
+    if(!m_worker.try_collapse(v, cost, pm.collapses)) { // the degree of the target has changed, or
+      enqueue(v);                                       // topology forbids it
+      continue;
+    }
+    m_surface.best_cost[v] = Surface::no_cost;
+    for(std::uint32_t i = 0; i < d; ++i)
+      enqueue(r[i]);
+    has_stopped = m_stop.is_over(pm);
+  }
+  const bool is_cancelled = m_progress.is_cancelled();
+  return {!has_stopped && !is_cancelled, is_cancelled};
+}
 
 // The highest bits of a number, ordered as the numbers are.
 inline std::uint32_t class_of_cost(float cost)
@@ -85,7 +173,7 @@ public:
   {}
 
   // Appends the collapses and the ends of the passes.
-  Decimation_status run(Progressive_mesh& pm);
+  Decimation_end run(Progressive_mesh& pm);
 
 private:
   typedef Collapse_worker<Surface> Worker;
@@ -223,7 +311,7 @@ void Batched_collapses<Surface, Stop>::remove_dead()
 }
 
 template <class Surface, class Stop>
-Decimation_status Batched_collapses<Surface, Stop>::run(Progressive_mesh& pm)
+Decimation_end Batched_collapses<Surface, Stop>::run(Progressive_mesh& pm)
 {
   const std::size_t n = m_surface.number_of_vertices();
   if constexpr(!Stop::asks_for_costs) {
@@ -256,10 +344,8 @@ Decimation_status Batched_collapses<Surface, Stop>::run(Progressive_mesh& pm)
     is_exhausted = m_stop.is_limited() ? empty_passes == 4
                                        : 2 * done < wanted && 500 * done < before;
   }
-  if(m_progress.is_cancelled())
-    return Decimation_status::CANCELLED;
-  return is_exhausted && !m_stop.is_over(pm) ? Decimation_status::EXHAUSTED
-                                             : Decimation_status::STOPPED;
+  const bool is_cancelled = m_progress.is_cancelled();
+  return {is_exhausted && !is_cancelled && !m_stop.is_over(pm), is_cancelled};
 }
 
 } // namespace internal

@@ -9,7 +9,6 @@
 #include <CGAL/Surface_mesh_multiresolution/internal/deviation/Uv_walk.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>

@@ -179,26 +179,19 @@ Nearest_surface_point nearest_to_origin(const std::array<Real_vector<N>, 3>& abc
   return best;
 }
 
-// The point of triangle t that is nearest to p, in space.
-inline Nearest_surface_point nearest_in(const Textured_view& surface, Triangle_index t,
-                                const Real_vector<3>& p)
+// The point of triangle t that is nearest to p, in space or in the texture.
+template <std::size_t N>
+Nearest_surface_point nearest_in(const Textured_view& surface, Triangle_index t,
+                                 const Real_vector<N>& p)
 {
-  const Triangle_indices& abc = surface.triangles()[t];
-  Nearest_surface_point result = nearest_to_origin<3>({minus(surface.point(abc[0]), p),
-                                               minus(surface.point(abc[1]), p),
-                                               minus(surface.point(abc[2]), p)});
-  result.triangle = t;
-  return result;
-}
-
-// The same in the texture.
-inline Nearest_surface_point nearest_in(const Textured_view& surface, Triangle_index t,
-                                const Real_vector<2>& p)
-{
-  const Triangle_indices& abc = surface.triangles()[t];
-  Nearest_surface_point result = nearest_to_origin<2>({minus(surface.uv(abc[0]), p),
-                                               minus(surface.uv(abc[1]), p),
-                                               minus(surface.uv(abc[2]), p)});
+  const auto corner = [&](int c) {
+    const Vertex_index w = surface.triangles()[t][c];
+    if constexpr(N == 3)
+      return minus(surface.point(w), p);
+    else
+      return minus(surface.uv(w), p);
+  };
+  Nearest_surface_point result = nearest_to_origin<N>({corner(0), corner(1), corner(2)});
   result.triangle = t;
   return result;
 }

@@ -34,14 +34,11 @@ struct Ring_split
 using Blocked_execution::Uninitialized_vector;
 
 // The triangles of a mesh, with room for more, and the ring of each vertex as a list of its
-// corners, counterclockwise. A corner is 4 t + c, place c < 3 of triangle t: no divisions by 3.
+// corners, counterclockwise. A corner is 4 t + c, place c < 3 of triangle t < 2^29: no divisions by 3.
 class Corner_lists
 {
 public:
   typedef std::uint32_t Corner;
-
-  // A bound on numbers of triangles.
-  static constexpr std::size_t max_triangles = std::size_t(1) << 29;
 
   // Begins with a mesh; returns what is wrong with it.
   Ring_defect build(std::vector<Triangle_indices> triangles, std::size_t number_of_vertices);

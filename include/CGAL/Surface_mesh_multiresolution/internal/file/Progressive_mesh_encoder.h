@@ -4,16 +4,15 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_FILE_PROGRESSIVE_MESH_ENCODER_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_FILE_PROGRESSIVE_MESH_ENCODER_H
 
+#include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/Textured_progressive_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/file/Corner_rings.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/file/base_section.h>
 #include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/file/split_prediction.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/levels/triangle_numbers.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -64,12 +63,7 @@ inline std::string error_in_numbers(const Textured_progressive_mesh& mesh)
   if(next != mesh.points.size())
     return "the arrays of the mesh differ in size";
   const std::string error = point_error(mesh.points);
-  if(!error.empty())
-    return error;
-  for(std::size_t w = 0; w < mesh.uv.size(); ++w)
-    if(!std::isfinite(mesh.uv[w].x()) || !std::isfinite(mesh.uv[w].y()))
-      return "wedge " + std::to_string(w) + " has a texture coordinate that is not a finite number";
-  return {};
+  return error.empty() ? uv_error(mesh.uv) : error;
 }
 
 // Writes the bytes of a mesh without `error_in_numbers()`, given a header that tells how to; only

@@ -45,7 +45,8 @@ public:
     Vertex_index vertex_a, vertex_b;
   };
 
-  // `texture` has its wedges; `source` has for each vertex of the rings its number in `texture`.
+  // `texture` has its wedges from `with_wedges()`, so that an edge `is_smooth()` just if its indices
+  // are the same on both sides; `source` has for each vertex of the rings its number in `texture`.
   Collapsing_wedges(const Textured_triangle_mesh& texture, const std::vector<Vertex_index>& source,
                     const Vertex_rings& rings)
     : m_rings(&rings), m_wedge(source.size(), no_vertex), m_begin(source.size() + 1, 0)

@@ -5,7 +5,7 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_REPAIR_FLIP_REPAIR_H
 
 #include <CGAL/Surface_mesh_parameterization/Flip_repair_options.h>
-#include <CGAL/Surface_mesh_parameterization/internal/repair/flip_patches.h>
+#include <CGAL/Surface_mesh_parameterization/internal/repair/relax_flipped_faces.h>
 #include <CGAL/Surface_mesh_parameterization/internal/repair/mend_patch.h>
 #include <CGAL/Surface_mesh_parameterization/self_overlap.h>
 

@@ -12,7 +12,6 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
-#include <limits>
 
 namespace CGAL {
 namespace Surface_mesh_parameterization {

@@ -5,18 +5,135 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_REPAIR_RELAX_FLIPPED_FACES_H
 
 #include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
+#include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 #include <CGAL/Multigrid/Hermitian_matrix.h>
 #include <CGAL/Multigrid/Matrix_builder.h>
 #include <CGAL/Multigrid/Sparse_cholesky.h>
-#include <CGAL/Surface_mesh_parameterization/internal/repair/flip_patches.h>
 
 #include <algorithm>
 #include <complex>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
 #include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
+
+// What may move together: free vertices, and all faces that have one of them.
+struct Flip_patch
+{
+  std::vector<std::uint32_t> vertices; // ascending
+  std::vector<std::uint32_t> faces;    // ascending
+};
+
+// The vertices within `rings` edges of the corners of the faces, ascending.
+// `for_each_neighbor(v, use)` calls use(w) for the neighbours w of v, and maybe for v.
+template <class ForEachNeighbor>
+std::vector<std::uint32_t> vertices_around(const std::vector<Indexed_mesh::Triangle_indices>& triangles,
+                                           const std::vector<std::uint32_t>& faces, int rings,
+                                           const ForEachNeighbor& for_each_neighbor)
+{
+  std::vector<std::uint32_t> result, last, next; // all, those of the last ring, those of the next
+  const auto unite = [&] {
+    std::sort(next.begin(), next.end());
+    next.erase(std::unique(next.begin(), next.end()), next.end());
+    last.clear();
+    std::set_difference(next.begin(), next.end(), result.begin(), result.end(),
+                        std::back_inserter(last));
+    const std::size_t old = result.size();
+    result.insert(result.end(), last.begin(), last.end());
+    std::inplace_merge(result.begin(), result.begin() + std::ptrdiff_t(old), result.end());
+    next.clear();
+  };
+  for(const std::uint32_t t : faces)
+    next.insert(next.end(), triangles[t].begin(), triangles[t].end());
+  unite();
+  for(int ring = 0; ring < rings; ++ring) {
+    for(const std::uint32_t v : last)
+      for_each_neighbor(v, [&next](std::uint32_t w) { next.push_back(w); });
+    unite();
+  }
+  return result;
+}
+
+// Finds patches around faces. No face has free vertices of two patches, so that patches can be
+// worked on in any order, and at the same time.
+class Flip_patch_finder
+{
+public:
+  typedef std::vector<Indexed_mesh::Triangle_indices> Triangles;
+
+  Flip_patch_finder(const Triangles& triangles, const std::vector<bool>& is_fixed)
+    : m_triangles(triangles), m_is_fixed(is_fixed), m_at(triangles, is_fixed.size())
+    , m_is_inside(is_fixed.size(), false)
+  {}
+
+  // The patches of the vertices within `rings` edges of the faces, by their least vertices. Faces
+  // of fixed vertices alone get none.
+  std::vector<Flip_patch> patches_around(const std::vector<std::uint32_t>& faces, int rings);
+
+private:
+  template <class Use>
+  void for_each_neighbor(std::uint32_t v, const Use& use) const
+  {
+    for(const std::uint32_t* corner = m_at.begin(v); corner != m_at.end(v); ++corner)
+      for(const std::uint32_t w : m_triangles[Indexed_mesh::triangle_of(*corner)])
+        use(w);
+  }
+
+  Flip_patch take_component(std::uint32_t seed);
+
+  const Triangles& m_triangles;
+  const std::vector<bool>& m_is_fixed;
+  const Indexed_mesh::Triangles_at_vertices m_at;
+  std::vector<bool> m_is_inside; // of each vertex; all `false` between calls
+};
+
+// The patch of the vertices that are connected with `seed`; they are no longer inside.
+inline Flip_patch Flip_patch_finder::take_component(std::uint32_t seed)
+{
+  Flip_patch patch;
+  patch.vertices.push_back(seed);
+  m_is_inside[seed] = false;
+  for(std::size_t i = 0; i < patch.vertices.size(); ++i) {
+    const std::uint32_t v = patch.vertices[i];
+    for_each_neighbor(v, [&](std::uint32_t w) {
+      if(m_is_inside[w])
+        patch.vertices.push_back(w);
+      m_is_inside[w] = false;
+    });
+    for(const std::uint32_t* corner = m_at.begin(v); corner != m_at.end(v); ++corner)
+      patch.faces.push_back(Indexed_mesh::triangle_of(*corner));
+  }
+  std::sort(patch.vertices.begin(), patch.vertices.end());
+  std::sort(patch.faces.begin(), patch.faces.end());
+  patch.faces.erase(std::unique(patch.faces.begin(), patch.faces.end()), patch.faces.end());
+  return patch;
+}
+
+inline std::vector<Flip_patch>
+Flip_patch_finder::patches_around(const std::vector<std::uint32_t>& faces, int rings)
+{
+  std::vector<std::uint32_t> movable;
+  for(const std::uint32_t t : faces)
+    if(std::any_of(m_triangles[t].begin(), m_triangles[t].end(),
+                   [this](std::uint32_t v) { return !m_is_fixed[v]; }))
+      movable.push_back(t);
+  const std::vector<std::uint32_t> vertices
+    = vertices_around(m_triangles, movable, rings, [this](std::uint32_t v, const auto& use) {
+        for_each_neighbor(v, use);
+      });
+  for(const std::uint32_t v : vertices)
+    m_is_inside[v] = !m_is_fixed[v];
+  std::vector<Flip_patch> patches;
+  for(const std::uint32_t v : vertices)
+    if(m_is_inside[v])
+      patches.push_back(take_component(v));
+  return patches;
+}
 
 // The faces whose images do not have a positive area.
 inline std::vector<std::uint32_t>

@@ -183,7 +183,7 @@ private:
 
 template <class After_level>
 void Conformal_hierarchy::build_operators(std::vector<double> triangle_weights,
-                                                          const After_level& after_level)
+                                          const After_level& after_level)
 {
   typedef Indexed_mesh::Triangles_at_vertices Triangles_at_vertices;
   const std::size_t count = m_levels.size();
@@ -331,8 +331,7 @@ Conformal_hierarchy::pin_only(std::vector<Vertex_index> vertices)
 
 template <class Minimize>
 Multigrid::Iteration_report
-Conformal_hierarchy::on_level(std::size_t l, Vector& z,
-                                              const Minimize& minimize) const
+Conformal_hierarchy::on_level(std::size_t l, Vector& z, const Minimize& minimize) const
 {
   if(l + 1 == m_levels.size())
     return minimize(m_finest, z);
@@ -343,10 +342,9 @@ Conformal_hierarchy::on_level(std::size_t l, Vector& z,
 }
 
 template <class Real>
-void Conformal_hierarchy::precondition(std::size_t l,
-                                                       const Multigrid::Schedule& schedule,
-                                                       const Multigrid::Complex_vector<Real>& r,
-                                                       Multigrid::Complex_vector<Real>& x)
+void Conformal_hierarchy::precondition(std::size_t l, const Multigrid::Schedule& schedule,
+                                       const Multigrid::Complex_vector<Real>& r,
+                                       Multigrid::Complex_vector<Real>& x)
 {
   if(l == 0)
     coarsest_solver().solve(r, x);
@@ -357,8 +355,8 @@ void Conformal_hierarchy::precondition(std::size_t l,
 template <class Observe>
 Multigrid::Iteration_report
 Conformal_hierarchy::minimize(std::size_t l, const Multigrid::Schedule& schedule,
-                                              const Multigrid::Energy_stop& stop,
-                                              const Observe& observe, Vector& z)
+                              const Multigrid::Energy_stop& stop, const Observe& observe,
+                              Vector& z)
 {
   const auto precondition_on_level = [&](const auto& r, auto& x) {
     precondition(l, schedule, r, x);
@@ -377,11 +375,10 @@ Conformal_hierarchy::minimize(std::size_t l, const Multigrid::Schedule& schedule
 
 template <class Observe>
 Multigrid::Iteration_report
-Conformal_hierarchy::minimize_without_pins(std::size_t l,
-                                                           const Multigrid::Diagonal_mass& mass,
-                                                           const Multigrid::Schedule& schedule,
-                                                           const Multigrid::Energy_stop& stop,
-                                                           const Observe& observe, Vector& z)
+Conformal_hierarchy::minimize_without_pins(std::size_t l, const Multigrid::Diagonal_mass& mass,
+                                           const Multigrid::Schedule& schedule,
+                                           const Multigrid::Energy_stop& stop,
+                                           const Observe& observe, Vector& z)
 {
   const auto minimize = [&](const auto& op, auto& x) {
     typedef std::decay_t<decltype(x)> Level_vector;

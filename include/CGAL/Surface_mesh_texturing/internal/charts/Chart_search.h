@@ -78,7 +78,8 @@ private:
   const std::vector<std::uint8_t>& m_is_feature;
 };
 
-// See Chart_growth_options.
+// What is searched with, from Chart_growth_options: angles in radians, the part of the bound that is
+// used.
 struct Search_options
 {
   Distortion_bound bound;

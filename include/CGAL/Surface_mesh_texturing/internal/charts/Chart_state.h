@@ -58,7 +58,7 @@ inline Trial_map try_map(const Chart_mesh& chart)
   namespace SMP = Surface_mesh_parameterization;
   Trial_map result;
   const SMP::Border_first_map map = SMP::border_first_map(chart.mesh);
-  result.is_disk = map.error.empty();
+  result.is_disk = map.is_ok();
   if(!result.is_disk)
     return result;
   const std::vector<Border_edge> border = chart.border_edges();

@@ -5,7 +5,7 @@
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_GROWTH_SURFACE_H
 
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
-#include <CGAL/Surface_mesh_texturing/internal/seams/Halfedge_triangles.h>
+#include <CGAL/Surface_mesh_texturing/internal/seams/Seam_graph.h>
 
 #include <algorithm>
 #include <cmath>

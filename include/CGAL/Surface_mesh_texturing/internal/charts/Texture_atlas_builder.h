@@ -12,6 +12,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,9 +22,9 @@ namespace Surface_mesh_texturing {
 namespace internal {
 
 // The length of the seams between triangles, each once.
-inline double seam_length(const Indexed_triangle_mesh& mesh, const Face_charts& charts)
+inline double seam_length(const Indexed_triangle_mesh& mesh, const Triangle_adjacency& adjacency,
+                          const Face_charts& charts)
 {
-  const Triangle_adjacency adjacency(mesh.triangles);
   double sum = 0.;
   for(std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
     for(int c = 0; c < 3; ++c) {
@@ -36,14 +37,14 @@ inline double seam_length(const Indexed_triangle_mesh& mesh, const Face_charts& 
 }
 
 // The charts whose triangles these are, with all seams between wedges.
-inline Face_charts charts_of_maps(const Indexed_triangle_mesh& mesh,
+inline Face_charts charts_of_maps(const Triangle_adjacency& adjacency,
                                   const std::vector<Mapped_chart>& maps)
 {
-  std::vector<std::uint8_t> seams(mesh.triangles.size());
+  std::vector<std::uint8_t> seams(adjacency.number_of_halfedges() / 3);
   for(const Mapped_chart& map : maps)
     for(const Halfedge h : map.chart.border)
       mark(seams, 3 * map.chart.triangles[triangle_of(h)] + corner_of(h));
-  return charts_between(mesh.triangles, std::move(seams));
+  return charts_between(adjacency, std::move(seams));
 }
 
 // Makes the charts as large as their density asks for.
@@ -134,7 +135,7 @@ private:
   Segmentation_result find_charts(const Indexed_triangle_mesh& mesh, double begin, double end);
   Segmentation_result try_charts(const Indexed_triangle_mesh& mesh);
   bool map();
-  Chart_mapping chart_mapping(const Distortion_bound& bound) const
+  Chart_mapping chart_mapping(const Distortion_bound& bound) const // of any mesh
   {
     return {m_models.parameterize, bound, m_models.is_bounded, m_options.least_fill,
             m_options.coarse_faces};
@@ -146,8 +147,7 @@ private:
   // The charts of a segmentation, whose error, if any, becomes that of the atlas.
   Face_charts found(Segmentation_result result)
   {
-    if(m_result.error.empty())
-      m_result.error = std::move(result.error);
+    m_result.fail(result);
     return std::move(result.charts);
   }
 
@@ -156,14 +156,14 @@ private:
   {
     if(!m_options.progress || m_options.progress(begin + part * (end - begin)))
       return true;
-    m_result.report.cancelled = true;
-    m_result.error = "cancelled";
+    m_result.cancel();
     return false;
   }
 
   const Indexed_triangle_mesh& m_mesh;
   const Texture_atlas_options& m_options;
   const Atlas_models& m_models;
+  std::optional<Triangle_adjacency> m_adjacency; // of the mesh, from the maps on
   Face_charts m_charts;
   std::vector<Mapped_chart> m_maps;
   Packing_result m_packing;
@@ -175,15 +175,18 @@ inline bool Texture_atlas_builder::check()
 {
   const std::vector<float>& density = m_options.density;
   if(!density.empty() && density.size() != m_mesh.triangles.size())
-    m_result.error = "there are " + std::to_string(density.size()) + " densities for "
-                     + std::to_string(m_mesh.triangles.size()) + " triangles";
-  for(std::size_t t = 0; t < density.size() && m_result.error.empty(); ++t)
+    m_result.fail(Mesh_status::BAD_OPTIONS,
+                  "there are " + std::to_string(density.size()) + " densities for "
+                    + std::to_string(m_mesh.triangles.size()) + " triangles");
+  for(std::size_t t = 0; t < density.size() && m_result.is_ok(); ++t)
     if(!std::isfinite(density[t]) || density[t] < 0.f)
-      m_result.error
-        = "the density of triangle " + std::to_string(t) + " is not a finite number from 0 on";
-  if(m_result.error.empty() && !m_models.is_own)
-    m_result.error = manifold_error(m_mesh);
-  return m_result.error.empty();
+      m_result.fail(Mesh_status::BAD_OPTIONS, "the density of triangle " + std::to_string(t)
+                                                + " is not a finite number from 0 on");
+  if(!m_options.no_seams.empty())
+    m_result.fail(foreign_seams_error(m_mesh, m_options.no_seams));
+  if(m_result.is_ok() && !m_models.is_own)
+    m_result.fail(Mesh_status::BAD_MESH, manifold_error(m_mesh));
+  return m_result.is_ok();
 }
 
 inline bool Texture_atlas_builder::segment()
@@ -195,6 +198,7 @@ inline bool Texture_atlas_builder::segment()
   } else {
     Segmentation_options to_trial;
     to_trial.coarse_faces = m_options.trial_faces;
+    to_trial.no_seams = m_options.no_seams;
     to_trial.progress = [this](double part) { // the level is there at half of it
       return part <= 0.5 ? proceed(0., 0.2, 2. * part) : proceed(0.4, 0.4, 1.);
     };
@@ -202,19 +206,21 @@ inline bool Texture_atlas_builder::segment()
       m_mesh, to_trial, [this](const Indexed_triangle_mesh& trial) { return try_charts(trial); }));
   }
   m_result.report.seconds_segment = watch.seconds();
-  return m_result.error.empty() && proceed(0.4, 0.4, 0.);
+  return m_result.is_ok() && proceed(0.4, 0.4, 0.);
 }
 
 inline Segmentation_result Texture_atlas_builder::find_charts(const Indexed_triangle_mesh& mesh,
                                                               double begin, double end)
 {
   Texture_atlas_options options = m_options;
+  if(&mesh != &m_mesh)
+    options.no_seams.clear();
   options.progress = [=](double part) { return proceed(begin, end, part); };
   Segmentation_result result = m_models.segment(mesh, options);
-  if(m_models.is_own || !result.error.empty())
+  if(m_models.is_own || !result.is_ok())
     return result;
-  result.error = error_of_foreign_seams(mesh, result.charts.seams);
-  if(result.error.empty()) // whatever the charts say beside their seams
+  // Whatever the charts say beside their seams
+  if(!result.fail(foreign_seams_error(mesh, result.charts.seams)))
     result.charts
       = cut_to_disks(mesh, charts_between(mesh.triangles, std::move(result.charts.seams)));
   return result;
@@ -225,15 +231,16 @@ inline Segmentation_result Texture_atlas_builder::try_charts(const Indexed_trian
 {
   constexpr double margin = 0.95; // for what the fine mesh adds
   Segmentation_result result = find_charts(mesh, 0.2, 0.3);
-  if(!result.error.empty())
+  if(!result.is_ok())
     return result;
   Distortion_bound bound = m_options.bound;
   bound.area_scale = (std::max)(1., margin * bound.area_scale);
+  const Triangle_adjacency adjacency(mesh.triangles);
   std::size_t recut;
   result.charts = charts_of_maps(
-    mesh, map_charts(chart_meshes(mesh, result.charts), chart_mapping(bound),
-                     [this](double part) { return proceed(0.3, 0.4, part); }, recut));
-  result.error = m_result.error;
+    adjacency, map_charts(chart_meshes(mesh, adjacency, result.charts), chart_mapping(bound),
+                          [this](double part) { return proceed(0.3, 0.4, part); }, recut));
+  result.fail(m_result);
   return result;
 }
 
@@ -242,6 +249,7 @@ inline bool Texture_atlas_builder::map()
   const Blocked_execution::Stopwatch watch;
   const std::size_t most = m_models.is_bounded ? m_options.max_charts : 0;
   const bool is_full = most > 0 && m_charts.number_of_charts >= most;
+  m_adjacency.emplace(m_mesh.triangles);
   if(!is_full)
     map_charts_within(m_options.bound, 0.4, most > 0 ? 0.6 : 0.8);
   if(is_full || (most > 0 && m_maps.size() > most)) { // no charts are left for the bound
@@ -251,13 +259,15 @@ inline bool Texture_atlas_builder::map()
   for(Mapped_chart& chart : m_maps)
     scale_by_density(m_options.density, chart);
   m_result.report.seconds_map = watch.seconds();
-  return m_result.error.empty();
+  return m_result.is_ok();
 }
 
 inline void Texture_atlas_builder::map_charts_within(const Distortion_bound& bound, double begin,
                                                      double end)
 {
-  m_maps = map_charts(chart_meshes(m_mesh, m_charts), chart_mapping(bound),
+  Chart_mapping mapping = chart_mapping(bound);
+  mapping.no_seams = m_options.no_seams;
+  m_maps = map_charts(chart_meshes(m_mesh, *m_adjacency, m_charts), mapping,
                       [&](double part) { return proceed(begin, end, part); },
                       m_result.report.recut_charts);
 }
@@ -271,10 +281,9 @@ inline bool Texture_atlas_builder::pack()
   Packing_options packing = m_options.packing;
   packing.progress = [this](double part) { return proceed(0.8, 1., part); };
   m_packing = m_models.pack(shapes, packing);
-  if(m_result.error.empty())
-    m_result.error = m_packing.error;
+  m_result.fail(m_packing);
   m_result.report.seconds_pack = watch.seconds();
-  return m_result.error.empty() && proceed(1., 1., 1.);
+  return m_result.is_ok() && proceed(1., 1., 1.);
 }
 
 inline void Texture_atlas_builder::fill()
@@ -287,7 +296,7 @@ inline void Texture_atlas_builder::fill()
   atlas.mesh.points = m_mesh.points;
   atlas.mesh.triangles = m_mesh.triangles;
   atlas.mesh.wedges.resize(m_mesh.triangles.size());
-  atlas.charts = charts_of_maps(m_mesh, m_maps);
+  atlas.charts = charts_of_maps(*m_adjacency, m_maps);
   for(std::size_t i = 0; i < m_maps.size(); ++i) {
     const Mapped_chart& map = m_maps[i];
     const Vertex_index first = Vertex_index(atlas.mesh.uv.size());
@@ -303,7 +312,9 @@ inline void Texture_atlas_builder::fill()
     report.charts.back().page = atlas.page.back();
   }
   report.texels_per_unit = m_packing.texels_per_unit;
-  report.seam_length = seam_length(m_mesh, atlas.charts);
+  report.unwanted_seams
+    = number_of_seams_on(m_mesh.triangles, atlas.charts, m_options.no_seams);
+  report.seam_length = seam_length(m_mesh, *m_adjacency, atlas.charts);
   measure_atlas(atlas, report);
 }
 

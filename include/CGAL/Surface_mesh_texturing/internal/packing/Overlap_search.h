@@ -5,7 +5,7 @@
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_PACKING_OVERLAP_SEARCH_H
 
 #include <CGAL/Surface_mesh_texturing/internal/packing/Arrangement.h>
-#include <CGAL/Surface_mesh_texturing/internal/packing/packing_keys.h>
+#include <CGAL/Surface_mesh_texturing/internal/packing/Chart_outline.h>
 
 #include <algorithm>
 #include <cstdint>

@@ -56,7 +56,6 @@ public:
 
 private:
   void rank_snug(const Chart_raster& chart, const Page_raster& page, Raster_place place);
-  void rank_low(const Chart_raster& chart, Raster_place place);
 
   void keep(const Raster_place& place, const Score& score)
   {
@@ -69,7 +68,7 @@ private:
   Place_criterion m_criterion;
   Raster_place m_best;
   Score m_score = {(std::numeric_limits<std::int64_t>::max)(), 0};
-  std::vector<Word> m_all, m_free; // positions of a row
+  std::vector<Word> m_free; // positions of a row
 };
 
 inline void Place_search::search_near(const Chart_raster& chart, const Page_raster& page,

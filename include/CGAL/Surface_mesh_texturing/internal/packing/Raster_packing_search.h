@@ -6,13 +6,12 @@
 
 #include <CGAL/Surface_mesh_texturing/internal/packing/Density_search.h>
 #include <CGAL/Surface_mesh_texturing/internal/packing/Greedy_packing.h>
-#include <CGAL/Surface_mesh_texturing/internal/packing/packing_keys.h>
+#include <CGAL/Surface_mesh_texturing/internal/packing/Chart_outline.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -40,9 +39,9 @@ public:
     Packing_result result;
     maximize();
     if(m_is_cancelled)
-      result.error = "cancelled";
+      result.cancel();
     else if(!m_best.is_complete)
-      result.error = misfit_message(0, false, m_options);
+      result.fail(Mesh_status::FAILED, misfit_message(0, false, m_options));
     else
       result = packing_result(m_best, *m_best_charts, m_ladder.density(m_best_level));
     return result;
@@ -291,7 +290,7 @@ inline Packing_result Raster_packing_search::with_density(double density)
 {
   Packing_result result;
   if(!report()) {
-    result.error = "cancelled";
+    result.cancel();
     return result;
   }
   Chart_rasters charts(m_outlines, m_rotations, density, m_exact);
@@ -308,7 +307,7 @@ inline Packing_result Raster_packing_search::with_density(double density)
     for(int r = 0; r < m_rotations; ++r)
       fits = fits || charts.made(i, r).width > 0;
   }
-  result.error = misfit_message(misfit, !fits, m_options);
+  result.fail(Mesh_status::FAILED, misfit_message(misfit, !fits, m_options));
   return result;
 }
 

@@ -5,7 +5,6 @@
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_SEAMS_REFINABLE_SEAM_GRAPH_H
 
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
-#include <CGAL/Surface_mesh_texturing/Crease_weights.h>
 #include <CGAL/Surface_mesh_texturing/internal/seams/Seam_graph.h>
 
 #include <CGAL/assertions.h>
@@ -27,8 +26,7 @@ class Crease_metric
 {
 public:
   typedef std::uint64_t Length;
-  typedef Indexed_mesh::Indexed_triangle_mesh::Point_3 Point_3;
-  typedef Indexed_mesh::Vertex_index Vertex_index;
+  typedef Indexed_triangle_mesh::Point_3 Point_3;
 
   // The points must live as long as the metric.
   Crease_metric(const std::vector<Point_3>& points, const Crease_weights& weights)
@@ -165,18 +163,14 @@ public:
     const Vertex_index v = source(h), w = target(h);
     if(o == no_halfedge)
       return m_metric.length(v, w);
-    return m_metric.length(v, w, source(previous_halfedge(h)), source(previous_halfedge(o)));
+    const Length detour = m_avoided.empty() || !is_marked(m_avoided, h) ? 0 : longest_detour;
+    return detour
+         + m_metric.length(v, w, source(previous_halfedge(h)), source(previous_halfedge(o)));
   }
 
-  // The length of the seams inside the surface.
-  Length length_inside() const
-  {
-    Length sum = 0;
-    for(Halfedge h = 0; h < mesh().number_of_halfedges(); ++h)
-      if(is_seam(h) && !is_border(h) && opposite(h) > h)
-        sum += length(h);
-    return sum;
-  }
+  // Takes edges inside the surface, marked at both of their triangles as in `Face_charts`, to be
+  // longer than any way around. For a mesh that is not refined.
+  void avoid(std::vector<std::uint8_t> sides) { m_avoided = std::move(sides); }
 
   const Crease_metric& metric() const { return m_metric; }
 
@@ -184,6 +178,8 @@ public:
   void split(Halfedge e, Vertex_index r, Vertex_index k);
 
 private:
+  static constexpr Length longest_detour = Length(1) << 40; // 4096 times the extent of the mesh
+
   // What a split does to the two sides of a triangle that it makes, which were one edge before.
   struct Doubled_edge
   {
@@ -197,7 +193,7 @@ private:
 
   Halfedge_triangles& m_refined;
   Crease_metric m_metric;
-  std::vector<std::uint8_t> m_is_on_border, m_is_pinned;
+  std::vector<std::uint8_t> m_is_on_border, m_is_pinned, m_avoided;
 };
 
 // The seams at both ends of a new edge but for those that are yet to be placed.
