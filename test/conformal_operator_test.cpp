@@ -1,227 +1,32 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The conformal energy of a triangle and its matrix, by derivations that share no formula with the
-// library: gradients from the metric, angles from the law of cosines, singular values by a matrix
-// decomposition.
-
-#include <support/dense_multigrid.h>
+// The matrix of the conformal energy of a mesh.
 
 #include <support/chart_generators.h>
+#include <support/dense_multigrid.h>
 #include <support/mesh_properties.h>
+#include <support/operator_meshes.h>
 
-#include <CGAL/Multigrid/Sparse_cholesky.h>
-#include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
-#include <CGAL/Surface_mesh_multiresolution/Mesh_hierarchy.h>
 #include <CGAL/Surface_mesh_parameterization/Conformal_operator.h>
-#include <CGAL/Surface_mesh_parameterization/internal/solver/coarse_cotangents.h>
+
+#include <Eigen/Dense>
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
+#include <complex>
+#include <cstdint>
+#include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace conformal_operator_test {
 
 using namespace test_support;
-using CGAL::Indexed_mesh::normalize;
+using namespace operator_meshes;
 using CGAL::Surface_mesh_parameterization::Conformal_operator;
-using CGAL::Surface_mesh_parameterization::conformal_operator;
-using CGAL::Surface_mesh_parameterization::Conformal_triangle;
-
-typedef std::complex<double> Complex;
-typedef std::array<Complex, 3> Corner_values;
-
-struct Spatial_triangle
-{
-  std::string kind;
-  Point_3 p[3];
-};
-
-Point_3 random_point(Random_numbers& random)
-{
-  const double x = random.real(), y = random.real();
-  return Point_3(x, y, random.real());
-}
-
-// Random ones, obtuse ones and needles of height 1e-5, in three dimensions
-std::vector<Spatial_triangle> triangles()
-{
-  Random_numbers random(1);
-  std::vector<Spatial_triangle> result;
-  for(int i = 0; i < 50; ++i) {
-    const Point_3 a = random_point(random), b = random_point(random), c = random_point(random);
-    result.push_back({"random", {a, b, c}});
-    const Point_3 middle = CGAL::barycenter(a, 0.45, b, 0.55);
-    result.push_back({"obtuse", {a, middle + 0.02 * (c - a), b}});
-    result.push_back({"cap", {middle + 1e-5 * (c - a), b, a}});
-    result.push_back({"needle", {a, a + 1e-5 * (c - a), b}});
-  }
-  return result;
-}
-
-Corner_values random_values(Random_numbers& random)
-{
-  const Complex a = random.complex(), b = random.complex();
-  return {a, b, random.complex()};
-}
-
-double signed_area(const Corner_values& z)
-{
-  return 0.5 * std::imag(std::conj(z[1] - z[0]) * (z[2] - z[0]));
-}
-
-// The metric of the triangle in the coordinates of its edges from corner 0.
-Eigen::Matrix2d metric(const Spatial_triangle& t)
-{
-  const auto e1 = t.p[1] - t.p[0], e2 = t.p[2] - t.p[0];
-  return (Eigen::Matrix2d() << e1 * e1, e1 * e2, e1 * e2, e2 * e2).finished();
-}
-
-// 1/2 of the integral of |grad u|^2 + |grad v|^2
-double dirichlet_energy(const Spatial_triangle& t, const Corner_values& z)
-{
-  const Eigen::Matrix2d g = metric(t);
-  const Eigen::Vector2cd d(z[1] - z[0], z[2] - z[0]);
-  const Eigen::Matrix2d adjugate
-    = (Eigen::Matrix2d() << g(1, 1), -g(0, 1), -g(1, 0), g(0, 0)).finished();
-  return 0.25 * (d.adjoint() * adjugate * d).value().real() / std::sqrt(g.determinant());
-}
-
-// The Jacobian of the map from the plane of the triangle, in an orthonormal frame.
-Eigen::Matrix2d jacobian(const Spatial_triangle& t, const Corner_values& z)
-{
-  const Eigen::Matrix2d frame = metric(t).llt().matrixU(); // columns: the edges
-  Eigen::Matrix2d images;
-  images << (z[1] - z[0]).real(), (z[2] - z[0]).real(), (z[1] - z[0]).imag(), (z[2] - z[0]).imag();
-  return images * frame.inverse();
-}
-
-Conformal_triangle conformal(const Spatial_triangle& t)
-{
-  return Conformal_triangle(t.p[0], t.p[1], t.p[2]);
-}
-
-// How far formulas with differences of squares may be off: needles of aspect 1e5 lose 10 to 12
-// digits of the metric's determinant.
-double tolerance_of(const Spatial_triangle& t)
-{
-  return t.kind == "needle" || t.kind == "cap" ? 2e-4 : 1e-10;
-}
-
-TEST(Conformal_triangle, energy_is_dirichlet_minus_area)
-{
-  Random_numbers random(2);
-  for(const Spatial_triangle& t : triangles()) {
-    const Corner_values z = random_values(random);
-    const double dirichlet = dirichlet_energy(t, z);
-    EXPECT_NEAR(conformal(t).energy(z), dirichlet - signed_area(z), tolerance_of(t) * dirichlet)
-      << t.kind;
-  }
-}
-
-TEST(Conformal_triangle, energy_is_that_of_the_singular_values)
-{
-  Random_numbers random(3);
-  for(const Spatial_triangle& t : triangles()) {
-    const Corner_values z = random_values(random);
-    const Eigen::Matrix2d j = jacobian(t, z);
-    const Eigen::Vector2d sigma = j.jacobiSvd().singularValues();
-    const double difference = sigma(0) - (j.determinant() < 0. ? -sigma(1) : sigma(1));
-    const double area = 0.5 * std::sqrt(metric(t).determinant());
-    EXPECT_NEAR(conformal(t).energy(z), 0.5 * difference * difference * area,
-                tolerance_of(t) * sigma(0) * sigma(0) * area) << t.kind;
-  }
-}
-
-// |sum W_j z_j|^2 / 8A with edge vectors that are laid out by lengths and angles
-TEST(Conformal_triangle, energy_is_the_formula_of_ray_and_levy)
-{
-  Random_numbers random(4);
-  for(const Spatial_triangle& t : triangles()) {
-    const Corner_values z = random_values(random);
-    const double a = std::sqrt(CGAL::squared_distance(t.p[0], t.p[1])),
-                 b = std::sqrt(CGAL::squared_distance(t.p[0], t.p[2]));
-    const double angle = angle_at_first({t.p[0], t.p[1], t.p[2]}, {0, 1, 2});
-    const Complex q[3] = {0., a, std::polar(b, angle)};
-    const double area = 0.5 * a * b * std::sin(angle);
-    Complex sum = 0.;
-    for(int j = 0; j < 3; ++j)
-      sum += (q[(j + 2) % 3] - q[(j + 1) % 3]) * z[j];
-    const double expected = std::norm(sum) / (8. * area);
-    EXPECT_NEAR(conformal(t).energy(z), expected,
-                tolerance_of(t) * (expected + std::abs(signed_area(z)))) << t.kind;
-    EXPECT_NEAR(conformal(t).area(), area, 1e-9 * area) << t.kind;
-  }
-}
-
-// For z = alpha w + beta conj(w) the derivatives are 2 |alpha| and 2 |beta|.
-TEST(Conformal_triangle, derivatives)
-{
-  Random_numbers random(5);
-  for(const Spatial_triangle& t : triangles()) {
-    const Eigen::Matrix2d frame = metric(t).llt().matrixU();
-    const Complex alpha = random.complex(), beta = random.complex(), shift = 10. * random.complex();
-    Corner_values z = {shift, 0., 0.};
-    for(int j : {0, 1}) {
-      const Complex w(frame(0, j), frame(1, j));
-      z[j + 1] = shift + alpha * w + beta * std::conj(w);
-    }
-    const double scale = std::abs(alpha) + std::abs(beta);
-    const double tolerance = t.kind == "needle" || t.kind == "cap" ? 1e-3 : 1e-8;
-    EXPECT_NEAR(std::abs(conformal(t).holomorphic_derivative(z)), 2. * std::abs(alpha),
-                tolerance * scale) << t.kind;
-    EXPECT_NEAR(std::abs(conformal(t).antiholomorphic_derivative(z)), 2. * std::abs(beta),
-                tolerance * scale) << t.kind;
-  }
-}
-
-TEST(Conformal_triangle, cotangents)
-{
-  for(const Spatial_triangle& t : triangles())
-    for(int j = 0; j < 3; ++j) {
-      const double angle = angle_at_first({t.p[j], t.p[(j + 1) % 3], t.p[(j + 2) % 3]}, {0, 1, 2});
-      EXPECT_NEAR(conformal(t).cotangent(j) * std::tan(angle), 1., 1e-7) << t.kind;
-    }
-}
-
-TEST(Conformal_triangle, energy_of_a_similarity_is_0)
-{
-  Random_numbers random(6);
-  for(int trial = 0; trial < 50; ++trial) {
-    const Complex a = random.complex(), b = random.complex();
-    Corner_values z;
-    Spatial_triangle t{"planar", {}};
-    for(int j = 0; j < 3; ++j) {
-      const Complex w = random.complex();
-      t.p[j] = Point_3(w.real(), w.imag(), 0.);
-      z[j] = a * w + b;
-    }
-    if(CGAL::cross_product(t.p[1] - t.p[0], t.p[2] - t.p[0]).z() < 0.) {
-      std::swap(t.p[1], t.p[2]);
-      std::swap(z[1], z[2]);
-    }
-    EXPECT_LE(conformal(t).energy(z), 1e-24 * std::norm(a)) << trial;
-  }
-}
-
-TEST(Conformal_triangle, without_area_is_mollified)
-{
-  const Point_3 a(0, 0, 0), b(1, 0, 0), middle(0.4, 0, 0);
-  for(const auto& t : {Conformal_triangle(a, b, middle), Conformal_triangle(a, a, b),
-                       Conformal_triangle(b, a, a), Conformal_triangle(a, a, a)}) {
-    EXPECT_TRUE(t.is_mollified());
-    EXPECT_GT(t.area(), 0.);
-    for(int j = 0; j < 3; ++j)
-      EXPECT_TRUE(std::isfinite(t.cotangent(j)));
-    // cot A cot B + cot B cot C + cot C cot A = 1 holds for every triangle and no other numbers.
-    const double x = t.cotangent(0), y = t.cotangent(1), z = t.cotangent(2);
-    const double largest = (std::max)({std::abs(x * y), std::abs(y * z), std::abs(z * x), 1.});
-    EXPECT_NEAR((x * y + y * z + z * x) / largest, 1. / largest, 1e-9);
-  }
-  EXPECT_FALSE(Conformal_triangle(a, b, Point_3(0.4, 1e-8, 0)).is_mollified());
-}
 
 //
 // The matrix
@@ -258,11 +63,6 @@ std::vector<Named_mesh> operator_meshes()
 bool has_slivers(const std::string& name)
 {
   return name == "slivers" || name == "zero-area triangles" || name == "duplicate points";
-}
-
-std::vector<bool> no_pins(const Indexed_triangle_mesh& mesh)
-{
-  return std::vector<bool>(mesh.points.size(), false);
 }
 
 // The whole matrix, the rows of pins put back.
@@ -500,127 +300,6 @@ TEST(Conformal_operator, energy_is_the_quadratic_form)
     const double expected = 0.5 * z.dot(to_dense(op.matrix) * z).real();
     EXPECT_NEAR(op.energy(to_vector<double>(z)), expected, 1e-12 * std::abs(expected)) << name;
   }
-}
-
-// --- The metric that coarse levels take from the finest
-
-using CGAL::Surface_mesh_parameterization::internal::assemble_conformal_operator;
-using CGAL::Surface_mesh_parameterization::internal::Half_cotangents;
-
-// A hierarchy of a mesh and, for each of its levels, cotangents that begin with those of `metric`,
-// a mesh of the same triangles.
-struct Metric_hierarchy
-{
-  std::vector<CGAL::Surface_mesh_multiresolution::Mesh_level> levels;
-  std::vector<Half_cotangents> cotangents;
-
-  Metric_hierarchy(Indexed_triangle_mesh mesh, const Indexed_triangle_mesh& metric,
-                   CGAL::Surface_mesh_multiresolution::Prolongation_rule rule)
-  {
-    namespace SMM = CGAL::Surface_mesh_multiresolution;
-    namespace SMP = CGAL::Surface_mesh_parameterization;
-    SMM::Flat_collapse_options decimation;
-    decimation.target_vertices = mesh.points.size() / 40;
-    const auto pm = SMM::Flat_collapse_engine<>(mesh, CGAL::Indexed_mesh::Vertex_rings(mesh), {})
-                      .run(decimation);
-    SMM::Hierarchy_options options;
-    options.coarsest_size = decimation.target_vertices;
-    options.rule = rule;
-    levels = SMM::build_hierarchy(std::move(mesh), pm, options);
-    cotangents.resize(levels.size());
-    cotangents.back() = Half_cotangents(metric);
-    for(std::size_t l = levels.size() - 1; l > 0; --l)
-      cotangents[l - 1] = SMP::internal::coarse_cotangents(
-        {{levels[l].mesh, corners(l)}, cotangents[l]}, {levels[l - 1].mesh, corners(l - 1)},
-        levels[l].from_coarser);
-  }
-
-  CGAL::Indexed_mesh::Triangles_at_vertices corners(std::size_t l) const
-  {
-    return {levels[l].mesh.triangles, levels[l].vertices.size()};
-  }
-};
-
-const auto prolongation_rules = {CGAL::Surface_mesh_multiresolution::Prolongation_rule::WALK,
-                                 CGAL::Surface_mesh_multiresolution::Prolongation_rule::VSPLIT};
-
-// In a plane there is one metric, however the levels triangulate it: also one that is not that of
-// the points.
-TEST(Coarse_metric, is_exact_in_a_plane)
-{
-  for(const auto& [name, mesh] : planar_charts(21))
-    for(const double stretch : {1., 3.})
-      for(const auto rule : prolongation_rules) {
-        const auto stretched = [stretch](const Indexed_triangle_mesh& m) {
-          return moved(m, [stretch](const Point_3& p) {
-            return Point_3(stretch * p.x(), p.y(), p.z());
-          });
-        };
-        const Metric_hierarchy hierarchy(mesh, stretched(mesh), rule);
-        for(std::size_t l = 0; l < hierarchy.levels.size(); ++l) {
-          const Half_cotangents expected(stretched(hierarchy.levels[l].mesh));
-          ASSERT_EQ(hierarchy.cotangents[l].value.size(), expected.value.size());
-          for(std::size_t i = 0; i < expected.value.size(); ++i)
-            EXPECT_NEAR(hierarchy.cotangents[l].value[i], expected.value[i],
-                        1e-8 * (1. + std::abs(expected.value[i]))) << name << ", level " << l;
-        }
-      }
-}
-
-// The energy of a triangle, D - |A|, is not negative if c_1 c_2 + c_2 c_3 + c_3 c_1 >= 1 for its
-// cotangents; halves of them are stored. Equality holds for the angles of a triangle.
-TEST(Coarse_metric, makes_no_energy_negative)
-{
-  for(const auto& [name, mesh] : curved_charts(22)) {
-    Indexed_triangle_mesh normalized = mesh;
-    normalize(normalized);
-    for(const auto rule : prolongation_rules) {
-      const Metric_hierarchy hierarchy(normalized, normalized, rule);
-      for(const Half_cotangents& cot : hierarchy.cotangents)
-        for(std::size_t i = 0; i < cot.value.size(); i += 3) {
-          const double a = cot.value[i], b = cot.value[i + 1], c = cot.value[i + 2];
-          const double rounding = 1e-12 * (a * a + b * b + c * c);
-          EXPECT_GE(a * b + b * c + c * a, 0.25 - rounding) << name;
-          EXPECT_GT(a + b + c, 0.) << name;
-        }
-    }
-  }
-}
-
-// What the metric is for: on a noisy surface the minimiser of a coarse level is mostly a better
-// start for the fine one.
-TEST(Coarse_metric, brings_the_minimiser_of_a_coarse_level_closer_to_the_fine_one)
-{
-  double product = 1.;
-  for(std::uint64_t seed = 31; seed < 41; ++seed) {
-    const Indexed_triangle_mesh hills = with_hills(irregular_grid(70, 50, seed), 12., seed + 1);
-    Indexed_triangle_mesh mesh = with_noise(hills, 0.3, seed + 2);
-    normalize(mesh);
-    const Metric_hierarchy hierarchy(mesh, mesh,
-                                     CGAL::Surface_mesh_multiresolution::Prolongation_rule::WALK);
-    const std::size_t l = hierarchy.levels.size() - 2;
-    const auto& coarse = hierarchy.levels[l];
-    const auto fine_energy_of_minimiser = [&](const Half_cotangents& cot) {
-      auto op = assemble_conformal_operator<double>(coarse.mesh.triangles, hierarchy.corners(l),
-                                                    cot, {});
-      CGAL::Multigrid::Complex_vector<double> z(coarse.vertices.size()), f(z.size()), x, fine;
-      z.back() = 1.;
-      op.pin(0);
-      op.pin(std::uint32_t(z.size() - 1));
-      op.matrix.for_each_row_sum(z, [&](std::size_t i, Complex sum) { f[i] = -sum; });
-      CGAL::Multigrid::Sparse_cholesky<> solver;
-      EXPECT_TRUE(solver.factorize(op.matrix));
-      solver.solve(f, x);
-      x.back() = 1.;
-      hierarchy.levels[l + 1].from_coarser.prolongate(x, fine);
-      return conformal_operator<double>(mesh, no_pins(mesh)).energy(fine);
-    };
-    const double ratio = fine_energy_of_minimiser(hierarchy.cotangents[l])
-                       / fine_energy_of_minimiser(Half_cotangents(coarse.mesh));
-    EXPECT_LT(ratio, 1.1) << "seed " << seed;
-    product *= ratio;
-  }
-  EXPECT_LT(std::pow(product, 0.1), 0.95);
 }
 
 } // namespace conformal_operator_test

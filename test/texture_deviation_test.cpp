@@ -4,18 +4,19 @@
 // The errors of textured levels, against their definitions: the overlay of the two triangulations
 // by all pairs of edges, dense samples, and cases that are known.
 
-#include <support/chart_generators.h>
 #include <support/mesh_generators.h>
 #include <support/progressive_models.h>
+#include <support/textured_levels.h>
 
 #include <CGAL/Blocked_execution/blocked_for.h>
-#include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
 #include <CGAL/Surface_mesh_multiresolution/texture_deviation.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <optional>
 #include <string>
@@ -24,131 +25,9 @@
 
 namespace texture_deviation_test {
 
-namespace SMM = CGAL::Surface_mesh_multiresolution;
 using namespace test_support;
-using SMM::Level_error;
-using SMM::Progressive_mesh;
-using SMM::Texture_deviation;
-using SMM::Textured_progressive_mesh;
+using namespace textured_levels;
 using SMM::Wedge_mesh;
-using SMM::measure_texture_deviation;
-typedef Textured_progressive_mesh::Point_2 Point_2;
-typedef std::vector<Point_2> Uvs;
-
-constexpr std::uint64_t seed = 4711;
-const std::string seed_text = ", seed " + std::to_string(seed);
-
-// --- Textured progressive meshes
-
-Progressive_mesh decimate(Indexed_triangle_mesh mesh, const std::vector<bool>& is_locked = {})
-{
-  CGAL::Indexed_mesh::normalize(mesh);
-  SMM::Flat_collapse_options options;
-  options.target_vertices = 0; // as far as it goes
-  CGAL::Indexed_mesh::Vertex_rings rings(mesh);
-  return SMM::Flat_collapse_engine<>(mesh, std::move(rings), is_locked).run(options);
-}
-
-// Random halfedge collapses as long as topology allows any; geometry is ignored.
-Textured_progressive_mesh textured(const Indexed_triangle_mesh& mesh, const Uvs& uv,
-                                   Progressive_mesh pm)
-{
-  Textured_progressive_mesh result;
-  pm.triangles = mesh.triangles;
-  result.progressive_mesh = std::move(pm);
-  for(Vertex_index v = 0; v < mesh.points.size(); ++v)
-    result.vertex.push_back(v);
-  result.uv = uv;
-  result.points = mesh.points;
-  return SMM::coarse_first(result);
-}
-
-// The map (x, y, z) -> (x, y).
-Uvs projection(const Indexed_triangle_mesh& mesh)
-{
-  Uvs uv;
-  for(const Point_3& p : mesh.points)
-    uv.emplace_back(p.x(), p.y());
-  return uv;
-}
-
-template <class Map>
-Uvs transformed(Uvs uv, const Map& map)
-{
-  for(Point_2& p : uv)
-    p = map(p);
-  return uv;
-}
-
-// A smooth map of the plane onto itself that is one-to-one for small amplitudes.
-Uvs bent(const Uvs& uv, double amplitude)
-{
-  return transformed(uv, [amplitude](const Point_2& p) {
-    return Point_2(p.x() + amplitude * std::sin(0.5 * p.y()),
-                   p.y() + amplitude * std::sin(0.4 * p.x()));
-  });
-}
-
-std::vector<bool> locked(std::size_t size, const std::vector<Vertex_index>& vertices)
-{
-  std::vector<bool> result(size, false);
-  for(const Vertex_index v : vertices)
-    result[v] = true;
-  return result;
-}
-
-struct Case
-{
-  std::string name;
-  Textured_progressive_mesh mesh;
-};
-
-// Hills over a rectangle: the levels with locked corners cover the domain of the texture.
-Case hills_over_rectangle(Vertex_index columns, Vertex_index rows, std::uint64_t mesh_seed)
-{
-  const Indexed_triangle_mesh plane = irregular_grid(columns, rows, mesh_seed);
-  const Indexed_triangle_mesh hills = with_hills(plane, 2., mesh_seed + 1);
-  return {"hills over rectangle, seed " + std::to_string(mesh_seed),
-          textured(hills, projection(plane),
-                   decimate(hills, locked(plane.points.size(), grid_corners(columns, rows))))};
-}
-
-std::vector<Case> cases()
-{
-  std::vector<Case> result = {hills_over_rectangle(24, 17, seed),
-                              hills_over_rectangle(9, 30, seed + 9)};
-  const Indexed_triangle_mesh plane = irregular_grid(22, 22, seed + 2);
-  const Indexed_triangle_mesh noisy = with_noise(with_hills(plane, 2., seed + 3), 0.2, seed + 4);
-  result.push_back({"noisy hills, other map" + seed_text,
-                    textured(noisy, bent(projection(plane), 0.6), decimate(noisy))});
-  const Indexed_triangle_mesh holes = with_holes(plane, 9, seed + 5);
-  const Indexed_triangle_mesh hills = with_hills(holes, 2., seed + 6);
-  result.push_back({"hills with holes" + seed_text,
-                    textured(hills, projection(holes), decimate(hills))});
-  const Indexed_triangle_mesh round = round_disk(14), dome = on_sphere(round, 1.4);
-  result.push_back({"dome", textured(dome, projection(round), decimate(dome))});
-  // Folded: its uv are wrong by more than the size of triangles, and so are the collapses.
-  Uvs noise = projection(plane);
-  Random random(seed + 7);
-  for(Point_2& p : noise)
-    p = Point_2(p.x() + uniform(random, -1., 1.), p.y() + uniform(random, -1., 1.));
-  result.push_back({"folded map" + seed_text, textured(noisy, noise, decimate(noisy))});
-  result.push_back({"random collapses" + seed_text,
-                    textured(noisy, projection(plane),
-                             random_collapses(noisy, noisy.points.size() - 400, seed))});
-  result.push_back({"map to a point", textured(noisy, Uvs(plane.points.size(), Point_2(1, 2)),
-                                               decimate(noisy))});
-  return result;
-}
-
-// Whole positions from fine to coarse.
-std::vector<std::size_t> positions(const Textured_progressive_mesh& mesh)
-{
-  std::vector<std::size_t> result;
-  for(const double part : {0., 0.02, 0.2, 0.5, 0.75, 0.9, 1.})
-    result.push_back(mesh.whole_position(std::size_t(part * double(mesh.number_of_collapses()))));
-  return result;
-}
 
 // --- The definitions
 
@@ -561,60 +440,6 @@ TEST(Texture_deviation, does_not_depend_on_the_number_of_threads)
       EXPECT_EQ(one.triangles, many.triangles);
     }
   }
-}
-
-// --- Choosing a level
-
-TEST(Coarsest_level, predicates_are_the_bounds_of_the_measures)
-{
-  for(const Case& c : cases())
-    for(const std::size_t k : positions(c.mesh)) {
-      SCOPED_TRACE(c.name + ", position " + std::to_string(k));
-      const Texture_deviation d = measure_texture_deviation(c.mesh, k);
-      for(const double factor : {0.5, 1. - 1e-9, 1., 2.}) {
-        const double deviation = factor * d.deviation.maximum;
-        const double distance = factor * d.distance.maximum;
-        EXPECT_EQ(SMM::is_within_texture_deviation(c.mesh, k, deviation),
-                  d.deviation.maximum <= deviation);
-        EXPECT_EQ(SMM::is_within_distance(c.mesh, k, distance), d.distance.maximum <= distance);
-      }
-    }
-}
-
-TEST(Coarsest_level, is_within_the_bound_and_about_as_coarse_as_possible)
-{
-  for(const Case& c : cases())
-    for(const Level_error kind : {Level_error::TEXTURE_DEVIATION, Level_error::DISTANCE}) {
-      SCOPED_TRACE(c.name + (kind == Level_error::DISTANCE ? ", distance" : ", deviation"));
-      const auto error_at = [&](std::size_t k) {
-        const Texture_deviation d = measure_texture_deviation(c.mesh, k);
-        return kind == Level_error::DISTANCE ? d.distance.maximum : d.deviation.maximum;
-      };
-      const std::size_t last = c.mesh.number_of_collapses();
-      for(const double part : {0., 0.003, 0.03, 0.2}) {
-        const double bound = part * measure_texture_deviation(c.mesh, 0).diagonal;
-        const std::size_t k = SMM::coarsest_level_within(c.mesh, kind, bound);
-        EXPECT_TRUE(c.mesh.is_whole(k));
-        EXPECT_LE(error_at(k), bound);
-        // A level with a little fewer triangles is not within the bound
-        bool is_first = k == last;
-        const double triangles = double(SMM::number_of_triangles_after(c.mesh, k));
-        for(std::size_t j = k + 1; j <= last && !is_first; ++j)
-          is_first = c.mesh.is_whole(j) && error_at(j) > bound;
-        EXPECT_TRUE(is_first) << triangles;
-      }
-      EXPECT_EQ(SMM::coarsest_level_within(c.mesh, kind, 1e3), last);
-    }
-}
-
-TEST(Coarsest_level, pixels_and_lengths)
-{
-  // At distance 10 with a right angle, the picture is 20 high.
-  EXPECT_NEAR(SMM::pixels(1., 10., 1000., 0.5 * CGAL_PI), 50., 1e-9);
-  EXPECT_NEAR(SMM::pixels(1., 20., 1000., 0.5 * CGAL_PI), 25., 1e-9);
-  for(const double angle : {0.1, 0.8, 2.5})
-    EXPECT_NEAR(SMM::length_of_pixels(SMM::pixels(0.3, 7., 720., angle), 7., 720., angle), 0.3,
-                1e-12);
 }
 
 } // namespace texture_deviation_test

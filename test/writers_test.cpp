@@ -1,22 +1,16 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the writers write is what CGAL reads; errors.
 
-// What the writers write is what CGAL, stb_image and tinygltf read.
+#include <support/written_meshes.h>
 
 #include <CGAL/Surface_mesh_texturing/IO/GLB.h>
 #include <CGAL/Surface_mesh_texturing/IO/OBJ.h>
 #include <CGAL/Surface_mesh_texturing/IO/PLY.h>
-#ifndef HLSCM_WITHOUT_PNG
-#include <CGAL/Surface_mesh_texturing/IO/PNG.h>
-#endif
 
 #include <CGAL/Polyhedron_3.h>
-#include <CGAL/Simple_cartesian.h>
-#include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh/IO/PLY.h>
-#include <CGAL/Surface_mesh_multiresolution/Level_extractor.h>
-#include <CGAL/Surface_mesh_multiresolution/build_textured_progressive_mesh.h>
-#include <CGAL/Surface_mesh_multiresolution/copy_textured_mesh.h>
 #include <CGAL/boost/graph/IO/OBJ.h>
 #include <CGAL/boost/graph/Seam_mesh.h>
 #include <CGAL/boost/graph/generators.h>
@@ -24,34 +18,9 @@
 
 #include <gtest/gtest.h>
 
-#ifdef HLSCM_WITH_TINYGLTF
-#define TINYGLTF_IMPLEMENTATION
-#define TINYGLTF_NO_STB_IMAGE
-#define TINYGLTF_NO_STB_IMAGE_WRITE
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wall"
-#pragma GCC diagnostic ignored "-Wextra"
-#include <tiny_gltf.h>
-#pragma GCC diagnostic pop
-#endif
-
-#ifdef HLSCM_WITH_STB
-#define STB_IMAGE_STATIC
-#define STB_IMAGE_IMPLEMENTATION
-#define STBI_ONLY_PNG
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wsign-compare"
-#pragma GCC diagnostic ignored "-Wunused-but-set-variable"
-#pragma GCC diagnostic ignored "-Wunused-function"
-#include <stb/stb_image.h>
-#pragma GCC diagnostic pop
-#endif
-
-#include <array>
-#include <cmath>
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
-#include <cstring>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -59,51 +28,13 @@
 #include <locale>
 #include <map>
 #include <sstream>
+#include <streambuf>
 #include <string>
 #include <vector>
 
 namespace writers_test {
 
-namespace SMM = CGAL::Surface_mesh_multiresolution;
-namespace SMT = CGAL::Surface_mesh_texturing;
-
-typedef CGAL::Simple_cartesian<double> Kernel;
-typedef Kernel::Point_2 Point_2;
-typedef Kernel::Point_3 Point_3;
-typedef CGAL::Surface_mesh<Point_3> Mesh;
-
-// A curved sheet whose numbers have all their digits.
-Mesh sheet(std::size_t n)
-{
-  Mesh mesh;
-  const auto wave = [](std::size_t i, std::size_t j) {
-    return Point_3(double(i) / 7., double(j) / 9. - 1e-17, std::sin(double(i + 2 * j)) * 1e5);
-  };
-  CGAL::make_grid(n, n, mesh, wave, true);
-  return mesh;
-}
-
-Mesh::Property_map<Mesh::Vertex_index, Point_2> add_uv(Mesh& mesh)
-{
-  auto uv = mesh.add_property_map<Mesh::Vertex_index, Point_2>("v:uv").first;
-  for(const auto v : vertices(mesh))
-    uv[v] = Point_2(mesh.point(v).x() / 3., 1. - mesh.point(v).y() / 11.);
-  return uv;
-}
-
-// A sheet cut in two by the texture: the faces of its second half have coordinates of their own.
-Mesh::Property_map<Mesh::Halfedge_index, Point_2> add_cut_uv(Mesh& mesh)
-{
-  const auto vertex_uv = add_uv(mesh);
-  auto uv = mesh.add_property_map<Mesh::Halfedge_index, Point_2>("h:uv").first;
-  for(const auto f : faces(mesh))
-    for(const auto h : halfedges_around_face(halfedge(f, mesh), mesh)) {
-      const Point_2 p = vertex_uv[target(h, mesh)];
-      const double shift = 2 * f.idx() < num_faces(mesh) ? 0. : 0.5;
-      uv[h] = Point_2(p.x() + shift, p.y());
-    }
-  return uv;
-}
+using namespace written_meshes;
 
 template <class... Input>
 std::string obj_of(const Input&... input)
@@ -118,14 +49,6 @@ std::string ply_of(const Input&... input)
 {
   std::ostringstream os;
   EXPECT_TRUE(SMT::IO::write_PLY(os, input...));
-  return os.str();
-}
-
-template <class... Input>
-std::string glb_of(const Input&... input)
-{
-  std::ostringstream os;
-  EXPECT_TRUE(SMT::IO::write_GLB(os, input...));
   return os.str();
 }
 
@@ -343,24 +266,6 @@ TEST(Writers, keep_isolated_vertices_in_their_places)
 // ---------------------------------------------------------------------------------------------
 // Models with materials
 
-// Two triangles on two pages, the first with a normal map.
-SMT::Textured_model two_pages()
-{
-  SMT::Textured_model model;
-  model.name = "two";
-  model.mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-  model.mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  model.mesh.uv = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
-  model.mesh.wedges = {{0, 1, 2}, {3, 4, 5}};
-  model.page = {0, 1};
-  model.textures = {{"color.png", "the colors"}, {"normal.png", "the normals"}};
-  model.materials.resize(2);
-  model.materials[0] = {0, 1};
-  model.materials[1].color = 0;
-  model.frames.normals.assign(4, SMT::Vector_3(0, 0, 1));
-  return model;
-}
-
 TEST(Writers, make_a_model_of_an_atlas)
 {
   const SMT::Textured_model two = two_pages();
@@ -401,163 +306,6 @@ TEST(Writers, obj_names_the_material_of_each_page)
   EXPECT_EQ(materials.find("normal.png", second), std::string::npos);
   EXPECT_NE(materials.find("map_Kd color.png\n", second), std::string::npos);
 }
-
-// The chunks of a GLB file: its JSON and its data.
-std::array<std::string, 2> chunks(const std::string& glb)
-{
-  const auto number = [&](std::size_t at) {
-    std::size_t value = 0;
-    for(std::size_t i = 4; i-- > 0;)
-      value = 256 * value + (unsigned char)(glb[at + i]);
-    return value;
-  };
-  EXPECT_EQ(glb.substr(0, 4), "glTF");
-  EXPECT_EQ(number(4), 2u);
-  EXPECT_EQ(number(8), glb.size());
-  const std::size_t json = number(12);
-  EXPECT_EQ(json % 4, 0u);
-  EXPECT_EQ(glb.substr(16, 4), "JSON");
-  EXPECT_EQ(number(20 + json) % 4, 0u);
-  EXPECT_EQ(glb.substr(24 + json, 4), std::string("BIN\0", 4));
-  EXPECT_EQ(number(20 + json), glb.size() - 28 - json);
-  return {glb.substr(20, json), glb.substr(28 + json)};
-}
-
-TEST(Writers, glb_has_the_chunks_of_its_format)
-{
-  const auto [json, data] = chunks(glb_of(two_pages()));
-  EXPECT_EQ(json.front(), '{');
-  EXPECT_EQ(json.substr(0, json.find_last_not_of(' ') + 1).back(), '}');
-  EXPECT_NE(data.find("the colors"), std::string::npos);
-  EXPECT_EQ(data.find("the colors"), data.rfind("the colors")); // stored once
-  EXPECT_NE(data.find("the normals"), std::string::npos);
-  SMT::Textured_model model = two_pages();
-  model.name = "a \"name\"\n";
-  EXPECT_NE(chunks(glb_of(model))[0].find("\"a \\\"name\\\"\\u000a\""), std::string::npos);
-}
-
-#ifdef HLSCM_WITH_TINYGLTF
-
-bool take_any_image(tinygltf::Image*, const int, std::string*, std::string*, int, int,
-                    const unsigned char*, int, void*)
-{
-  return true;
-}
-
-tinygltf::Model read_glb(const std::string& glb)
-{
-  tinygltf::TinyGLTF reader;
-  reader.SetImageLoader(take_any_image, nullptr);
-  tinygltf::Model model;
-  std::string error, warning;
-  EXPECT_TRUE(reader.LoadBinaryFromMemory(
-    &model, &error, &warning, reinterpret_cast<const unsigned char*>(glb.data()),
-    static_cast<unsigned int>(glb.size())));
-  EXPECT_EQ(error, "");
-  EXPECT_EQ(warning, "");
-  return model;
-}
-
-// The numbers of an accessor.
-template <class Number>
-std::vector<Number> numbers(const tinygltf::Model& model, int accessor)
-{
-  const tinygltf::Accessor& a = model.accessors.at(std::size_t(accessor));
-  const tinygltf::BufferView& view = model.bufferViews.at(std::size_t(a.bufferView));
-  EXPECT_EQ(tinygltf::GetComponentSizeInBytes(std::uint32_t(a.componentType)),
-            int(sizeof(Number)));
-  std::vector<Number> result(a.count
-                             * std::size_t(tinygltf::GetNumComponentsInType(std::uint32_t(a.type))));
-  EXPECT_LE(result.size() * sizeof(Number), view.byteLength);
-  std::memcpy(result.data(), model.buffers.at(0).data.data() + view.byteOffset + a.byteOffset,
-              result.size() * sizeof(Number));
-  return result;
-}
-
-TEST(Writers, glb_is_read_by_tinygltf)
-{
-  const SMT::Textured_model model = two_pages();
-  const tinygltf::Model read = read_glb(glb_of(model));
-  ASSERT_EQ(read.meshes.size(), 1u);
-  EXPECT_EQ(read.meshes[0].name, "two");
-  ASSERT_EQ(read.meshes[0].primitives.size(), 2u);
-  ASSERT_EQ(read.images.size(), 2u);
-  for(std::size_t page = 0; page < 2; ++page) {
-    const tinygltf::Primitive& primitive = read.meshes[0].primitives[page];
-    const auto indices = numbers<std::uint32_t>(read, primitive.indices);
-    const auto points = numbers<float>(read, primitive.attributes.at("POSITION"));
-    const auto normals = numbers<float>(read, primitive.attributes.at("NORMAL"));
-    const auto uv = numbers<float>(read, primitive.attributes.at("TEXCOORD_0"));
-    ASSERT_EQ(indices.size(), 3u);
-    for(std::size_t c = 0; c < 3; ++c) {
-      const std::size_t i = indices[c];
-      const Point_3& p = model.mesh.points[model.mesh.triangles[page][c]];
-      const Point_2& q = model.mesh.uv[model.mesh.wedges[page][c]];
-      EXPECT_EQ(Point_3(points[3 * i], points[3 * i + 1], points[3 * i + 2]), p);
-      EXPECT_EQ(Point_2(uv[2 * i], 1 - uv[2 * i + 1]), q);
-      EXPECT_EQ(normals[3 * i + 2], 1.f);
-    }
-    const auto& accessor = read.accessors[std::size_t(primitive.attributes.at("POSITION"))];
-    EXPECT_EQ(accessor.minValues, (std::vector<double>{0, 0, 0}));
-    EXPECT_EQ(accessor.maxValues, (std::vector<double>{1, 1, 0}));
-    const tinygltf::Material& material = read.materials[std::size_t(primitive.material)];
-    EXPECT_EQ(material.name, "page_" + std::to_string(page + 1));
-    EXPECT_EQ(material.normalTexture.index, page == 0 ? 1 : -1);
-    EXPECT_EQ(material.pbrMetallicRoughness.baseColorTexture.index, 0);
-  }
-}
-
-TEST(Writers, glb_of_a_mesh_has_its_normals)
-{
-  Mesh mesh;
-  CGAL::make_icosahedron(mesh, Point_3(0, 0, 0), 2.);
-  const auto uv = mesh.add_property_map<Mesh::Vertex_index, Point_2>("v:uv", {0., 0.}).first;
-  const tinygltf::Model read = read_glb(glb_of(mesh, uv));
-  const auto& attributes = read.meshes.at(0).primitives.at(0).attributes;
-  const auto points = numbers<float>(read, attributes.at("POSITION"));
-  const auto normals = numbers<float>(read, attributes.at("NORMAL"));
-  ASSERT_EQ(normals.size(), 36u);
-  for(std::size_t i = 0; i < normals.size(); ++i)
-    EXPECT_NEAR(normals[i], points[i] / 2., 1e-6); // of a sphere
-}
-
-TEST(Writers, glb_of_levels_shares_its_vertices)
-{
-  Mesh mesh = sheet(20);
-  const auto uv = add_cut_uv(mesh);
-  const auto built = SMM::build_textured_progressive_mesh(
-    SMM::textured_triangle_mesh(mesh, [&](auto h) { return uv[h]; }));
-  ASSERT_EQ(built.error, "");
-  const SMM::Level_extractor extractor(built.mesh);
-  std::vector<std::vector<SMT::Triangle_indices>> levels;
-  for(const std::size_t faces : {800u, 400u, 100u})
-    levels.push_back(extractor.triangles(extractor.position_of_triangles(faces)));
-  const tinygltf::Model read = read_glb(glb_of(built.mesh, levels, SMT::Texture_file{"plain", ""}));
-  ASSERT_EQ(read.nodes.size(), 3u);
-  ASSERT_EQ(read.scenes.at(0).nodes, std::vector<int>{0});
-  EXPECT_EQ(read.nodes[0].extensions.at("MSFT_lod").Get("ids").ArrayLen(), 2u);
-  const auto& coverages = read.nodes[0].extras.Get("MSFT_screencoverage");
-  ASSERT_EQ(coverages.ArrayLen(), 3u);
-  EXPECT_GT(coverages.Get(0).GetNumberAsDouble(), coverages.Get(1).GetNumberAsDouble());
-  for(std::size_t i = 0; i < 3; ++i) {
-    const tinygltf::Primitive& primitive = read.meshes[i].primitives.at(0);
-    const auto indices = numbers<std::uint32_t>(read, primitive.indices);
-    const auto points = numbers<float>(read, primitive.attributes.at("POSITION"));
-    ASSERT_EQ(indices.size(), 3 * levels[i].size());
-    for(std::size_t k = 0; k < indices.size(); ++k) {
-      ASSERT_LT(3 * indices[k] + 2, points.size());
-      EXPECT_EQ(indices[k], levels[i][k / 3][k % 3]);
-      EXPECT_EQ(points[3 * indices[k]],
-                float(built.mesh.points[built.mesh.vertex[indices[k]]].x()));
-    }
-  }
-  std::swap(levels[0], levels[2]); // the coarsest first: there are not enough vertices
-  std::ostringstream os;
-  EXPECT_FALSE(SMT::IO::write_GLB(os, built.mesh, levels, SMT::Texture_file()));
-  EXPECT_EQ(os.str(), "");
-}
-
-#endif // HLSCM_WITH_TINYGLTF
 
 // ---------------------------------------------------------------------------------------------
 // Errors
@@ -675,97 +423,5 @@ TEST(Writers, write_files)
   EXPECT_FALSE(SMT::IO::write_OBJ(folder + "no/such/folder.obj", mesh, uv));
   EXPECT_FALSE(SMT::IO::write_GLB(folder, mesh, uv));
 }
-
-// ---------------------------------------------------------------------------------------------
-// Pictures
-
-#if !defined(HLSCM_WITHOUT_PNG) && defined(HLSCM_WITH_STB)
-
-SMT::Texture_image ramp(std::size_t channels)
-{
-  SMT::Texture_image image = {7, 5, channels, {}};
-  for(std::size_t i = 0; i < 35 * channels; ++i)
-    image.texels.push_back(float(i) / float(35 * channels - 1));
-  return image;
-}
-
-std::string png_of(const SMT::Texture_image& image, const SMT::PNG_options& options)
-{
-  std::ostringstream os;
-  EXPECT_TRUE(SMT::IO::write_PNG(os, image, options));
-  return os.str();
-}
-
-// Calls `check` with the samples that stb_image reads.
-template <class Sample>
-void expect_samples(const std::string& png, const SMT::Texture_image& image,
-                    const std::vector<Sample>& expected)
-{
-  const auto* bytes = reinterpret_cast<const stbi_uc*>(png.data());
-  int width = 0, height = 0, channels = 0;
-  void* read = nullptr;
-  if(sizeof(Sample) == 2)
-    read = stbi_load_16_from_memory(bytes, int(png.size()), &width, &height, &channels, 0);
-  else
-    read = stbi_load_from_memory(bytes, int(png.size()), &width, &height, &channels, 0);
-  ASSERT_NE(read, nullptr);
-  EXPECT_EQ(stbi_is_16_bit_from_memory(bytes, int(png.size())), int(sizeof(Sample) == 2));
-  ASSERT_EQ(std::size_t(width), image.width);
-  ASSERT_EQ(std::size_t(height), image.height);
-  ASSERT_EQ(std::size_t(channels), image.channels);
-  std::vector<Sample> samples(expected.size());
-  std::memcpy(samples.data(), read, samples.size() * sizeof(Sample));
-  stbi_image_free(read);
-  EXPECT_EQ(samples, expected);
-}
-
-TEST(Writers, png_holds_8_and_16_bits_of_all_channels)
-{
-  for(std::size_t channels = 1; channels <= 4; ++channels) {
-    const SMT::Texture_image image = ramp(channels);
-    SMT::PNG_options options;
-    expect_samples(png_of(image, options), image, SMT::encode_values<std::uint8_t>(image, 0., 1.));
-    options.bits = 16;
-    expect_samples(png_of(image, options), image, SMT::encode_values<std::uint16_t>(image, 0., 1.));
-    options.lowest = -1.; // as for a normal map
-    expect_samples(png_of(image, options), image,
-                   SMT::encode_unit_vectors<std::uint16_t>(image));
-  }
-}
-
-TEST(Writers, png_compresses_as_told_without_loss)
-{
-  const std::vector<std::uint8_t> samples(3 * 64 * 64, 77);
-  const std::string stored = SMT::IO::encode_PNG(samples, 64, 3, 0);
-  const std::string packed = SMT::IO::encode_PNG(samples, 64, 3, 9);
-  EXPECT_GT(stored.size(), samples.size());
-  EXPECT_LT(packed.size(), samples.size() / 20);
-  const SMT::Texture_image image = {64, 64, 3, {}};
-  expect_samples(stored, image, samples);
-  expect_samples(packed, image, samples);
-}
-
-TEST(Writers, png_refuses_bad_images)
-{
-  SMT::PNG_options bits, range, compression;
-  bits.bits = 12;
-  range.lowest = 2.;
-  compression.compression = 10;
-  const SMT::Texture_image good = ramp(3);
-  SMT::Texture_image cut = good;
-  cut.texels.pop_back();
-  std::ostringstream os;
-  EXPECT_FALSE(SMT::IO::write_PNG(os, good, bits));
-  EXPECT_FALSE(SMT::IO::write_PNG(os, good, range));
-  EXPECT_FALSE(SMT::IO::write_PNG(os, good, compression));
-  EXPECT_FALSE(SMT::IO::write_PNG(os, cut));
-  EXPECT_FALSE(SMT::IO::write_PNG(os, SMT::Texture_image()));
-  EXPECT_FALSE(SMT::IO::write_PNG(os, ramp(5)));
-  EXPECT_EQ(os.str(), "");
-  EXPECT_EQ(SMT::IO::encode_PNG(std::vector<std::uint8_t>(10), 3, 3), "");
-  EXPECT_EQ(SMT::IO::encode_PNG(std::vector<std::uint8_t>(), 3, 3), "");
-}
-
-#endif
 
 } // namespace writers_test

@@ -83,7 +83,7 @@ Measurement run_parameterizer(const Parameterize& parameterize, bool has_pins,
 
 template <class Parameterize>
 Method parameterizer(const std::string& name, Energy energy, bool is_direct,
-                     const Parameterize& parameterize)
+                     Parameterize parameterize) // by value: functions become pointers
 {
   const bool has_pins = energy != Energy::WITHOUT_PINS;
   return {name, energy, is_direct, [parameterize, has_pins](const std::string& chart_path) {

@@ -47,6 +47,7 @@ Solution solve(const Chart& chart, SMP::HLSCM_options options)
     level.mesh.triangles = *view.faces;
     level.uv = *view.uv;
     solution.levels.push_back(std::move(level));
+    return true;
   };
   Mesh mesh = surface_mesh(chart.mesh);
   const auto uv = mesh.add_property_map<Mesh::Vertex_index, Kernel::Point_2>("v:uv").first;
