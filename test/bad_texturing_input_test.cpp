@@ -5,6 +5,7 @@
 
 #include <support/chart_generators.h>
 #include <support/textured_meshes.h>
+#include <support/texturing_options.h>
 
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/build_textured_progressive_mesh.h>
@@ -119,20 +120,6 @@ std::vector<Named_textured_mesh> bad_textured_meshes()
   result[n - 2].mesh.wedges.clear();
   result[n - 1].mesh.wedges.pop_back();
   return result;
-}
-
-SMT::Texture_atlas_options small_texture()
-{
-  SMT::Texture_atlas_options options;
-  options.packing.width = options.packing.height = 64;
-  return options;
-}
-
-SMT::Baking_by_rays_options small_image()
-{
-  SMT::Baking_by_rays_options options;
-  options.width = options.height = 16;
-  return options;
 }
 
 SMT::Given_charts_segmenter one_chart(std::size_t triangles)
