@@ -28,6 +28,7 @@
 
 namespace texturing_doors_test {
 
+namespace SMM = CGAL::Surface_mesh_multiresolution;
 namespace SMT = CGAL::Surface_mesh_texturing;
 using namespace test_support;
 
