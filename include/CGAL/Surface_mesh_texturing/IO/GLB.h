@@ -208,7 +208,8 @@ private:
     const std::vector<Vector_3> all_normals = fine_normals();
     std::vector<std::array<float, 3>> normals;
     std::vector<std::array<float, 2>> uv;
-    for(std::size_t w = 0; w < number_of_wedges(m_levels[0]); ++w) {
+    const std::size_t n = number_of_wedges(m_levels[0]);
+    for(std::size_t w = 0; w < n; ++w) {
       m_points.push_back(to_floats(m_mesh.points[m_mesh.vertex[w]]));
       normals.push_back(to_floats(all_normals[m_mesh.vertex[w]]));
       uv.push_back(to_gltf_uv(m_mesh.uv[w]));
