@@ -4,13 +4,15 @@
 #ifndef HLSCM_PROGRAM_ATLAS_BUILDING_H
 #define HLSCM_PROGRAM_ATLAS_BUILDING_H
 
-#include "common/Polygon_soup.h"
 #include "common/Program_options.h"
 #include "common/Progress_bar.h"
 
+#include <CGAL/Indexed_mesh/Polygon_soup.h>
 #include <CGAL/Surface_mesh_texturing/Texture_atlas.h>
 
 namespace hlscm {
+
+using CGAL::Indexed_mesh::Polygon_soup;
 
 struct Built_atlas
 {

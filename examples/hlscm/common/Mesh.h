@@ -4,12 +4,13 @@
 #ifndef HLSCM_PROGRAM_MESH_H
 #define HLSCM_PROGRAM_MESH_H
 
-#include "common/Polygon_soup.h"
-
+#include <CGAL/Indexed_mesh/Polygon_soup.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 
 namespace hlscm {
+
+using CGAL::Indexed_mesh::Polygon_soup;
 
 using Kernel = CGAL::Simple_cartesian<double>;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
@@ -22,8 +23,8 @@ inline Mesh build_mesh(const Polygon_soup& soup)
   const std::size_t vertices = soup.number_of_vertices(), faces = soup.number_of_faces();
   mesh.reserve(Mesh::size_type(vertices), Mesh::size_type(vertices + faces),
                Mesh::size_type(faces));
-  for(const std::array<double, 3>& p : soup.points) {
-    mesh.add_vertex(Kernel::Point_3(p[0], p[1], p[2]));
+  for(const Kernel::Point_3& p : soup.points) {
+    mesh.add_vertex(p);
   }
   for(std::size_t f = 0; f < faces; ++f) {
     const Polygon_soup::Face face = soup.face(f);

@@ -4,14 +4,16 @@
 #ifndef HLSCM_PROGRAM_GIVEN_CHARTS_H
 #define HLSCM_PROGRAM_GIVEN_CHARTS_H
 
-#include "common/Polygon_soup.h"
 #include "common/Program_options.h"
 
+#include <CGAL/Indexed_mesh/Polygon_soup.h>
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
 
 #include <optional>
 
 namespace hlscm {
+
+using CGAL::Indexed_mesh::Polygon_soup;
 
 /// Returns the charts of a surface that the options give, if they do: between patches named by
 /// numbers in a file, between the seams of the surface's own texture coordinates, or one for each

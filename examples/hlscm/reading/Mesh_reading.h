@@ -4,18 +4,34 @@
 #ifndef HLSCM_PROGRAM_MESH_READING_H
 #define HLSCM_PROGRAM_MESH_READING_H
 
-#include "common/Polygon_soup.h"
 #include "common/Progress_bar.h"
 
+#include <CGAL/Indexed_mesh/Polygon_soup.h>
+
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace hlscm {
 
+using CGAL::Indexed_mesh::Polygon_soup;
+
+/// A line of a file that is no vertex and no face, but belongs to the mesh: the name of an object or
+/// a group, a material, smoothing.
+struct Mesh_line
+{
+  std::size_t face; ///< it stands before this one, counted from 0; or their number
+  std::string text; ///< as in an OBJ file, without a line feed
+};
+
 /// A file read as it is: nothing merged (but the corners of STL triangles), nothing reordered.
 struct Read_mesh
 {
   Polygon_soup soup;
+  std::vector<Polygon_soup::Point_3> normals; ///< of OBJ files; may be empty
+  std::vector<std::uint32_t> normal_corners;  ///< of each corner one of `normals`, or empty
+  std::vector<Mesh_line> lines;               ///< in the order of the file
   std::vector<std::string> warnings;
 };
 

@@ -3,6 +3,7 @@
 
 #include "reading/Diagnosis.h"
 
+#include "common/Interruption.h"
 #include "common/Program_error.h"
 
 namespace hlscm {
@@ -46,6 +47,15 @@ Obstacle component_obstacle(const Diagnosis& d)
 }
 
 } // namespace
+
+Diagnosis diagnose(const Polygon_soup& soup, Progress_bar& progress)
+{
+  progress.start_stage("checking");
+  const Diagnosis result = CGAL::Indexed_mesh::diagnose_soup(
+      soup, [&progress](double part) { return progress.try_advance(part); });
+  Interruption::check();
+  return result;
+}
 
 std::vector<Obstacle> surface_obstacles(const Diagnosis& d)
 {

@@ -23,7 +23,7 @@ void read_vertex(const Mesh_source& source, Text_scanner& scanner, Polygon_soup&
                 + std::to_string(soup.number_of_vertices())
                 + ", the file is cut short or damaged: export it again");
   }
-  soup.points.push_back({*x, *y, *z});
+  soup.points.emplace_back(*x, *y, *z);
 }
 
 void read_uv(const Mesh_source& source, Text_scanner& scanner, Polygon_soup& soup)
@@ -35,7 +35,7 @@ void read_uv(const Mesh_source& source, Text_scanner& scanner, Polygon_soup& sou
                 + " should hold texture coordinate " + std::to_string(soup.uv.size())
                 + ", the file is cut short or damaged: export it again");
   }
-  soup.uv.push_back({*u, *v});
+  soup.uv.emplace_back(*u, *v);
 }
 
 // An index of the file, from 1, or from -1 for the last so far, as one from 0.

@@ -72,7 +72,7 @@ void read_vertices(const Mesh_source& source, Text_scanner& scanner, std::size_t
                     "vertex "
                   + std::to_string(v) + ", the file is cut short or damaged: export it again");
     }
-    soup.points.push_back({*x, *y, *z});
+    soup.points.emplace_back(*x, *y, *z);
   }
 }
 

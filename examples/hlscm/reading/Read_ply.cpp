@@ -6,6 +6,7 @@
 #include "reading/Text_scanner.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <numeric>
 #include <utility>
@@ -147,9 +148,9 @@ void read_vertices(const Mesh_source& source, const Element& element, Value_read
         }
       },
       [&] {
-        soup.points.push_back(point);
+        soup.points.emplace_back(point[0], point[1], point[2]);
         if(has_uv) {
-          soup.uv.push_back(texture);
+          soup.uv.emplace_back(texture[0], texture[1]);
         }
       });
 }
@@ -163,7 +164,7 @@ void read_faces(const Mesh_source& source, const Element& element, Value_reader&
   }
   const std::size_t texcoord = element.index_of({"texcoord"});
   std::vector<double> texture; // of one face: u and v of each corner
-  std::vector<std::array<double, 2>> uv;
+  std::vector<Polygon_soup::Point_2> uv;
   bool has_uv = texcoord < element.properties.size();
   soup.first_corner.reserve(element.count + 1);
   soup.corners.reserve(3 * element.count);
@@ -179,7 +180,7 @@ void read_faces(const Mesh_source& source, const Element& element, Value_reader&
       [&] {
         has_uv = has_uv && texture.size() == 2 * (soup.corners.size() - soup.first_corner.back());
         for(std::size_t i = 0; has_uv && i < texture.size(); i += 2) {
-          uv.push_back({texture[i], texture[i + 1]});
+          uv.emplace_back(texture[i], texture[i + 1]);
         }
         texture.clear();
         soup.close_face();

@@ -4,6 +4,7 @@
 #include "reading/Mesh_source.h"
 #include "reading/Text_scanner.h"
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <unordered_map>
@@ -47,7 +48,7 @@ public:
     }
     const auto inserted = m_vertices.emplace(p, std::uint32_t(m_soup.points.size()));
     if(inserted.second) {
-      m_soup.points.push_back(p);
+      m_soup.points.emplace_back(p[0], p[1], p[2]);
     }
     m_soup.corners.push_back(inserted.first->second);
   }

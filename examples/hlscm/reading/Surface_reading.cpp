@@ -34,9 +34,7 @@ void drop_isolated_vertices(Polygon_soup& soup)
 template <typename Mesh>
 void copy_triangles(const Polygon_soup& soup, Mesh& mesh)
 {
-  for(const auto& p : soup.points) {
-    mesh.points.emplace_back(p[0], p[1], p[2]);
-  }
+  mesh.points = soup.points;
   for(std::size_t c = 0; c < soup.corners.size(); c += 3) {
     mesh.triangles.push_back({soup.corners[c], soup.corners[c + 1], soup.corners[c + 2]});
   }
@@ -71,9 +69,7 @@ SMM::Textured_triangle_mesh to_textured(const Polygon_soup& soup)
 {
   SMM::Textured_triangle_mesh mesh;
   copy_triangles(soup, mesh);
-  for(const auto& p : soup.uv) {
-    mesh.uv.emplace_back(p[0], p[1]);
-  }
+  mesh.uv = soup.uv;
   for(std::size_t c = 0; c < soup.uv_corners.size(); c += 3) {
     mesh.wedges.push_back({soup.uv_corners[c], soup.uv_corners[c + 1], soup.uv_corners[c + 2]});
   }

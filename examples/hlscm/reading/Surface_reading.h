@@ -4,10 +4,10 @@
 #ifndef HLSCM_PROGRAM_SURFACE_READING_H
 #define HLSCM_PROGRAM_SURFACE_READING_H
 
-#include "common/Polygon_soup.h"
 #include "common/Program_error.h"
 #include "common/Progress_bar.h"
 
+#include <CGAL/Indexed_mesh/Polygon_soup.h>
 #include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
 
 #include <cmath>
@@ -15,6 +15,8 @@
 #include <vector>
 
 namespace hlscm {
+
+using CGAL::Indexed_mesh::Polygon_soup;
 
 /// Throws `Program_error` for points that a GLB file cannot hold: its numbers have 32 bits.
 template <typename Points>

@@ -105,30 +105,6 @@ Face_charts label_charts(const Adjacency& adjacency, std::vector<std::uint8_t> s
   return result;
 }
 
-// For each of n corners, which are halfedges too, the first corner of its wedge: of the corners at
-// the same vertex that are connected across open edges. `across(h)` is the halfedge on the other
-// side of h, or `no_halfedge` if the edge is not open.
-template <class Across>
-std::vector<Halfedge> first_corners_of_wedges(std::size_t n, const Across& across)
-{
-  Disjoint_sets corners(n);
-  for(Halfedge h = 0; h < n; ++h) {
-    const Halfedge opposite = across(h);
-    if(opposite == no_halfedge)
-      continue;
-    corners.join(h, next_halfedge(opposite));
-    corners.join(next_halfedge(h), opposite);
-  }
-  std::vector<Halfedge> first(n);
-  for(Halfedge h = 0; h < n; ++h)
-    first[h] = corners.find(h);
-  return first;
-}
-
-} // namespace internal
-
-namespace internal {
-
 // What is wrong with seams that somebody else found.
 inline Mesh_outcome foreign_seams_error(const Indexed_triangle_mesh& mesh,
                                         const std::vector<std::uint8_t>& seams)

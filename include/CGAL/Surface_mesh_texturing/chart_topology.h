@@ -91,7 +91,7 @@ chart_topologies(const Indexed_mesh::Triangle_adjacency& adjacency, const Face_c
     return {};
   const std::vector<std::uint8_t> seams = internal::without_lonely_seams(adjacency, charts.seams);
   const auto is_seam = [&](Halfedge h) { return internal::is_marked(seams, h); };
-  const std::vector<Halfedge> first = internal::first_corners_of_wedges(
+  const std::vector<Halfedge> first = first_corners_of_wedges(
     adjacency.number_of_halfedges(),
     [&](Halfedge h) { return is_seam(h) ? no_halfedge : adjacency.opposite(h); });
   std::vector<Chart_topology> result(charts.number_of_charts);

@@ -252,7 +252,7 @@ inline Tangent_frames tangent_frames(const Textured_triangle_mesh& mesh,
      || !internal::indices_are_below(mesh.wedges, mesh.uv.size()))
     return {};
   const internal::Corner_tangents tangents(mesh, normals);
-  const std::vector<Halfedge> first = internal::first_corners_of_wedges(
+  const std::vector<Halfedge> first = first_corners_of_wedges(
     3 * mesh.triangles.size(), [&tangents](Halfedge h) { return tangents.across(h); });
   Tangent_frames result;
   result.corners.resize(mesh.triangles.size());

@@ -1,30 +1,93 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "reading/Diagnosis.h"
+#ifndef CGAL_INDEXED_MESH_SOUP_DIAGNOSIS_H
+#define CGAL_INDEXED_MESH_SOUP_DIAGNOSIS_H
 
-#include "reading/Disjoint_sets.h"
-#include "reading/Edge_table.h"
+#include <CGAL/Blocked_execution/Progress.h>
+#include <CGAL/Indexed_mesh/Polygon_soup.h>
+#include <CGAL/Indexed_mesh/internal/Edge_table.h>
+#include <CGAL/Indexed_mesh/internal/Parity_sets.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numeric>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <utility>
+#include <vector>
 
-namespace hlscm {
+namespace CGAL {
+namespace Indexed_mesh {
 
-namespace {
+/// \ingroup PkgHLSCMIndexedMesh
+/// How often something was found in a soup, and the indices of the elements of the first case.
+struct Soup_finding
+{
+  std::size_t count = 0;              ///< how often
+  std::array<std::size_t, 2> first{}; ///< one or two indices, or an index and a number
+
+  /// Counts one more case.
+  void add(std::size_t a, std::size_t b = 0)
+  {
+    if(count++ == 0)
+      first = {a, b};
+  }
+  /// Returns whether there is a case.
+  explicit operator bool() const { return count > 0; }
+};
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// What a polygon soup is as a surface. All indices are those of the soup.
+struct Soup_diagnosis
+{
+  std::size_t vertices = 0;           ///< their number
+  std::size_t edges = 0;              ///< pairs of vertices that faces join
+  std::size_t faces = 0;              ///< their number
+  Soup_finding not_finite;            ///< vertices with a coordinate that is no finite number
+  Soup_finding isolated;              ///< vertices of no face
+  Soup_finding not_triangular;        ///< faces, with their number of corners
+  Soup_finding folded;                ///< faces that use a vertex twice
+  Soup_finding zero_area;             ///< triangles whose height is below 1e-12 of their longest edge
+  Soup_finding duplicate;             ///< pairs of triangles with the same vertices
+  Soup_finding non_manifold_edges;    ///< edges with three or more faces, by their two vertices
+  Soup_finding misoriented;           ///< pairs of faces that have their edge in the same direction
+  Soup_finding non_manifold_vertices; ///< vertices that join fans of faces, with the number of fans
+  std::size_t components = 0;         ///< of faces that are connected across edges
+  std::size_t borders = 0;            ///< connected sets of border edges
+  long long euler_characteristic = 0; ///< of the vertices of faces, the edges and the faces
+  long long genus = 0;                ///< sum over the components; see `has_genus()`
+  bool is_orientable = true;          ///< whether the faces can be turned to agree
+  std::size_t coinciding_points = 0;  ///< vertices less points, if there are several components
+
+  /// Returns whether it is a manifold, with or without border, once its faces are oriented.
+  bool is_manifold() const
+  {
+    return !folded && !duplicate && !non_manifold_edges && !non_manifold_vertices;
+  }
+  /// Returns whether `genus` makes sense.
+  bool has_genus() const { return is_manifold() && is_orientable; }
+  /// Returns whether it is an oriented manifold of triangles, all vertices of which have one.
+  bool is_surface() const
+  {
+    return faces > 0 && is_manifold() && !not_finite && !not_triangular && !isolated && !misoriented;
+  }
+};
+
+namespace internal {
 
 constexpr double smallest_relative_height = 1e-12;
 
 // |height| / |longest edge| of a triangle, without overflow or underflow for any finite points.
-double relative_height(const Polygon_soup& soup, Polygon_soup::Face face)
+inline double relative_height(const Polygon_soup& soup, Polygon_soup::Face face)
 {
   std::array<double, 3> e[3];
   double largest = 0;
   for(std::size_t i = 0; i < 3; ++i) {
     for(std::size_t k = 0; k < 3; ++k) {
       e[i][k] = soup.points[face[(i + 1) % 3]][k] - soup.points[face[i]][k];
-      largest = std::max(largest, std::abs(e[i][k]));
+      largest = (std::max)(largest, std::abs(e[i][k]));
     }
   }
   double longest = 0; // squared
@@ -32,7 +95,7 @@ double relative_height(const Polygon_soup& soup, Polygon_soup::Face face)
     for(double& x : edge) {
       x = largest > 0 ? x / largest : 0;
     }
-    longest = std::max(longest, edge[0] * edge[0] + edge[1] * edge[1] + edge[2] * edge[2]);
+    longest = (std::max)(longest, edge[0] * edge[0] + edge[1] * edge[1] + edge[2] * edge[2]);
   }
   const double cross =
       std::hypot(e[0][1] * e[1][2] - e[0][2] * e[1][1], e[0][2] * e[1][0] - e[0][0] * e[1][2],
@@ -40,24 +103,23 @@ double relative_height(const Polygon_soup& soup, Polygon_soup::Face face)
   return longest > 0 ? cross / longest : 0;
 }
 
-class Examination
+class Soup_examination
 {
 public:
-  Examination(const Polygon_soup& soup, Progress_bar& progress)
+  Soup_examination(const Polygon_soup& soup, Blocked_execution::Progress& progress)
     : m_soup(soup), m_progress(progress), m_components(soup.number_of_faces()),
       m_fans(soup.corners.size()), m_border(soup.number_of_vertices()),
       m_is_on_border(soup.number_of_vertices(), 0), m_is_used(soup.number_of_vertices(), 0)
   {}
 
-  Diagnosis run()
+  Soup_diagnosis run()
   {
     m_result.vertices = m_soup.number_of_vertices();
     m_result.faces = m_soup.number_of_faces();
     examine_faces();
     examine_vertices();
     Edge_table table(m_soup);
-    table.for_each_edge([this](std::size_t v, const Edge_table::Side* first,
-                               const Edge_table::Side* last) { examine_edge(v, first, last); });
+    table.for_each_edge([this](Vertex_index v, const Side* first, const Side* last) { examine_edge(v, first, last); });
     examine_fans();
     count_parts();
     return m_result;
@@ -69,7 +131,7 @@ private:
   void poll(std::size_t element, double fraction)
   {
     if(element % 16384 == 0) {
-      m_progress.advance(fraction);
+      m_progress(0., 1., fraction);
     }
   }
 
@@ -105,8 +167,8 @@ private:
   void examine_vertices()
   {
     for(std::size_t v = 0; v < m_soup.number_of_vertices(); ++v) {
-      const std::array<double, 3>& p = m_soup.points[v];
-      if(!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2])) {
+      const Polygon_soup::Point_3& p = m_soup.points[v];
+      if(!std::isfinite(p.x()) || !std::isfinite(p.y()) || !std::isfinite(p.z())) {
         m_result.not_finite.add(v);
       }
       if(!m_is_used[v]) {
@@ -115,7 +177,7 @@ private:
     }
   }
 
-  void examine_edge(std::size_t v, const Side* first, const Side* last)
+  void examine_edge(Vertex_index v, const Side* first, const Side* last)
   {
     poll(m_result.edges++, 0.2 + 0.6 * double(v) / double(m_soup.number_of_vertices()));
     const std::size_t f = face_of(first->corner);
@@ -130,14 +192,14 @@ private:
         m_result.misoriented.add(f, g);
       }
       m_result.is_orientable &= m_components.unite(f, g, is_same_direction);
-      for(std::uint32_t end : {std::uint32_t(v), first->other_end}) {
+      for(const Vertex_index end : {v, first->other_end}) {
         m_fans.unite(corner_at(first[0], end), corner_at(first[1], end));
       }
     } else {
       m_result.non_manifold_edges.add(v, first->other_end);
       for(const Side* side = first + 1; side != last; ++side) {
         m_components.unite(f, face_of(side->corner));
-        m_fans.unite(corner_at(*first, std::uint32_t(v)), corner_at(*side, std::uint32_t(v)));
+        m_fans.unite(corner_at(*first, v), corner_at(*side, v));
         m_fans.unite(corner_at(*first, first->other_end), corner_at(*side, first->other_end));
       }
     }
@@ -181,7 +243,7 @@ private:
 
   void count_parts()
   {
-    m_progress.advance(0.9);
+    m_progress(0., 1., 0.9);
     for(std::size_t f = 0; f < m_soup.number_of_faces(); ++f) {
       m_result.components += m_components.is_representative(f);
     }
@@ -202,7 +264,7 @@ private:
 
   void count_coinciding_points()
   {
-    std::vector<std::array<double, 3>> sorted(m_soup.points);
+    std::vector<Polygon_soup::Point_3> sorted(m_soup.points);
     std::sort(sorted.begin(), sorted.end());
     const auto end = std::unique(sorted.begin(), sorted.end());
     m_result.coinciding_points = std::size_t(sorted.end() - end);
@@ -234,22 +296,37 @@ private:
   }
 
   const Polygon_soup& m_soup;
-  Progress_bar& m_progress;
-  Diagnosis m_result;
-  Disjoint_sets m_components; // of faces
-  Disjoint_sets m_fans;       // of corners
-  Disjoint_sets m_border;     // of vertices, along border edges
+  Blocked_execution::Progress& m_progress;
+  Soup_diagnosis m_result;
+  Parity_sets m_components; // of faces
+  Parity_sets m_fans;       // of corners
+  Parity_sets m_border;     // of vertices, along border edges
   std::vector<char> m_is_on_border, m_is_used;
   std::vector<std::uint32_t> m_sorted;                                   // corners of one face
   std::vector<std::pair<std::uint32_t, std::uint32_t>> m_third_and_face; // of one edge
 };
 
-} // namespace
+} // namespace internal
 
-Diagnosis diagnose(const Polygon_soup& soup, Progress_bar& progress)
+/*!
+\ingroup PkgHLSCMIndexedMesh
+
+Examines a soup without `soup_error()`; points that are not finite are counted.
+
+\param soup the soup
+\param progress told the part done in [0, 1] from time to time; returning `false` cancels, and the
+       result makes no sense then
+
+Time \f$ O(n \log d) \f$ for degrees up to \f$ d \f$; about 60 bytes a triangle of temporary memory.
+*/
+inline Soup_diagnosis diagnose_soup(const Polygon_soup& soup,
+                                    const std::function<bool(double)>& progress = {})
 {
-  progress.start_stage("checking");
-  return Examination(soup, progress).run();
+  Blocked_execution::Progress told(progress);
+  return internal::Soup_examination(soup, told).run();
 }
 
-} // namespace hlscm
+} // namespace Indexed_mesh
+} // namespace CGAL
+
+#endif // CGAL_INDEXED_MESH_SOUP_DIAGNOSIS_H

@@ -1,21 +1,23 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef HLSCM_PROGRAM_DISJOINT_SETS_H
-#define HLSCM_PROGRAM_DISJOINT_SETS_H
+#ifndef CGAL_INDEXED_MESH_INTERNAL_PARITY_SETS_H
+#define CGAL_INDEXED_MESH_INTERNAL_PARITY_SETS_H
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
-namespace hlscm {
+namespace CGAL {
+namespace Indexed_mesh {
+namespace internal {
 
-/// Union-find whose elements carry a parity relative to the representative of their set.
-class Disjoint_sets
+// Union-find whose elements carry a parity relative to the representative of their set.
+class Parity_sets
 {
 public:
-  explicit Disjoint_sets(std::size_t size) : m_link(size)
+  explicit Parity_sets(std::size_t size) : m_link(size)
   {
     for(std::size_t i = 0; i < size; ++i) {
       m_link[i] = std::uint32_t(2 * i);
@@ -25,8 +27,8 @@ public:
   bool is_representative(std::size_t i) const { return m_link[i] >> 1 == i; }
   std::size_t find(std::size_t i) { return find_with_parity(i) >> 1; }
 
-  /// Unites the sets of i and j so that their parities are equal, or differ if `is_odd`. Returns
-  /// false if both were in one set already with the opposite relation.
+  // Unites the sets of i and j so that their parities are equal, or differ if `is_odd`. Returns
+  // false if both were in one set already with the opposite relation.
   bool unite(std::size_t i, std::size_t j, bool is_odd = false)
   {
     const std::uint32_t a = find_with_parity(i);
@@ -35,12 +37,11 @@ public:
     if(a >> 1 == b >> 1) {
       return parity == 0;
     }
-    const std::uint32_t low = std::min(a, b) >> 1, high = std::max(a, b) >> 1;
+    const std::uint32_t low = (std::min)(a, b) >> 1, high = (std::max)(a, b) >> 1;
     m_link[high] = low << 1 | parity;
     return true;
   }
 
-private:
   // 2 * representative + parity; halves the path on the way.
   std::uint32_t find_with_parity(std::size_t i)
   {
@@ -54,9 +55,12 @@ private:
     return std::uint32_t(2 * i) | parity;
   }
 
+private:
   std::vector<std::uint32_t> m_link; // 2 * parent + parity relative to the parent
 };
 
-} // namespace hlscm
+} // namespace internal
+} // namespace Indexed_mesh
+} // namespace CGAL
 
-#endif // HLSCM_PROGRAM_DISJOINT_SETS_H
+#endif // CGAL_INDEXED_MESH_INTERNAL_PARITY_SETS_H
