@@ -4,7 +4,7 @@
 #include "reading/Mesh_reading.h"
 
 #include "common/Interruption.h"
-#include "reading/Mesh_source.h"
+#include "formats/Mesh_source.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,9 +1,9 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "reading/Ply_header.h"
+#include "formats/Ply_header.h"
 
-#include "reading/Text_scanner.h"
+#include "formats/Text_scanner.h"
 
 #include <algorithm>
 

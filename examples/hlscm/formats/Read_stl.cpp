@@ -1,8 +1,8 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "reading/Mesh_source.h"
-#include "reading/Text_scanner.h"
+#include "formats/Mesh_source.h"
+#include "formats/Text_scanner.h"
 
 #include <array>
 #include <cmath>
