@@ -5,129 +5,267 @@
 #include "formats/Text_scanner.h"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <limits>
+#include <map>
+#include <utility>
 
 namespace hlscm {
 
 namespace {
 
-// What no vertex has for an index, so that the check at the end finds it.
-constexpr std::uint32_t no_vertex = std::numeric_limits<std::uint32_t>::max();
-
-void read_vertex(const Mesh_source& source, Text_scanner& scanner, Polygon_soup& soup)
-{
-  const auto x = scanner.number(), y = scanner.number(), z = scanner.number();
-  if(!x || !y || !z) {
-    source.fail("line " + std::to_string(scanner.line_number())
-                + " should hold the coordinates of vertex "
-                + std::to_string(soup.number_of_vertices())
-                + ", the file is cut short or damaged: export it again");
-  }
-  soup.points.emplace_back(*x, *y, *z);
-}
-
-void read_uv(const Mesh_source& source, Text_scanner& scanner, Polygon_soup& soup)
-{
-  const auto u = scanner.number();
-  const auto v = scanner.is_line_done() ? std::optional<double>(0.) : scanner.number();
-  if(!u || !v) {
-    source.fail("line " + std::to_string(scanner.line_number())
-                + " should hold texture coordinate " + std::to_string(soup.uv.size())
-                + ", the file is cut short or damaged: export it again");
-  }
-  soup.uv.emplace_back(*u, *v);
-}
+// What nothing has for an index, so that the check at the end finds it.
+constexpr std::uint32_t no_index = std::numeric_limits<std::uint32_t>::max();
 
 // An index of the file, from 1, or from -1 for the last so far, as one from 0.
 std::uint32_t absolute(long long index, std::size_t so_far)
 {
   const long long result = index > 0 ? index - 1 : index + (long long)(so_far);
-  return index != 0 && 0 <= result && result < no_vertex ? std::uint32_t(result) : no_vertex;
+  return 0 <= result && result < no_index ? std::uint32_t(result) : no_index;
 }
 
-// "7", "7/1", "7//3" and "7/1/3": vertex 7 from 1; "-1" is the last vertex so far.
-void read_face(const Mesh_source& source, Text_scanner& scanner, Polygon_soup& soup)
+/// "7", "7/1", "7//3" or "7/1/3": indices of a vertex, of a texture coordinate and of a normal, all
+/// from 1; 0 stands for none.
+struct Corner
 {
-  while(!scanner.is_line_done()) {
-    const std::string_view corner = scanner.word();
-    const auto index = Text_scanner::to_integer(corner.substr(0, corner.find('/')));
-    if(!index || *index == 0) {
-      source.fail("line " + std::to_string(scanner.line_number())
-                  + " should hold the corners of face " + std::to_string(soup.number_of_faces())
-                  + ", the file is cut short or damaged: export it again");
-    }
-    soup.corners.push_back(absolute(*index, soup.number_of_vertices()));
-    const std::size_t slash = corner.find('/');
-    if(slash == std::string_view::npos) {
-      continue;
-    }
-    const std::string_view rest = corner.substr(slash + 1);
-    if(const auto uv = Text_scanner::to_integer(rest.substr(0, rest.find('/')))) {
-      soup.uv_corners.push_back(absolute(*uv, soup.uv.size()));
-    }
-  }
-  soup.close_face();
-}
+  std::array<long long, 3> indices{};
 
-// A face may come before its vertices, hence at the end.
-void check_corners(const Mesh_source& source, const Polygon_soup& soup)
-{
-  const auto bad = std::find_if(soup.corners.begin(), soup.corners.end(),
-                                [&](std::uint32_t v) { return v >= soup.number_of_vertices(); });
-  if(bad != soup.corners.end()) {
-    const auto after = std::upper_bound(soup.first_corner.begin(), soup.first_corner.end(),
-                                        std::uint32_t(bad - soup.corners.begin()));
-    source.fail("face " + std::to_string(after - soup.first_corner.begin() - 1)
-                + " names a vertex that is not among the "
-                + std::to_string(soup.number_of_vertices())
-                + " vertices, the file is cut short or damaged: export it again");
+  /// Whether the text is a corner.
+  bool read(std::string_view text)
+  {
+    const char *p = text.data(), *end = p + text.size();
+    for(std::size_t i = 0; i < 3; ++i) {
+      const char* begin = p;
+      if(!read_index(p, end, indices[i]) || (i == 0 && p == begin)) {
+        return false;
+      }
+      if(p == end) {
+        return true;
+      }
+      ++p; // the slash
+    }
+    return false;
   }
-}
 
-// Texture coordinates are of use only if all corners have them.
-void check_uv(Read_mesh& mesh)
+private:
+  // Reads up to a slash or the end; no digits at all are the index 0, but "0" is none.
+  static bool read_index(const char*& p, const char* end, long long& index)
+  {
+    const char* begin = p;
+    const bool is_relative = p != end && *p == '-';
+    p += p != end && (*p == '-' || *p == '+');
+    const char* digits = p;
+    for(; p != end && is_digit(*p) && p - digits < 18; ++p) {
+      index = 10 * index + (*p - '0');
+    }
+    const bool is_number = p != digits && index != 0;
+    index = is_relative ? -index : index;
+    return (is_number || p == begin) && (p == end || *p == '/');
+  }
+};
+
+/// Lines that are left out, by their first words.
+class Lines_left_out
 {
-  Polygon_soup& soup = mesh.soup;
-  const auto bad = std::find_if(soup.uv_corners.begin(), soup.uv_corners.end(),
-                                [&](std::uint32_t i) { return i >= soup.uv.size(); });
-  if(soup.has_uv() && bad == soup.uv_corners.end()) {
-    return;
+public:
+  void add(std::string_view keyword, std::size_t line)
+  {
+    Found& found = m_lines.emplace(keyword, Found{0, line}).first->second;
+    ++found.count;
   }
-  if(bad != soup.uv_corners.end()) {
-    mesh.warnings.push_back("a face names a texture coordinate that is not among the "
-                            + std::to_string(soup.uv.size()) + "; all are left out");
-  } else if(!soup.uv_corners.empty()) {
-    mesh.warnings.push_back("not all corners have texture coordinates; all are left out");
+
+  void warn(std::vector<std::string>& warnings) const
+  {
+    constexpr std::size_t most_words = 5;
+    std::string text = "lines that begin with words unknown here are left out:";
+    std::size_t words = 0;
+    for(const auto& [keyword, found] : m_lines) {
+      if(words++ < most_words) {
+        text += (words > 1 ? ", " : " ") + std::to_string(found.count) + " with "
+                + printable(keyword) + " (the first in line " + std::to_string(found.first_line)
+                + ")";
+      }
+    }
+    if(words > most_words) {
+      text += " and " + std::to_string(words - most_words) + " further words";
+    }
+    if(words > 0) {
+      warnings.push_back(text);
+    }
   }
-  soup.uv.clear();
-  soup.uv_corners.clear();
-}
+
+private:
+  struct Found
+  {
+    std::size_t count;
+    std::size_t first_line;
+  };
+
+  static std::string printable(const std::string& keyword)
+  {
+    constexpr std::size_t longest = 20;
+    std::string text = keyword.substr(0, longest);
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    return text + (keyword.size() > longest ? "..." : "");
+  }
+
+  std::map<std::string, Found, std::less<>> m_lines;
+};
+
+/// Reads line after line.
+class Obj_reader
+{
+public:
+  explicit Obj_reader(const Mesh_source& source)
+    : m_source(source), m_scanner(source.begin, source.end)
+  {}
+
+  Read_mesh read()
+  {
+    for(std::size_t line = 0; m_scanner.next_continued_line(); ++line) {
+      m_source.advance(m_scanner.line_end(), line);
+      read_line(m_scanner.word());
+    }
+    check_corners();
+    check_corner_data(m_mesh);
+    add_warnings();
+    return std::move(m_mesh);
+  }
+
+private:
+  void read_line(std::string_view keyword)
+  {
+    Polygon_soup& soup = m_mesh.soup;
+    if(keyword == "v") {
+      soup.points.push_back(read_point("the coordinates of vertex ", soup.points.size()));
+      m_has_more_than_points = m_has_more_than_points || !m_scanner.is_line_done();
+    } else if(keyword == "f" || keyword == "fo") {
+      read_face();
+    } else if(keyword == "vt") {
+      read_uv();
+    } else if(keyword == "vn") {
+      m_mesh.normals.push_back(read_point("the coordinates of normal ", m_mesh.normals.size()));
+    } else if(keyword == "g" || keyword == "o" || keyword == "s" || keyword == "usemtl"
+              || keyword == "mtllib")
+    {
+      const std::string text(keyword), rest(m_scanner.rest());
+      m_mesh.lines.push_back({soup.number_of_faces(), rest.empty() ? text : text + " " + rest});
+    } else if(keyword == "l") {
+      ++m_lines;
+    } else if(keyword == "p") {
+      ++m_points;
+    } else {
+      m_left_out.add(keyword, m_scanner.line_number());
+    }
+  }
+
+  [[noreturn]] void fail_at_line(const std::string& should_hold, std::size_t number) const
+  {
+    m_source.fail("line " + std::to_string(m_scanner.line_number()) + " should hold " + should_hold
+                  + std::to_string(number) + ", the file is cut short or damaged: export it again");
+  }
+
+  Polygon_soup::Point_3 read_point(const char* what, std::size_t number)
+  {
+    const auto x = m_scanner.number(), y = m_scanner.number(), z = m_scanner.number();
+    if(!x || !y || !z) {
+      fail_at_line(what, number);
+    }
+    return {*x, *y, *z};
+  }
+
+  void read_uv()
+  {
+    const auto u = m_scanner.number();
+    const auto v = m_scanner.is_line_done() ? std::optional<double>(0.) : m_scanner.number();
+    if(!u || !v) {
+      fail_at_line("texture coordinate ", m_mesh.soup.uv.size());
+    }
+    m_mesh.soup.uv.emplace_back(*u, *v);
+  }
+
+  void read_face()
+  {
+    Polygon_soup& soup = m_mesh.soup;
+    m_source.check_index("corners", soup.corners.size());
+    while(!m_scanner.is_line_done()) {
+      Corner corner;
+      if(!corner.read(m_scanner.word())) {
+        fail_at_line("the corners of face ", soup.number_of_faces());
+      }
+      soup.corners.push_back(absolute(corner.indices[0], soup.points.size()));
+      if(corner.indices[1] != 0) {
+        soup.uv_corners.push_back(absolute(corner.indices[1], soup.uv.size()));
+      }
+      if(corner.indices[2] != 0) {
+        m_mesh.normal_corners.push_back(absolute(corner.indices[2], m_mesh.normals.size()));
+      }
+    }
+    soup.close_face();
+  }
+
+  // A face may come before its vertices, hence at the end.
+  void check_corners() const
+  {
+    const Polygon_soup& soup = m_mesh.soup;
+    const auto bad = std::find_if(soup.corners.begin(), soup.corners.end(),
+                                  [&](std::uint32_t v) { return v >= soup.points.size(); });
+    if(bad != soup.corners.end()) {
+      const auto after = std::upper_bound(soup.first_corner.begin(), soup.first_corner.end(),
+                                          std::uint32_t(bad - soup.corners.begin()));
+      const std::size_t face = std::size_t(after - soup.first_corner.begin()) - 1;
+      m_source.fail("face " + std::to_string(face) + " in line " + std::to_string(line_of(face))
+                    + " names a vertex that is not among the "
+                    + std::to_string(soup.number_of_vertices())
+                    + " vertices, the file is cut short or damaged: export it again");
+    }
+  }
+
+  std::size_t line_of(std::size_t face) const
+  {
+    Text_scanner scanner(m_source.begin, m_source.end);
+    for(std::size_t faces = 0; faces <= face && scanner.next_continued_line();) {
+      const std::string_view keyword = scanner.word();
+      faces += keyword == "f" || keyword == "fo";
+    }
+    return scanner.line_number();
+  }
+
+  void add_warnings()
+  {
+    m_source.warn_of_open_end(m_mesh);
+    if(m_has_more_than_points) {
+      m_mesh.warnings.push_back("numbers behind the coordinates of vertices (colours, weights) "
+                                "are left out");
+    }
+    if(m_lines > 0) {
+      m_mesh.warnings.push_back("line elements (l) are left out: " + std::to_string(m_lines));
+    }
+    if(m_points > 0) {
+      m_mesh.warnings.push_back("point elements (p) are left out: " + std::to_string(m_points));
+    }
+    m_left_out.warn(m_mesh.warnings);
+  }
+
+  const Mesh_source& m_source;
+  Text_scanner m_scanner;
+  Read_mesh m_mesh;
+  bool m_has_more_than_points = false;
+  std::size_t m_lines = 0, m_points = 0; // elements
+  Lines_left_out m_left_out;
+};
 
 } // namespace
 
 Read_mesh read_obj(const Mesh_source& source)
 {
-  if(std::find(source.begin, source.end, '\0') != source.end) {
+  if(std::memchr(source.begin, '\0', source.size()) != nullptr) {
     source.fail("it holds zero bytes and is no OBJ text, the file is damaged or of another format: "
                 "export it again");
   }
-  Text_scanner scanner(source.begin, source.end);
-  Read_mesh mesh;
-  for(std::size_t line = 0; scanner.next_content_line(); ++line) {
-    source.advance(scanner.position(), line);
-    const std::string_view keyword = scanner.word();
-    if(keyword == "v") {
-      read_vertex(source, scanner, mesh.soup);
-    } else if(keyword == "vt") {
-      read_uv(source, scanner, mesh.soup);
-    } else if(keyword == "f") {
-      read_face(source, scanner, mesh.soup);
-    }
-  }
-  check_corners(source, mesh.soup);
-  check_uv(mesh);
-  source.warn_of_open_end(mesh);
-  return mesh;
+  return Obj_reader(source).read();
 }
 
 } // namespace hlscm

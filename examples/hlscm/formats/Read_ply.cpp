@@ -3,11 +3,11 @@
 
 #include "formats/Mesh_source.h"
 #include "formats/Ply_header.h"
-#include "formats/Text_scanner.h"
+#include "formats/Ply_values.h"
 
 #include <algorithm>
 #include <array>
-#include <cstring>
+#include <cmath>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -18,207 +18,321 @@ namespace {
 
 using namespace ply;
 
-/// Reads the values one after the other, whatever the encoding. All types fit into a double.
-class Value_reader
+bool is_of_vertices(const Element& element)
+{
+  return element.name == "vertex" || element.name == "vertices";
+}
+
+bool is_of_faces(const Element& element)
+{
+  return element.name == "face" || element.name == "faces";
+}
+
+// The bytes of properties without lists.
+std::size_t size_of(const Property* first, const Property* last)
+{
+  return std::accumulate(first, last, std::size_t(0),
+                         [](std::size_t sum, const Property& p) { return sum + size_of(p.type); });
+}
+
+/// Reads the elements one after the other. Faces may come before their vertices.
+class Ply_reader
 {
 public:
-  Value_reader(const Header& header, const char* end)
-    : m_encoding(header.encoding), m_position(header.end), m_end(end), m_scanner(header.end, end)
+  explicit Ply_reader(const Mesh_source& source)
+    : m_source(source), m_header(read_header(source)), m_reader(m_header, source)
   {
-    m_scanner.ignore_lines();
+    for(const Element& element : m_header.elements) {
+      m_vertices += is_of_vertices(element) ? element.count : 0;
+    }
   }
 
-  const char* position() const
+  Read_mesh read()
   {
-    return m_encoding == Encoding::TEXT ? m_scanner.position() : m_position;
-  }
-
-  /// Nothing at the end of the file, or at a word that is not a number.
-  std::optional<double> value(Type type)
-  {
-    if(m_encoding == Encoding::TEXT) {
-      return m_scanner.number();
+    for(const Element& element : m_header.elements) {
+      const std::size_t least_size = std::max<std::size_t>(1, element.properties.size());
+      m_source.check_count("items of element " + element.name, element.count, least_size);
+      if(is_of_vertices(element)) {
+        read_vertices(element);
+      } else if(is_of_faces(element)) {
+        read_faces(element);
+      } else if(element.name == "tristrips") {
+        read_strips(element);
+      } else {
+        read_items(
+            m_source, element, m_reader, 0, [](std::size_t, double) {}, [](std::size_t) {});
+      }
     }
-    const std::size_t size = size_of(type);
-    if(std::size_t(m_end - m_position) < size) {
-      m_position = m_end;
-      return std::nullopt;
-    }
-    const bool is_reversed = m_encoding == Encoding::BIG_ENDIAN_BINARY;
-    char bytes[8];
-    for(std::size_t i = 0; i < size; ++i) {
-      bytes[is_reversed ? size - 1 - i : i] = m_position[i];
-    }
-    m_position += size;
-    return decode(type, bytes);
+    take_uv();
+    warn_of_end();
+    return std::move(m_mesh);
   }
 
 private:
-  template <typename T>
-  static double as(const char* bytes)
-  {
-    T value; // on the little-endian machines that this program is built for
-    std::memcpy(&value, bytes, sizeof value);
-    return double(value);
-  }
+  // ---- vertices
 
-  static double decode(Type type, const char* bytes)
+  /// The properties of vertices that are of use, by their places in the element.
+  struct Vertex_properties
   {
-    switch(type) {
-    case Type::INT8:
-      return as<std::int8_t>(bytes);
-    case Type::UINT8:
-      return as<std::uint8_t>(bytes);
-    case Type::INT16:
-      return as<std::int16_t>(bytes);
-    case Type::UINT16:
-      return as<std::uint16_t>(bytes);
-    case Type::INT32:
-      return as<std::int32_t>(bytes);
-    case Type::UINT32:
-      return as<std::uint32_t>(bytes);
-    case Type::FLOAT32:
-      return as<float>(bytes);
-    case Type::FLOAT64:
-      break;
+    std::array<std::size_t, 5> places; // of x, y, z, u, v
+    bool has_uv;
+  };
+
+  Vertex_properties properties_of_vertices(const Element& element) const
+  {
+    const Vertex_properties p{{element.index_of({"x"}), element.index_of({"y"}),
+                               element.index_of({"z"}), element.index_of({"texture_u", "s", "u"}),
+                               element.index_of({"texture_v", "t", "v"})},
+                              false};
+    if(*std::max_element(p.places.begin(), p.places.begin() + 3) == element.properties.size()) {
+      m_source.fail("the vertices have no properties x, y and z, export the mesh again");
     }
-    return as<double>(bytes);
+    return {p.places, std::max(p.places[3], p.places[4]) < element.properties.size()};
   }
 
-  Encoding m_encoding;
-  const char* m_position;
-  const char* m_end;
-  Text_scanner m_scanner;
+  void add_vertex(const std::array<double, 5>& values, bool has_uv)
+  {
+    m_mesh.soup.points.emplace_back(values[0], values[1], values[2]);
+    if(has_uv) {
+      m_mesh.soup.uv.emplace_back(values[3], values[4]);
+    }
+  }
+
+  void read_vertices(const Element& element)
+  {
+    const Vertex_properties of_use = properties_of_vertices(element);
+    m_mesh.soup.points.reserve(element.count);
+    const std::size_t done = read_vertices_at_once(element, of_use);
+    std::array<double, 5> values{};
+    read_items(
+        m_source, element, m_reader, done,
+        [&](std::size_t property, double value) {
+          for(std::size_t i = 0; i < values.size(); ++i) {
+            values[i] = property == of_use.places[i] ? value : values[i];
+          }
+        },
+        [&](std::size_t) { add_vertex(values, of_use.has_uv); });
+  }
+
+  // Vertices of a binary file that all have the same size, if they all are there; returns how many
+  // were read: all or none.
+  std::size_t read_vertices_at_once(const Element& element, const Vertex_properties& of_use)
+  {
+    const Property* properties = element.properties.data();
+    const Property* end = properties + element.properties.size();
+    const std::size_t size = size_of(properties, end);
+    const bool has_list =
+        std::any_of(properties, end, [](const Property& p) { return p.list_size.has_value(); });
+    if(has_list || !m_reader.is_little_endian() || m_reader.bytes_left() / size < element.count) {
+      return 0;
+    }
+    std::array<std::pair<Type, std::size_t>, 5> wanted; // types and offsets
+    const std::size_t number = of_use.has_uv ? 5 : 3;
+    for(std::size_t i = 0; i < number; ++i) {
+      const Property* property = properties + of_use.places[i];
+      wanted[i] = {property->type, size_of(properties, property)};
+    }
+    std::array<double, 5> values{};
+    for(std::size_t v = 0; v < element.count; ++v, m_reader.skip(size)) {
+      m_source.advance(m_reader.position(), v);
+      for(std::size_t i = 0; i < number; ++i) {
+        values[i] = decode(wanted[i].first, m_reader.position() + wanted[i].second);
+      }
+      add_vertex(values, of_use.has_uv);
+    }
+    return element.count;
+  }
+
+  // ---- faces
+
+  // The vertex that a value of a face names, or a complaint.
+  std::uint32_t vertex(double value) const
+  {
+    const std::size_t face = m_mesh.soup.number_of_faces();
+    if(value >= 0 && value < double(m_vertices) && value == std::floor(value)) {
+      return std::uint32_t(value);
+    }
+    const bool is_whole = value == std::floor(value) && std::abs(value) < 1e15;
+    m_source.fail("face " + std::to_string(face) + " names vertex "
+                  + (is_whole ? std::to_string((long long)(value)) : std::to_string(value)) + " "
+                  + m_reader.place()
+                  + (is_whole ? " but there are " + std::to_string(m_vertices) + " vertices"
+                              : std::string(", which is no whole number"))
+                  + ", the file is damaged: export it again");
+  }
+
+  std::size_t list_of_corners(const Element& element) const
+  {
+    const std::size_t corners = element.index_of({"vertex_indices", "vertex_index"});
+    if(corners == element.properties.size() || !element.properties[corners].list_size) {
+      m_source.fail("the " + std::string(is_of_faces(element) ? "faces" : "triangle strips")
+                    + " have no list of vertex_indices, export the mesh again");
+    }
+    return corners;
+  }
+
+  void read_faces(const Element& element)
+  {
+    Polygon_soup& soup = m_mesh.soup;
+    const std::size_t corners = list_of_corners(element);
+    const std::size_t texcoord = element.index_of({"texcoord"});
+    std::vector<double> texture; // of one face: u and v of each corner
+    m_has_corner_uv = texcoord < element.properties.size();
+    m_is_corner_uv_whole = true;
+    soup.first_corner.reserve(soup.first_corner.size() + element.count);
+    soup.corners.reserve(soup.corners.size() + 3 * element.count);
+    const std::size_t done = read_faces_at_once(element, corners);
+    read_items(
+        m_source, element, m_reader, done,
+        [&](std::size_t property, double value) {
+          if(property == corners) {
+            soup.corners.push_back(vertex(value));
+          } else if(property == texcoord) {
+            texture.push_back(value);
+          }
+        },
+        [&](std::size_t) {
+          close_face();
+          add_corner_uv(texture);
+          texture.clear();
+        });
+  }
+
+  void close_face()
+  {
+    m_source.check_index("corners", m_mesh.soup.corners.size());
+    m_mesh.soup.close_face();
+  }
+
+  void add_corner_uv(const std::vector<double>& texture)
+  {
+    const auto last = m_mesh.soup.first_corner.rbegin();
+    m_is_corner_uv_whole = m_is_corner_uv_whole && texture.size() == 2 * (last[0] - last[1]);
+    for(std::size_t i = 0; m_is_corner_uv_whole && i < texture.size(); i += 2) {
+      m_corner_uv.emplace_back(texture[i], texture[i + 1]);
+    }
+  }
+
+  // Faces of a binary file that have one list, of 32-bit indices counted by a byte, up to the first
+  // that is not good; returns how many were read.
+  std::size_t read_faces_at_once(const Element& element, std::size_t corners)
+  {
+    Polygon_soup& soup = m_mesh.soup;
+    const Property* list = element.properties.data() + corners;
+    const Property* end = element.properties.data() + element.properties.size();
+    const auto lists = std::count_if(element.properties.begin(), element.properties.end(),
+                                     [](const Property& p) { return p.list_size.has_value(); });
+    if(!m_reader.is_little_endian() || lists != 1 || list->list_size != Type::UINT8
+       || (list->type != Type::INT32 && list->type != Type::UINT32))
+    {
+      return 0;
+    }
+    const std::size_t before = size_of(element.properties.data(), list);
+    const std::size_t other = before + size_of(list + 1, end) + 1; // bytes but the indices
+    for(std::size_t f = 0; f < element.count; ++f) {
+      const char* position = m_reader.position();
+      m_source.advance(position, f);
+      const std::size_t left = m_reader.bytes_left();
+      const std::size_t number = left > before ? std::uint8_t(position[before]) : 256;
+      if(left < other + 4 * number) {
+        return f;
+      }
+      const std::size_t first = soup.corners.size();
+      for(const char* p = position + before + 1; soup.corners.size() < first + number; p += 4) {
+        const std::uint32_t v = little_endian<std::uint32_t>(p); // a negative one is too large
+        if(v >= m_vertices) {
+          soup.corners.resize(first);
+          return f;
+        }
+        soup.corners.push_back(v);
+      }
+      close_face();
+      m_reader.skip(other + 4 * number);
+    }
+    return element.count;
+  }
+
+  // ---- triangle strips
+
+  // Each strip is a list of vertices in which -1 begins a new one.
+  void read_strips(const Element& element)
+  {
+    const std::size_t corners = list_of_corners(element);
+    std::vector<std::uint32_t> strip;
+    const auto end_strip = [&](std::size_t) {
+      add_strip(strip);
+      strip.clear();
+    };
+    read_items(
+        m_source, element, m_reader, 0,
+        [&](std::size_t property, double value) {
+          if(property == corners && value == -1) {
+            end_strip(0);
+          } else if(property == corners) {
+            strip.push_back(vertex(value));
+          }
+        },
+        end_strip);
+  }
+
+  // Triangles that only lead from one strip to the next have a vertex twice.
+  void add_strip(const std::vector<std::uint32_t>& strip)
+  {
+    for(std::size_t i = 2; i < strip.size(); ++i) {
+      const std::uint32_t a = strip[i - 2 + i % 2], b = strip[i - 1 - i % 2], c = strip[i];
+      if(a != b && b != c && c != a) {
+        m_mesh.soup.corners.insert(m_mesh.soup.corners.end(), {a, b, c});
+        close_face();
+      }
+    }
+  }
+
+  // ---- at the end
+
+  // Texture coordinates of corners, rather than of vertices.
+  void take_uv()
+  {
+    Polygon_soup& soup = m_mesh.soup;
+    if(m_has_corner_uv && m_is_corner_uv_whole && m_corner_uv.size() == soup.corners.size()) {
+      soup.uv = std::move(m_corner_uv);
+      soup.uv_corners.resize(soup.uv.size());
+      std::iota(soup.uv_corners.begin(), soup.uv_corners.end(), 0u);
+      return;
+    }
+    if(soup.uv.size() == soup.points.size()) {
+      soup.uv_corners = soup.corners;
+    } else {
+      soup.uv.clear();
+    }
+    if(m_has_corner_uv) {
+      m_mesh.warnings.push_back("not all corners have texture coordinates of their own; "
+                                "these are left out");
+    }
+  }
+
+  void warn_of_end()
+  {
+    if(m_header.encoding == Encoding::TEXT) {
+      m_source.warn_of_open_end(m_mesh);
+    } else if(m_reader.bytes_left() > 0) {
+      m_mesh.warnings.push_back(std::to_string(m_reader.bytes_left()) + " bytes from byte "
+                                + std::to_string(m_reader.position() - m_source.begin)
+                                + " on are ignored: the header promises no more");
+    }
+  }
+
+  const Mesh_source& m_source;
+  Header m_header;
+  Value_reader m_reader;
+  Read_mesh m_mesh;
+  std::size_t m_vertices = 0; // of all elements
+  std::vector<Polygon_soup::Point_2> m_corner_uv;
+  bool m_has_corner_uv = false;
+  bool m_is_corner_uv_whole = true;
 };
-
-/// Reads all items of an element and hands the values of each property to `use(property, value)`.
-template <typename Use, typename EndOfItem>
-void read_items(const Mesh_source& source, const Element& element, Value_reader& reader, Use use,
-                EndOfItem end_of_item)
-{
-  for(std::size_t item = 0; item < element.count; ++item) {
-    source.advance(reader.position(), item);
-    for(std::size_t p = 0; p < element.properties.size(); ++p) {
-      const Property& property = element.properties[p];
-      const auto count = property.list_size ? reader.value(*property.list_size) : 1.;
-      bool is_good = count && *count >= 0;
-      for(double i = 0; is_good && i < *count; ++i) {
-        const auto value = reader.value(property.type);
-        is_good = value.has_value();
-        if(is_good) {
-          use(p, *value);
-        }
-      }
-      if(!is_good) {
-        source.fail("property " + property.name + " of " + element.name + " " + std::to_string(item)
-                    + " of " + std::to_string(element.count)
-                    + " cannot be read, the file is cut short or damaged: copy or export it again");
-      }
-    }
-    end_of_item();
-  }
-}
-
-void read_vertices(const Mesh_source& source, const Element& element, Value_reader& reader,
-                   Polygon_soup& soup)
-{
-  const std::size_t xyz[] = {element.index_of({"x"}), element.index_of({"y"}),
-                             element.index_of({"z"})};
-  if(*std::max_element(xyz, xyz + 3) == element.properties.size()) {
-    source.fail("the vertices have no properties x, y and z, export the mesh again");
-  }
-  const std::size_t uv[] = {element.index_of({"texture_u", "s", "u"}),
-                            element.index_of({"texture_v", "t", "v"})};
-  const bool has_uv = *std::max_element(uv, uv + 2) < element.properties.size();
-  soup.points.reserve(element.count);
-  std::array<double, 3> point{};
-  std::array<double, 2> texture{};
-  read_items(
-      source, element, reader,
-      [&](std::size_t property, double value) {
-        for(std::size_t i = 0; i < 3; ++i) {
-          if(property == xyz[i]) {
-            point[i] = value;
-          }
-        }
-        for(std::size_t i = 0; i < 2; ++i) {
-          if(property == uv[i]) {
-            texture[i] = value;
-          }
-        }
-      },
-      [&] {
-        soup.points.emplace_back(point[0], point[1], point[2]);
-        if(has_uv) {
-          soup.uv.emplace_back(texture[0], texture[1]);
-        }
-      });
-}
-
-void read_faces(const Mesh_source& source, const Element& element, Value_reader& reader,
-                Polygon_soup& soup)
-{
-  const std::size_t corners = element.index_of({"vertex_indices", "vertex_index"});
-  if(corners == element.properties.size() || !element.properties[corners].list_size) {
-    source.fail("the faces have no list of vertex_indices, export the mesh again");
-  }
-  const std::size_t texcoord = element.index_of({"texcoord"});
-  std::vector<double> texture; // of one face: u and v of each corner
-  std::vector<Polygon_soup::Point_2> uv;
-  bool has_uv = texcoord < element.properties.size();
-  soup.first_corner.reserve(element.count + 1);
-  soup.corners.reserve(3 * element.count);
-  read_items(
-      source, element, reader,
-      [&](std::size_t property, double value) {
-        if(property == corners) {
-          source.add_corner(soup, value >= 0 && value < 4294967296. ? (long long)(value) : -1);
-        } else if(property == texcoord) {
-          texture.push_back(value);
-        }
-      },
-      [&] {
-        has_uv = has_uv && texture.size() == 2 * (soup.corners.size() - soup.first_corner.back());
-        for(std::size_t i = 0; has_uv && i < texture.size(); i += 2) {
-          uv.emplace_back(texture[i], texture[i + 1]);
-        }
-        texture.clear();
-        soup.close_face();
-      });
-  if(has_uv) { // of corners, rather than of vertices
-    soup.uv = std::move(uv);
-    soup.uv_corners.resize(soup.uv.size());
-    std::iota(soup.uv_corners.begin(), soup.uv_corners.end(), 0u);
-  } else if(!soup.uv.empty()) {
-    soup.uv_corners = soup.corners;
-  }
-}
 
 } // namespace
 
-Read_mesh read_ply(const Mesh_source& source)
-{
-  const Header header = ply::read_header(source);
-  Value_reader reader(header, source.end);
-  Read_mesh mesh;
-  for(const Element& element : header.elements) {
-    const std::size_t least_size = std::max<std::size_t>(1, element.properties.size());
-    source.check_count("items of element " + element.name, element.count, least_size);
-    if(element.name == "vertex" || element.name == "vertices") {
-      read_vertices(source, element, reader, mesh.soup);
-    } else if(element.name == "face" || element.name == "faces") {
-      read_faces(source, element, reader, mesh.soup);
-    } else if(element.name == "tristrips") {
-      source.fail("triangle strips are not supported, export the mesh with faces");
-    } else {
-      read_items(
-          source, element, reader, [](std::size_t, double) {}, [] {});
-    }
-  }
-  if(header.encoding == Encoding::TEXT) {
-    source.warn_of_open_end(mesh);
-  }
-  return mesh;
-}
+Read_mesh read_ply(const Mesh_source& source) { return Ply_reader(source).read(); }
 
 } // namespace hlscm

@@ -4,8 +4,9 @@
 #ifndef HLSCM_PROGRAM_TEXT_SCANNER_H
 #define HLSCM_PROGRAM_TEXT_SCANNER_H
 
-#include <charconv>
-#include <cstdlib>
+#include "formats/Decimal_number.h"
+
+#include <algorithm>
 #include <cstring>
 #include <optional>
 #include <string>
@@ -14,29 +15,40 @@
 namespace hlscm {
 
 /// Reads words and numbers from a range of bytes, either within the current line or across lines.
+///
+/// A line ends with a line feed, with a carriage return, or with both in this order.
 class Text_scanner
 {
 public:
   Text_scanner(const char* begin, const char* end)
-    : m_position(begin), m_line_end(begin), m_end(end)
+    : m_position(begin), m_line_end(begin), m_content_end(begin), m_end(end),
+      m_feed(find('\n', begin)), m_return(find('\r', begin))
   {}
 
+  Text_scanner(const Text_scanner&) = delete;
+  Text_scanner& operator=(const Text_scanner&) = delete;
+
   const char* position() const { return m_position; }
-  std::size_t line_number() const { return m_line; }
+  /// Where the current line ends, and the next one does not begin yet.
+  const char* line_end() const { return m_line_end; }
+  /// The number of the line, from 1; of several lines that are one, that of the first.
+  std::size_t line_number() const { return m_first_line; }
 
   /// Goes to the next line; false at the end of the text.
   bool next_line()
   {
     m_position = m_line_end;
     if(m_line > 0 && m_position < m_end) {
-      ++m_position; // the line feed
+      ++m_position; // what ends the line
     }
     if(m_position >= m_end) {
       return false;
     }
-    ++m_line;
-    const void* feed = std::memchr(m_position, '\n', std::size_t(m_end - m_position));
-    m_line_end = feed != nullptr ? static_cast<const char*>(feed) : m_end;
+    m_first_line = ++m_line;
+    m_feed = m_feed < m_position ? find('\n', m_position) : m_feed;
+    m_return = m_return < m_position ? find('\r', m_position) : m_return;
+    m_line_end = m_return < m_feed && m_return + 1 != m_feed ? m_return : m_feed;
+    m_content_end = m_line_end;
     return true;
   }
 
@@ -44,8 +56,7 @@ public:
   bool next_content_line(char comment = '#')
   {
     while(next_line()) {
-      const void* mark = std::memchr(m_position, comment, std::size_t(m_line_end - m_position));
-      m_content_end = mark != nullptr ? static_cast<const char*>(mark) : m_line_end;
+      end_content_at(comment);
       if(!is_line_done()) {
         return true;
       }
@@ -54,9 +65,24 @@ public:
     return false;
   }
 
+  /// The same where a backslash at the end of a line continues it.
+  bool next_continued_line()
+  {
+    if(!next_content_line()) {
+      return false;
+    }
+    if(is_continued()) {
+      join_lines();
+    }
+    return true;
+  }
+
   /// Lets the following words and numbers be read across the ends of lines, up to the end of the
   /// text.
   void ignore_lines() { m_content_end = m_line_end = m_end; }
+
+  /// Passes over what is left of the line.
+  void skip_line() { m_position = m_content_end; }
 
   /// Whether only white space is left.
   bool is_line_done()
@@ -64,9 +90,6 @@ public:
     skip_space();
     return m_position == m_content_end;
   }
-
-  /// Whether the line ends with the text instead of a line feed.
-  bool is_last_line_open() const { return m_line_end == m_end; }
 
   /// The characters up to the next white space; empty if none is left.
   std::string_view word()
@@ -79,42 +102,76 @@ public:
     return std::string_view(begin, std::size_t(m_position - begin));
   }
 
+  /// What is left of the line but white space at both ends, a comment included.
+  std::string_view rest()
+  {
+    const bool is_joined = m_content_end == m_joined.data() + m_joined.size();
+    const char* end = is_joined ? m_content_end : m_line_end;
+    skip_space();
+    while(end > m_position && is_space(end[-1])) {
+      --end;
+    }
+    return std::string_view(m_position, std::size_t(end - m_position));
+  }
+
   /// The next word as a number ("nan" and "inf" are numbers); nothing if it is not one.
   std::optional<double> number()
   {
-    const std::string_view text = without_plus(word());
-    double value = 0;
-    const std::from_chars_result result =
-        std::from_chars(text.data(), text.data() + text.size(), value);
-    if(text.empty() || result.ptr != text.data() + text.size()) {
-      return std::nullopt;
+    skip_space();
+    const char* p = m_position;
+    Decimal_digits decimal;
+    decimal.read(p, m_content_end);
+    if(p == m_content_end || is_space(*p)) {
+      if(const auto value = decimal.exact_value()) {
+        m_position = p;
+        return value;
+      }
     }
-    if(result.ec == std::errc::result_out_of_range) {
-      return std::strtod(std::string(text).c_str(), nullptr); // infinite, or (almost) zero
-    }
-    return value;
+    return to_number(word());
   }
 
   std::optional<long long> integer() { return to_integer(word()); }
 
-  static std::optional<long long> to_integer(std::string_view text)
+private:
+  const char* find(char c, const char* from) const
   {
-    text = without_plus(text);
-    long long value = 0;
-    const std::from_chars_result result =
-        std::from_chars(text.data(), text.data() + text.size(), value);
-    if(text.empty() || result.ec != std::errc() || result.ptr != text.data() + text.size()) {
-      return std::nullopt;
-    }
-    return value;
+    const void* found = from < m_end ? std::memchr(from, c, std::size_t(m_end - from)) : nullptr;
+    return found != nullptr ? static_cast<const char*>(found) : m_end;
   }
 
-private:
-  static bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
-
-  static std::string_view without_plus(std::string_view text)
+  void end_content_at(char comment)
   {
-    return text.size() > 1 && text[0] == '+' ? text.substr(1) : text;
+    const void* mark = std::memchr(m_position, comment, std::size_t(m_line_end - m_position));
+    m_content_end = mark != nullptr ? static_cast<const char*>(mark) : m_line_end;
+  }
+
+  // Whether the content ends with a backslash, which is no part of it then.
+  bool is_continued()
+  {
+    const char* last = m_content_end;
+    while(last > m_position && is_space(last[-1])) {
+      --last;
+    }
+    if(last == m_position || last[-1] != '\\') {
+      return false;
+    }
+    m_content_end = last - 1;
+    return true;
+  }
+
+  void join_lines()
+  {
+    const std::size_t first = m_line;
+    std::string joined(m_position, m_content_end);
+    for(bool goes_on = true; goes_on && next_line();) {
+      end_content_at('#');
+      goes_on = is_continued();
+      joined.append(1, ' ').append(m_position, m_content_end);
+    }
+    m_first_line = first;
+    m_joined = std::move(joined);
+    m_position = m_joined.data();
+    m_content_end = m_joined.data() + m_joined.size();
   }
 
   void skip_space()
@@ -125,10 +182,14 @@ private:
   }
 
   const char* m_position;
-  const char* m_line_end;                 // of the whole line
-  const char* m_content_end = m_line_end; // without a comment
+  const char* m_line_end;    // of the whole line
+  const char* m_content_end; // without a comment
   const char* m_end;
+  const char* m_feed;   // the first line feed that is not before the line, or the end
+  const char* m_return; // the first carriage return
   std::size_t m_line = 0;
+  std::size_t m_first_line = 0;
+  std::string m_joined; // lines that are one
 };
 
 } // namespace hlscm
