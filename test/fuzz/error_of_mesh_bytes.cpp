@@ -116,7 +116,7 @@ std::string error_in_format(const std::string& file_name, std::string_view bytes
 
 std::string error_of_mesh_bytes(std::string_view bytes)
 {
-  for(const std::string name : {"mesh.off", "mesh.obj", "mesh.ply", "mesh.stl"}) {
+  for(const std::string name : {"mesh.off", "mesh.obj", "mesh.ply", "mesh.stl", "mesh.gltf", "-"}) {
     const std::string error = error_in_format(name, bytes);
     if(!error.empty()) {
       return name + ": " + error;

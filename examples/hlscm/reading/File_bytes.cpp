@@ -24,11 +24,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t piece = std::size_t(1) << 22; // a slow disk or pipe does not hold up Ctrl-C
 
-// A packed file may be any size up to this, and beyond it so many times its own: meshes pack to a
-// tenth or so, hardly ever to a hundredth.
-constexpr std::size_t largest_harmless_size = std::size_t(1) << 30;
-constexpr std::size_t largest_ratio = 200;
-
 class Open_file
 {
 public:
@@ -193,10 +188,11 @@ private:
 
 } // namespace
 
-File_bytes unpack(const std::string& file_name, const char* begin, const char* end)
+File_bytes unpack(const std::string& file_name, const char* begin, const char* end,
+                  const Unpacking_limits& limits)
 {
   const std::size_t packed_size = std::size_t(end - begin);
-  const std::size_t limit = std::max(largest_harmless_size, largest_ratio * packed_size);
+  const std::size_t limit = std::max(limits.harmless_size, limits.ratio * packed_size);
   Unpacking unpacking(begin, end);
   File_bytes bytes;
   while(!unpacking.is_at_end()) {

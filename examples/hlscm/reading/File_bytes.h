@@ -49,9 +49,17 @@ std::string name_in_messages(const std::string& file_name);
 /// Whether bytes are those of a file packed by gzip.
 bool is_packed(const char* begin, const char* end);
 
-/// Returns the bytes that a file packed by gzip holds. Throws `Program_error` if it is damaged, or
-/// if it unpacks to more than any mesh would.
-File_bytes unpack(const std::string& file_name, const char* begin, const char* end);
+/// How much a packed file may hold. Meshes pack to a tenth or so, hardly ever to a hundredth.
+struct Unpacking_limits
+{
+  std::size_t harmless_size = std::size_t(1) << 30; ///< bytes that any file may hold
+  std::size_t ratio = 200;                          ///< beyond these: so many times its own size
+};
+
+/// Returns the bytes that a file packed by gzip holds. Throws `Program_error` if it is damaged, or if
+/// it holds more than any mesh would.
+File_bytes unpack(const std::string& file_name, const char* begin, const char* end,
+                  const Unpacking_limits& limits = {});
 
 } // namespace hlscm
 
