@@ -8,6 +8,7 @@
 #include <CGAL/Indexed_mesh/internal/Soup_sides.h>
 #include <CGAL/Indexed_mesh/internal/Soup_triangles.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -102,6 +103,16 @@ std::vector<std::uint32_t> uv_corners_of_soup(const Polygon_soup& soup,
 std::vector<std::uint32_t> cut_faces(const Polygon_soup& soup, const Surface_of_soup& surface,
                                      const std::vector<Triangle_indices>& wedges);
 
+/// \ingroup PkgHLSCMIndexedMesh
+/// Returns the first vertex of the surface that stands for a vertex of the soup, or `no_vertex`.
+/// Logarithmic time.
+inline Vertex_index vertex_of_surface(const Surface_of_soup& surface, std::size_t v)
+{
+  const auto found = std::lower_bound(surface.vertex.begin(), surface.vertex.end(), v);
+  return found != surface.vertex.end() && *found == v
+         ? Vertex_index(found - surface.vertex.begin()) : no_vertex;
+}
+
 // ---------------------------------------------------------------------------------------------
 
 inline std::vector<std::string> Soup_repairs::sentences() const
@@ -194,15 +205,20 @@ inline Surface_of_soup surface_of_soup(const Polygon_soup& soup)
     result.fail(Mesh_status::BAD_MESH, "no face has three different vertices");
     return result;
   }
-  for(const bool joins : {true, false}) { // fans with joins may, rarely, meet an edge twice
-    internal::Soup_sides sides(soup, triangles);
-    const bool has_joins = joins && sides.join_crossings();
+  typedef internal::Crossing_joints Joints;
+  for(const Joints joints : {Joints::ALL, Joints::DIAGONALS, Joints::NONE}) {
+    internal::Soup_sides sides(soup, triangles, joints);
     sides.turn(triangles);
     internal::number_vertices(soup, sides, triangles, result);
     result.repairs.cut = sides.cut;
     result.repairs.separated = sides.separated;
-    if(!has_joins || Vertex_rings(result.mesh).defect() == Ring_defect::NONE)
-      break;
+    if(sides.separated && joints != Joints::NONE // joined fans may, rarely, meet an edge twice
+       && Vertex_rings(result.mesh).defect() != Ring_defect::NONE)
+      continue;
+    for(Halfedge h = 0; triangles.triangulated && h < 3 * triangles.vertices.size(); ++h)
+      if(!sides.is_within_face(h))
+        triangles.diagonals[triangle_of(h)] &= std::uint8_t(~(1u << corner_of(h)));
+    break;
   }
   result.repairs.triangulated = triangles.triangulated;
   result.repairs.folded = triangles.folded;
