@@ -318,7 +318,8 @@ TEST(Reading, names_the_place_of_what_it_cannot_read)
        "face 1 of 2 cannot be read at byte " + std::to_string(short_ply.size())},
       {"m.ply", far_ply, "face 1 names vertex 9 at byte " + std::to_string(far_ply.size())},
       {"m.ply", strips + corners + "4 0 1 2 3\n", "face 0 names vertex 3"},
-      {"m.ply", strips + "property int x\nend_header\n0 0 0\n1 0 0\n0 1 0\n", "no list of vertex_indices"},
+      {"m.ply", strips + "property int x\nend_header\n0 0 0\n1 0 0\n0 1 0\n",
+       "no list of vertex_indices"},
       {"m.stl", replaced(stl_text(), "vertex 1 1 0", "vertex 1 x 0"),
        "triangle 0 has a corner without three coordinates in line 6"},
       {"m.stl", replaced(stl_text(), "vertex 1 1 0\n", ""), "triangle 0 has 2 corners in line 7"},
@@ -337,6 +338,33 @@ TEST(Reading, names_the_place_of_what_it_cannot_read)
     EXPECT_FALSE(outcome.mesh) << words;
     EXPECT_NE(outcome.error.find(words), std::string::npos) << words << "\n" << outcome.error;
     EXPECT_EQ(outcome.error.find('\n'), std::string::npos) << outcome.error;
+  }
+}
+
+// Every proper beginning of a file is refused, or it lacks nothing but white space, or there is a
+// warning.
+TEST(Reading, notices_files_that_were_cut_short)
+{
+  std::vector<Variant> files = ply_variants();
+  const std::vector<Variant> off_files = off_variants();
+  files.insert(files.end(), off_files.begin(), off_files.end());
+  files.push_back({"obj", "m.obj", clean_obj});
+  files.push_back({"packed obj", "m.obj.gz", packed(clean_obj)});
+  files.push_back({"binary stl", "m.stl", stl_binary("solid")});
+  files.push_back({"stl", "m.stl", stl_text().substr(0, stl_text().size() - 3)});
+  for(const Variant& file : files) {
+    const std::string& bytes = file.bytes;
+    const std::size_t end = file.what == "binary with bytes behind" ? bytes.size() - 2
+                            : file.what == "stl"                    ? bytes.size() - 1
+                                                                    : bytes.size();
+    for(std::size_t size = 0; size < end; ++size) {
+      const Outcome outcome = read(file.name, bytes.substr(0, size));
+      const bool is_complete = bytes.find_first_not_of(" \n\r#7", size) == std::string::npos;
+      // Between two faces of OBJ nothing tells that more should follow.
+      const bool is_between = file.what == "obj" && size > 0 && bytes[size - 1] == '\n';
+      EXPECT_TRUE(!outcome.mesh || !outcome.mesh->warnings.empty() || is_complete || is_between)
+          << file.what << " " << size;
+    }
   }
 }
 
