@@ -124,6 +124,11 @@ void print_text(const std::string& file, const Diagnosis& d, const Plan& plan,
   for(const std::string& step : steps(plan, d)) {
     std::cout << "  " << step << "\n";
   }
+  const std::vector<Obstacle> reasons = obstacles(d);
+  row("is a chart as it is") << (reasons.empty() ? "yes" : "no") << "\n";
+  for(const Obstacle& reason : reasons) {
+    std::cout << "  " << reason.what << ": " << reason.remedy << "\n";
+  }
 }
 
 void print_json(const std::string& file, const Diagnosis& d, const Plan& plan,
@@ -147,7 +152,8 @@ void print_json(const std::string& file, const Diagnosis& d, const Plan& plan,
   }
   const std::vector<Obstacle> reasons = obstacles(d);
   json["warnings"] = warnings;
-  json["can_be_mapped"] = plan.refusal.empty();
+  json["can_be_parameterized"] = plan.refusal.empty();
+  json["can_have_an_atlas"] = plan.refusal.empty();
   json["is_chart"] = reasons.empty();
   json["repairs"] = to_json(plan.repairs);
   json["components_to_cut"] = plan.cut;

@@ -174,13 +174,9 @@ Mapped_surface map_components(const Input_surface& input, const Program_options&
   SMT::Surface_map_options map;
   map.no_seams = input.surface.diagonals;
   map.pins = pins;
-  const std::size_t whole = input.surface.mesh.triangles.size();
-  map.map = [&](const Indexed_triangle_mesh& component, const std::vector<SMP::HLSCM_pin>& fixed) {
-    SMP::HLSCM_options library = options.library;
-    const bool is_small = component.triangles.size() < map.direct_faces;
-    if(component.triangles.size() < whole && is_small) {
-      library.method = SMP::Conformal_method::DIRECT;
-    }
+  map.solver = options.library;
+  map.map = [&](const Indexed_triangle_mesh& component, const std::vector<SMP::HLSCM_pin>& fixed,
+                const SMP::HLSCM_options& library) {
     try {
       return map_component(options, library, component, fixed, progress);
     } catch(const Program_error& error) {

@@ -24,21 +24,25 @@ namespace Surface_mesh_texturing {
 
 /// \ingroup PkgHLSCMTexturing
 /// Maps a connected mesh of genus 0 that has a border, with pins, by the indices of its vertices, or
-/// without.
+/// without, and with the options that `map_surface()` has for it.
 typedef std::function<Surface_mesh_parameterization::Conformal_map(
   const Indexed_triangle_mesh& component,
-  const std::vector<Surface_mesh_parameterization::HLSCM_pin>& pins)>
+  const std::vector<Surface_mesh_parameterization::HLSCM_pin>& pins,
+  const Surface_mesh_parameterization::HLSCM_options& options)>
   Component_map_function;
 
 /// \ingroup PkgHLSCMTexturing
 /// The options of `map_surface()`.
 struct Surface_map_options
 {
-  /// How each component is mapped. Progress is that of the whole.
+  /// How each component is mapped. Progress is that of the whole. Where the method is `HLSCM`, what
+  /// was cut and has no pins is mapped by `SPECTRAL` all the same: the surfaces of bodies have limbs,
+  /// which two pins make very small.
   Surface_mesh_parameterization::HLSCM_options solver;
-  /// Of several components, those with fewer triangles are mapped by a direct solver all the same.
+  /// Of several components, those with fewer triangles are mapped by a direct solver where the method
+  /// is `HLSCM`.
   std::size_t direct_faces = 20000;
-  /// What maps them in the place of `solver`; nothing by default.
+  /// What maps them in the place of `conformal_map()`; nothing by default.
   Component_map_function map;
   /// Vertices of the mesh with given parameters. A component with pins stays where they put it; the
   /// others lie to the right of it, at its density.
@@ -164,28 +168,38 @@ private:
     return result;
   }
 
-  Conformal_map solve(const Chart_mesh& part, const std::vector<Pin>& pins) const
+  Surface_mesh_parameterization::HLSCM_options options_of(std::size_t c, bool has_pins) const
   {
-    if(m_options.map)
-      return m_options.map(part.mesh, pins);
+    typedef Surface_mesh_parameterization::Conformal_method Method;
+    const std::size_t faces = m_parts[c].triangles.size();
     Surface_mesh_parameterization::HLSCM_options options = m_options.solver;
-    if(m_parts.size() > 1 && part.triangles.size() < m_options.direct_faces)
-      options.method = Surface_mesh_parameterization::Conformal_method::DIRECT;
+    if(options.method == Method::HLSCM && m_result.components[c].is_cut && !has_pins)
+      options.method = Method::SPECTRAL;
+    else if(options.method == Method::HLSCM && m_parts.size() > 1 && faces < m_options.direct_faces)
+      options.method = Method::DIRECT;
     if(m_options.solver.progress)
-      options.progress = [this, &part](double done) {
-        return m_options.solver.progress(
-          (double(m_faces_done) + done * double(part.triangles.size()))
-          / double(m_mesh.triangles.size()));
+      options.progress = [this, faces](double done) {
+        return m_options.solver.progress((double(m_faces_done) + done * double(faces))
+                                         / double(m_mesh.triangles.size()));
       };
-    return pins.empty() ? Surface_mesh_parameterization::conformal_map(part.mesh, options)
-                        : Surface_mesh_parameterization::conformal_map(part.mesh, pins, options);
+    return options;
+  }
+
+  Conformal_map solve(std::size_t c, const std::vector<Pin>& pins) const
+  {
+    const Indexed_triangle_mesh& mesh = m_parts[c].mesh;
+    const auto options = options_of(c, !pins.empty());
+    if(m_options.map)
+      return m_options.map(mesh, pins, options);
+    return pins.empty() ? Surface_mesh_parameterization::conformal_map(mesh, options)
+                        : Surface_mesh_parameterization::conformal_map(mesh, pins, options);
   }
 
   void map(std::size_t c)
   {
     const Chart_mesh& part = m_parts[c];
     const std::vector<Pin> pins = pins_of(part);
-    Conformal_map map = solve(part, pins);
+    Conformal_map map = solve(c, pins);
     Mapped_component& component = m_result.components[c];
     m_faces_done += part.triangles.size();
     component.report = std::move(map.report);

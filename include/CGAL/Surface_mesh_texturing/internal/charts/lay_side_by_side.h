@@ -51,7 +51,7 @@ struct Laid_component
       return std::sqrt(on_surface / in_map);
     const Bbox_2 b = box(); // without area: by the extent
     const double extent = (std::max)(b.xmax() - b.xmin(), b.ymax() - b.ymin());
-    return extent > 0. ? longest_side(bounding_box(mesh.points)) / extent : 0.;
+    return extent > 0. ? longest_side(Indexed_mesh::bounding_box(mesh.points)) / extent : 0.;
   }
 
   void move(double new_scale, double new_x, double new_y)
