@@ -286,6 +286,7 @@ TEST(Reading, names_the_place_of_what_it_cannot_read)
   short_ply.pop_back();
   far_ply[far_ply.size() - 4] = 9;
   const std::vector<std::tuple<std::string, std::string, std::string>> files{
+      {"m.obj", std::string("v 0\0", 4), "byte 3 is zero, this is no OBJ text"},
       {"m.obj", replaced(clean_obj, "1 2 3 4", "1/x 2 3 4"),
        "line 6 should hold the corners of face 0"},
       {"m.obj", replaced(clean_obj, "1 2 3 4", "1/1/1/1 2 3 4"), "line 6 "},

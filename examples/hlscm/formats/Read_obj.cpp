@@ -261,9 +261,11 @@ private:
 
 Read_mesh read_obj(const Mesh_source& source)
 {
-  if(std::memchr(source.begin, '\0', source.size()) != nullptr) {
-    source.fail("it holds zero bytes and is no OBJ text, the file is damaged or of another format: "
-                "export it again");
+  const void* zero = std::memchr(source.begin, '\0', source.size());
+  if(zero != nullptr) {
+    source.fail("byte " + std::to_string(static_cast<const char*>(zero) - source.begin)
+                + " is zero, this is no OBJ text, the file is damaged or of another format: "
+                  "export it again");
   }
   return Obj_reader(source).read();
 }
