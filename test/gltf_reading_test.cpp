@@ -409,6 +409,21 @@ TEST(Gltf_reading, warns_of_what_is_left_out)
   }
 }
 
+TEST(Gltf_reading, does_not_place_meshes_without_end)
+{
+  std::vector<double> indices;
+  for(std::size_t i = 0; i < 300000; ++i) {
+    indices.push_back(double(i % 3));
+  }
+  Gltf file = mesh_of(square, indices, UBYTE);
+  for(std::size_t n = 1; n < 500; ++n) {
+    file.json["nodes"].push_back({{"mesh", 0}});
+    file.json["scenes"][0]["nodes"].push_back(n);
+  }
+  const Outcome outcome = read("m.glb", file.glb());
+  EXPECT_NE(outcome.error.find("134217728 corners in all"), std::string::npos) << outcome.error;
+}
+
 TEST(Gltf_reading, names_what_it_cannot_read)
 {
   const std::string good = clean().glb();

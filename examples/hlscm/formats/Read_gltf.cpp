@@ -72,6 +72,7 @@ public:
   {
     check_extensions();
     const Scene scene = read_scene(m_file);
+    check_size(scene);
     for(std::size_t m = 0; m < scene.meshes.size(); ++m) {
       m_source.progress.advance(double(m) / double(scene.meshes.size()));
       add_mesh(scene.meshes[m], scene.meshes.size() > 1);
@@ -112,20 +113,62 @@ private:
     }
   }
 
-  void add_mesh(const Placed_mesh& placed, bool is_one_of_many)
+  const Json& primitives_of(const Element& mesh) const
   {
-    const Element mesh = m_file.element("meshes", "mesh", placed.mesh);
     const Json* primitives = File::member(mesh.json, "primitives");
     if(primitives == nullptr || !primitives->is_array()) {
       m_file.fail(mesh.name, "has no primitives");
     }
+    return *primitives;
+  }
+
+  // Few bytes may place a mesh many times: that should not fill the memory.
+  void check_size(const Scene& scene) const
+  {
+    constexpr std::size_t no_count = std::numeric_limits<std::size_t>::max();
+    const std::size_t most = std::max(std::size_t(1) << 27, 16 * m_source.size());
+    std::vector<std::size_t> indices(m_file.count("meshes"), no_count);
+    std::size_t sum = 0;
+    for(const Placed_mesh& placed : scene.meshes) {
+      const Element mesh = m_file.element("meshes", "mesh", placed.mesh);
+      const bool is_copy = indices[placed.mesh] != no_count;
+      if(!is_copy) {
+        indices[placed.mesh] = number_of_indices(mesh);
+      }
+      sum += indices[placed.mesh];
+      if(is_copy && sum > most) {
+        m_source.fail("its nodes place meshes with more than " + std::to_string(most)
+                      + " corners in all, too many for this program: export fewer copies");
+      }
+    }
+  }
+
+  std::size_t number_of_indices(const Element& mesh) const
+  {
+    std::size_t sum = 0;
+    for(const Json& primitive : primitives_of(mesh)) {
+      const Element element{primitive, mesh.name};
+      const Json* attributes = File::member(primitive, "attributes");
+      auto accessor = m_file.number(element, "indices");
+      if(!accessor && attributes != nullptr) {
+        accessor = m_file.number({*attributes, mesh.name}, "POSITION");
+      }
+      sum += accessor ? count_of_accessor(m_file, *accessor) : 0;
+    }
+    return sum;
+  }
+
+  void add_mesh(const Placed_mesh& placed, bool is_one_of_many)
+  {
+    const Element mesh = m_file.element("meshes", "mesh", placed.mesh);
+    const Json& primitives = primitives_of(mesh);
     const std::string name =
         printable(placed.name, is_one_of_many ? "mesh_" + std::to_string(placed.mesh) : "");
     if(!name.empty()) {
       add_line("o " + name);
     }
-    for(std::size_t p = 0; p < primitives->size(); ++p) {
-      add_primitive({(*primitives)[p], "primitive " + std::to_string(p) + " of " + mesh.name},
+    for(std::size_t p = 0; p < primitives.size(); ++p) {
+      add_primitive({primitives[p], "primitive " + std::to_string(p) + " of " + mesh.name},
                     placed.transform);
     }
   }

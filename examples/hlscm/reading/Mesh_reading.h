@@ -17,15 +17,15 @@ namespace hlscm {
 
 using CGAL::Indexed_mesh::Polygon_soup;
 
-/// A line of a file that is no vertex and no face, but belongs to the mesh: the name of an object or
-/// a group, a material, smoothing.
+/// A line of a file that is no vertex and no face, but belongs to the mesh: the name of an object, of
+/// a group or of a material, smoothing.
 struct Mesh_line
 {
   std::size_t face; ///< it stands before this one, counted from 0; or their number
   std::string text; ///< as in an OBJ file, without a line feed
 };
 
-/// A file read as it is: nothing merged (but the corners of STL triangles), nothing reordered.
+/// A file read as it is: nothing merged (but equal points of STL and glTF), nothing reordered.
 struct Read_mesh
 {
   Polygon_soup soup;
