@@ -99,6 +99,7 @@ void add_info(CLI::App& app, Program_options& o)
 {
   CLI::App* info = app.add_subcommand("info", "Say what a mesh is and what can be done with it");
   info->add_option("IN", o.input, "a mesh: .off, .obj, .ply or .stl")->required();
+  add_weld(*info, o);
   info->add_flag("--json", o.prints_json, "print JSON instead of text");
   info->callback([&o] { o.command = Command::INFO; });
 }

@@ -73,6 +73,7 @@ struct Program_options
   Command command = Command::PARAMETERIZE;
   std::string input;
   bool is_strict = false;                ///< what is no oriented manifold is refused
+  std::optional<Length> weld;           ///< vertices that are no farther apart become one
   std::optional<std::size_t> component; ///< of `parameterize`: the only one to be mapped
   bool is_quiet = false;
   bool is_verbose = false;  ///< of `parameterize`: shows the levels of the solver
