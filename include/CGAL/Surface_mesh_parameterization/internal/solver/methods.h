@@ -9,9 +9,11 @@
 #include <CGAL/Surface_mesh_parameterization/internal/repair/relax_flipped_faces.h>
 #include <CGAL/Surface_mesh_parameterization/internal/solver/Conformal_system.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <string>
 #include <type_traits>
 
 namespace CGAL {
@@ -100,6 +102,10 @@ inline Multigrid::Gap_estimate estimate_for(const Multigrid::Schedule& schedule)
            ? Multigrid::Gap_estimate::STEADY : Multigrid::Gap_estimate::WARY;
 }
 
+// The energy of a map without energy, for the square of its size, as rounding makes it: on strips of
+// 100,000 triangles that can be unrolled, factorization and iteration end between 1e-15 and 2e-13.
+constexpr double rounded_energy = 3e-13;
+
 // Conjugate gradients on one level, preconditioned by a cycle over those below, with pins or, for a
 // free map, by the quotient of energy and border. Levels below the finest are only starting points:
 // two steps are enough, since their minimisers differ from the finest one anyway.
@@ -122,6 +128,8 @@ public:
     stop.least_energy = least_energy;
     stop.known_rate = is_finest ? m_rate : 0.;
     stop.estimate = estimate_for(m_schedule);
+    if(is_finest)
+      stop.negligible_energy = rounded_energy * std::pow(Multigrid::extent(z), 2);
     if(is_finest && run.options().uv_tolerance > 0.)
       stop.change_tolerance = run.options().uv_tolerance * Multigrid::extent(z);
     return minimize(system, l, stop, z, [&](double part) {
@@ -304,16 +312,70 @@ inline Conformal_vector map_without_pins(Conformal_system& system, Run_control& 
   return z;
 }
 
+// The triangles of the finest level without area in a map.
+inline std::size_t number_of_collapsed_triangles(const Conformal_system& system,
+                                                 const Conformal_vector& z)
+{
+  std::size_t result = 0;
+  for(const auto& t : system.hierarchy.levels().back().mesh.triangles)
+    result += (std::conj(z[t[1]] - z[t[0]]) * (z[t[2]] - z[t[0]])).imag() == 0. ? 1 : 0;
+  return result;
+}
+
+// The last guard: takes back what the solver says of a map that is no minimiser, by what it looks
+// like. `energy` is its own in the units of the operators.
+inline void doubt_map(const Conformal_system& system, Run_control& run, double energy,
+                      const Conformal_vector& z)
+{
+  constexpr double rounding = 1e-6;
+  HLSCM_report& report = run.report();
+  const auto is_finite = [](const std::complex<double>& value) {
+    return std::isfinite(value.real()) && std::isfinite(value.imag());
+  };
+  if(!std::all_of(z.begin(), z.end(), is_finite)) {
+    report.converged = false;
+    return run.status().fail(ERROR_CANNOT_SOLVE_LINEAR_SYSTEM, "the map that was found has "
+                             "parameters that are not finite numbers; scale the mesh or the pins");
+  }
+  const std::size_t collapsed = number_of_collapsed_triangles(system, z);
+  if(2 * collapsed > report.faces) {
+    report.converged = false;
+    const std::string warning = std::to_string(collapsed) + " of " + std::to_string(report.faces)
+                              + " triangles have no area in the map, which is of no use";
+    if(report.warnings.empty() || report.warnings.back() != warning)
+      report.warnings.push_back(warning);
+  }
+  if(!report.converged || system.is_free)
+    return;
+  Conformal_vector trivial(z.size(), 0.); // all that is not pinned is in one place
+  system.hierarchy.set_pins(system.finest(), system.pins, trivial);
+  if(energy > (1. + rounding) * system.hierarchy.finest().energy(trivial)) {
+    report.converged = false;
+    run.status().fail(ERROR_CANNOT_SOLVE_LINEAR_SYSTEM, "the map that was found has more energy "
+                      "than the trivial one; use another method");
+  }
+}
+
 // Brings a map of the finest level to its place, and reports its energy.
 inline void place_map(const Conformal_system& system, Run_control& run, Conformal_vector& z)
 {
   HLSCM_report& report = run.report();
   if(run.is_stopped())
     report.converged = false;
-  if(z.size() == system.source.size())
-    report.energy_gap_estimate *= system.fit_to_surface(system.finest(), z);
-  if(!report.cancelled && (run.status().is_ok() || report.iterations > 0)) // also if it gave up
-    report.energy = system.energy_unit * system.hierarchy.finest().energy(z);
+  const bool is_map = z.size() == system.source.size();
+  const bool is_solution = !report.cancelled && (run.status().is_ok() || report.iterations > 0);
+  double scale = 1.; // of the energy
+  if(is_map)
+    scale = system.fit_to_surface(system.finest(), z);
+  report.energy_gap_estimate *= scale;
+  if(is_solution) { // also if it gave up
+    double energy = system.hierarchy.finest().energy(z);
+    if(std::isnan(energy)) // squares of the unit of length are no numbers
+      energy = (std::numeric_limits<double>::infinity)();
+    report.energy = system.energy_unit * energy;
+    if(is_map && run.status().is_ok())
+      doubt_map(system, run, energy, z);
+  }
   run.lap(report.seconds_solve);
 }
 
