@@ -194,15 +194,20 @@ inline Surface_of_soup surface_of_soup(const Polygon_soup& soup)
     result.fail(Mesh_status::BAD_MESH, "no face has three different vertices");
     return result;
   }
-  for(const bool joins : {true, false}) { // fans with joins may, rarely, meet an edge twice
-    internal::Soup_sides sides(soup, triangles);
-    const bool has_joins = joins && sides.join_crossings();
+  typedef internal::Crossing_joints Joints;
+  for(const Joints joints : {Joints::ALL, Joints::DIAGONALS, Joints::NONE}) {
+    internal::Soup_sides sides(soup, triangles, joints);
     sides.turn(triangles);
     internal::number_vertices(soup, sides, triangles, result);
     result.repairs.cut = sides.cut;
     result.repairs.separated = sides.separated;
-    if(!has_joins || Vertex_rings(result.mesh).defect() == Ring_defect::NONE)
-      break;
+    if(sides.separated && joints != Joints::NONE // joined fans may, rarely, meet an edge twice
+       && Vertex_rings(result.mesh).defect() != Ring_defect::NONE)
+      continue;
+    for(Halfedge h = 0; triangles.triangulated && h < 3 * triangles.vertices.size(); ++h)
+      if(!sides.is_within_face(h))
+        triangles.diagonals[triangle_of(h)] &= std::uint8_t(~(1u << corner_of(h)));
+    break;
   }
   result.repairs.triangulated = triangles.triangulated;
   result.repairs.folded = triangles.folded;

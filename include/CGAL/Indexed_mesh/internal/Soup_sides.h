@@ -21,39 +21,36 @@ namespace CGAL {
 namespace Indexed_mesh {
 namespace internal {
 
+// What stays joined at edges of more than two sides.
+enum class Crossing_joints { NONE, DIAGONALS, ALL };
+
 // Which sides of the triangles of a soup stay joined, and which triangles are to be turned so that
 // joined ones agree.
 class Soup_sides
 {
 public:
-  Soup_sides(const Polygon_soup& soup, const Soup_triangles& triangles)
-    : m_soup(soup), m_triangles(triangles.vertices), m_opposite(3 * m_triangles.size(), no_halfedge)
+  Soup_sides(const Polygon_soup& soup, const Soup_triangles& triangles, Crossing_joints joints)
+    : m_soup(soup), m_all(triangles), m_triangles(triangles.vertices)
+    , m_opposite(3 * m_triangles.size(), no_halfedge)
   {
     Edge_table table(m_triangles, soup.points.size());
-    table.for_each_edge([this](Vertex_index v, const Side* first, const Side* last) {
+    table.for_each_edge([&](Vertex_index v, const Side* first, const Side* last) {
       if(last - first == 2)
         join(first[0].corner, first[1].corner);
       if(last - first < 3)
         return;
       separated.add(v, first->other_end);
       m_crossings.push_back(m_crossing_sides.size());
-      for(; first != last; ++first)
-        m_crossing_sides.push_back(first->corner);
+      for(const Side* side = first; side != last; ++side)
+        m_crossing_sides.push_back(side->corner);
+      if(joints != Crossing_joints::NONE)
+        join_diagonals(first, last);
     });
     m_crossings.push_back(m_crossing_sides.size());
     orient();
-  }
-
-  // Joins sides at edges of more than two, where triangles continue each other; returns whether
-  // there are any.
-  bool join_crossings()
-  {
-    bool result = false;
-    for(std::size_t i = 0; i + 1 < m_crossings.size(); ++i) {
-      const Halfedge* begin = m_crossing_sides.data() + m_crossings[i];
-      result |= join_crossing(begin, m_crossing_sides.data() + m_crossings[i + 1]);
-    }
-    return result;
+    for(std::size_t i = 0; joints == Crossing_joints::ALL && i + 1 < m_crossings.size(); ++i)
+      join_crossing(m_crossing_sides.data() + m_crossings[i],
+                    m_crossing_sides.data() + m_crossings[i + 1]);
   }
 
   // Turns as few triangles as possible in each component until all agree.
@@ -80,6 +77,14 @@ public:
     for(Triangle_index t = 0; t < m_sign.size(); ++t)
       if(m_sign[t])
         triangles.turn(t);
+  }
+
+  // Whether the triangles at a diagonal are joined.
+  bool is_within_face(Halfedge h) const
+  {
+    const Halfedge o = m_opposite[h];
+    return o != no_halfedge && m_all.face[triangle_of(h)] == m_all.face[triangle_of(o)]
+        && is_diagonal(h) && is_diagonal(o);
   }
 
   // The side joined to side h, or `no_halfedge`.
@@ -137,8 +142,24 @@ private:
     m_sets = Parity_sets(number);
   }
 
+  bool is_diagonal(Halfedge h) const
+  {
+    return (m_all.diagonals[triangle_of(h)] >> corner_of(h) & 1) != 0;
+  }
+
+  // Joins the triangles of one face; their sides follow one another.
+  void join_diagonals(const Side* first, const Side* last)
+  {
+    for(const Side* side = first + 1; side != last; ++side) {
+      const Halfedge h = side[-1].corner, o = side->corner;
+      if(m_opposite[h] == no_halfedge && is_diagonal(h) && is_diagonal(o)
+         && m_all.face[triangle_of(h)] == m_all.face[triangle_of(o)])
+        join(h, o);
+    }
+  }
+
   // Pairs the sides at an edge, the flattest first.
-  bool join_crossing(const Halfedge* begin, const Halfedge* end)
+  void join_crossing(const Halfedge* begin, const Halfedge* end)
   {
     constexpr std::ptrdiff_t most = 16; // sides that are worth a look
     constexpr double flattest = -0.7071; // cosine of the angle between faces: 135 degrees
@@ -156,7 +177,6 @@ private:
       }
     std::stable_sort(pairs.begin(), pairs.end(),
                      [](const Pair& a, const Pair& b) { return a.cosine < b.cosine; });
-    bool result = false;
     for(const Pair& p : pairs) {
       if(m_opposite[p.h] != no_halfedge || m_opposite[p.o] != no_halfedge)
         continue;
@@ -165,9 +185,7 @@ private:
                        (m_sign[t] ^ m_sign[u] ^ std::uint8_t(is_same_direction(p.h, p.o))) != 0))
         continue;
       join(p.h, p.o);
-      result = true;
     }
-    return result;
   }
 
   // Of the angle between two triangles at their edge: -1 if they continue each other.
@@ -200,7 +218,8 @@ private:
   }
 
   const Polygon_soup& m_soup;
-  const std::vector<Triangle_indices>& m_triangles;
+  const Soup_triangles& m_all;
+  const std::vector<Triangle_indices>& m_triangles; // their vertices
   std::vector<Halfedge> m_opposite;
   std::vector<std::uint8_t> m_sign; // whether a triangle is to be turned, in its component
   std::vector<std::uint32_t> m_component;
