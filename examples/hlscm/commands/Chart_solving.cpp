@@ -9,11 +9,14 @@
 #include "common/Program_error.h"
 
 #include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/Surface_mesh_parameterization/Distortion_measures.h>
 #include <CGAL/Surface_mesh_parameterization/Edge_collapse_decimation.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/repair_flipped_faces.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace hlscm {
@@ -55,6 +58,29 @@ checked_pins(const Program_options& options, const Mesh& mesh)
   return pins;
 }
 
+using Parameterizer =
+    SMP::HLSCM_parameterizer_3<Mesh, CGAL::Default, CGAL::Default,
+                               CGAL::Parallel_if_available_tag>;
+
+// Charts for which multigrid is made take at most some 40 iterations.
+constexpr std::size_t patience = 200;
+
+// Whether the direct method may take the place of the default one. So many faces cost it two seconds
+// and 300 MB.
+bool may_fall_back(const Program_options& options, const Mesh& mesh)
+{
+  constexpr std::size_t most_faces = 300000;
+  const SMP::HLSCM_options& o = options.library;
+  return !options.is_method_given && o.method == SMP::Conformal_method::HLSCM
+         && o.maximal_iterations == 0 && o.time_limit == 0 && mesh.number_of_faces() <= most_faces;
+}
+
+std::string not_converged(std::size_t iterations)
+{
+  return "the tolerance was not met after " + std::to_string(iterations)
+         + " iterations, take --method direct, which makes none";
+}
+
 } // namespace
 
 Mesh read_chart(const std::string& input, Progress_bar& progress,
@@ -78,18 +104,36 @@ Solved_chart solve_chart(const Program_options& options, SMP::HLSCM_options libr
     library.decimate = SMP::Edge_collapse_decimation();
   }
   library.progress = [&progress](double fraction) { return progress.try_advance(fraction); };
-  SMP::HLSCM_parameterizer_3<Mesh, CGAL::Default, CGAL::Default, CGAL::Parallel_if_available_tag>
-      parameterizer(library);
+  const bool falls_back = may_fall_back(options, mesh);
+  if(falls_back) {
+    library.maximal_iterations = patience;
+  }
+  Parameterizer parameterizer(library);
   parameterizer.set_pins(checked_pins(options, mesh));
 
   progress.start_stage("solving");
   const auto border = CGAL::Polygon_mesh_processing::longest_border(mesh).first;
-  const SMP::Error_code error = parameterizer.parameterize(mesh, border, uv);
+  SMP::Error_code error = parameterizer.parameterize(mesh, border, uv);
   Interruption::check();
-  if(error != SMP::OK) {
-    throw Program_error(options.input, parameterizer.report().message);
+  const std::size_t iterations = parameterizer.report().iterations;
+  const bool gave_up = error != SMP::OK && iterations > 0 && !parameterizer.report().converged;
+  if(gave_up && falls_back) {
+    parameterizer.options().method = SMP::Conformal_method::DIRECT;
+    parameterizer.options().level_observer = nullptr; // the coarse levels were shown
+    error = parameterizer.parameterize(mesh, border, uv);
+    Interruption::check();
   }
-  return {parameterizer.report(), parameterizer.progressive_mesh()};
+  if(error != SMP::OK) {
+    throw Program_error(options.input, gave_up ? not_converged(iterations)
+                                               : parameterizer.report().message);
+  }
+  Solved_chart result = {parameterizer.report(), parameterizer.progressive_mesh()};
+  if(gave_up) {
+    result.report.warnings.push_back("the default method did not converge in "
+                                     + std::to_string(iterations)
+                                     + " iterations, this is the map of --method direct");
+  }
+  return result;
 }
 
 Similarity fit_to_unit_square(const Mesh& mesh, Uv_map uv, SMP::HLSCM_report& report)
@@ -116,8 +160,13 @@ Similarity fit_to_unit_square(const Mesh& mesh, Uv_map uv, SMP::HLSCM_report& re
     pin.v = p[1];
   }
   const double area_scale = to_square.scale * to_square.scale;
-  report.energy *= area_scale;
-  report.energy_gap_estimate *= area_scale;
+  if(std::isfinite(report.energy)) {
+    report.energy *= area_scale;
+    report.energy_gap_estimate *= area_scale;
+  } else { // in the unit of the mesh it was too large for a number
+    report.energy = SMP::measure_distortion(mesh, uv).conformal_energy;
+    report.energy_gap_estimate = std::numeric_limits<double>::infinity();
+  }
   if(report.flip_repair) {
     report.flip_repair->energy_before *= area_scale;
     report.flip_repair->energy_after *= area_scale;

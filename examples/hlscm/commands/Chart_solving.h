@@ -27,7 +27,9 @@ struct Solved_chart
   CGAL::Surface_mesh_parameterization::Chart_progressive_mesh progressive_mesh;
 };
 
-/// Parameterizes a chart with the pins of the program's options; throws `Program_error`.
+/// Parameterizes a chart with the pins of the program's options; throws `Program_error`. Where the
+/// default method does not converge, and the user has set neither a method nor limits, it is the map
+/// of the direct method, which has no progressive mesh, and a warning says so.
 Solved_chart solve_chart(const Program_options& options,
                          CGAL::Surface_mesh_parameterization::HLSCM_options library,
                          const Mesh& mesh, Uv_map uv, Progress_bar& progress);

@@ -46,17 +46,6 @@ struct Run_files
   std::optional<Picture_files> pictures;
 };
 
-void add_warnings(Run_report& report)
-{
-  const auto& solver = report.solver;
-  report.warnings.insert(report.warnings.end(), solver.warnings.begin(), solver.warnings.end());
-  if(report.distortion.flipped_faces > 0) {
-    report.warnings.push_back("flipped triangles in the map: "
-                              + std::to_string(report.distortion.flipped_faces) + " of "
-                              + std::to_string(solver.faces));
-  }
-}
-
 void print(const Run_report& report, const Program_options& options)
 {
   for(const std::string& warning : report.warnings) {
@@ -99,7 +88,7 @@ int run_parameterize(const Program_options& options)
   const Stopwatch measuring;
   report.distortion = SMP::measure_distortion(mesh, uv);
   report.seconds_measure = measuring.seconds();
-  add_warnings(report);
+  report.warnings = all_warnings(report);
 
   const Stopwatch writing;
   write_mesh(mesh, uv, options.output, *files.output, progress);

@@ -62,7 +62,9 @@ inline std::string error_in_numbers(const Textured_progressive_mesh& mesh)
   }
   if(next != mesh.points.size())
     return "the arrays of the mesh differ in size";
-  const std::string error = point_error(mesh.points);
+  std::string error = point_error(mesh.points);
+  if(error.empty() && mesh.has_texture())
+    error = size_error(mesh.points);
   return error.empty() ? uv_error(mesh.uv) : error;
 }
 

@@ -157,7 +157,7 @@ public:
       relax_flipped_faces(system, z);
     }
     run.conclude(result, system.energy_unit,
-                 "raise the number of iterations or of smoothing steps");
+                 "raise the number of iterations or use the direct method");
     return result;
   }
 
