@@ -4,6 +4,7 @@
 #include "commands/Chart_solving.h"
 
 #include "reading/Diagnosis.h"
+#include "common/Blas_memory.h"
 #include "common/Interruption.h"
 #include "reading/Mesh_reading.h"
 #include "common/Program_error.h"
@@ -111,6 +112,9 @@ Solved_chart solve_chart(const Program_options& options, SMP::HLSCM_options libr
   Parameterizer parameterizer(library);
   parameterizer.set_pins(checked_pins(options, mesh));
 
+  if(library.method == SMP::Conformal_method::DIRECT) {
+    reserve_blas_memory(1);
+  }
   progress.start_stage("solving");
   const auto border = CGAL::Polygon_mesh_processing::longest_border(mesh).first;
   SMP::Error_code error = parameterizer.parameterize(mesh, border, uv);
@@ -118,6 +122,7 @@ Solved_chart solve_chart(const Program_options& options, SMP::HLSCM_options libr
   const std::size_t iterations = parameterizer.report().iterations;
   const bool gave_up = error != SMP::OK && iterations > 0 && !parameterizer.report().converged;
   if(gave_up && falls_back) {
+    reserve_blas_memory(1);
     parameterizer.options().method = SMP::Conformal_method::DIRECT;
     parameterizer.options().level_observer = nullptr; // the coarse levels were shown
     error = parameterizer.parameterize(mesh, border, uv);
