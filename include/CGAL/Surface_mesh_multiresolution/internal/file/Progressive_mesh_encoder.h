@@ -62,9 +62,7 @@ inline std::string error_in_numbers(const Textured_progressive_mesh& mesh)
   }
   if(next != mesh.points.size())
     return "the arrays of the mesh differ in size";
-  std::string error = point_error(mesh.points);
-  if(error.empty() && mesh.has_texture())
-    error = size_error(mesh.points);
+  const std::string error = point_error(mesh.points);
   return error.empty() ? uv_error(mesh.uv) : error;
 }
 
