@@ -76,6 +76,28 @@ bool may_fall_back(const Program_options& options, const Mesh& mesh)
          && o.maximal_iterations == 0 && o.time_limit == 0 && mesh.number_of_faces() <= most_faces;
 }
 
+// A halfedge of the longest border; of any border if lengths are too small for CGAL to add them.
+Mesh::Halfedge_index border_of(const Mesh& mesh)
+{
+  const auto longest = CGAL::Polygon_mesh_processing::longest_border(mesh).first;
+  if(longest != Mesh::null_halfedge()) {
+    return longest;
+  }
+  const auto all = mesh.halfedges();
+  const auto found
+      = std::find_if(all.begin(), all.end(), [&](auto h) { return mesh.is_border(h); });
+  return found == all.end() ? Mesh::null_halfedge() : *found;
+}
+
+// Whether an iteration ended since no energy was left but what rounding makes, which on long strips
+// says little of lengths.
+bool is_vague(const SMP::HLSCM_report& report, const SMP::HLSCM_options& options)
+{
+  constexpr std::size_t long_iteration = 50; // the least with such an end
+  return report.converged && report.iterations >= long_iteration && options.uv_tolerance == 0
+         && !(report.energy_gap_estimate <= options.tolerance * std::abs(report.energy));
+}
+
 std::string not_converged(std::size_t iterations)
 {
   return "the tolerance was not met after " + std::to_string(iterations)
@@ -109,36 +131,38 @@ Solved_chart solve_chart(const Program_options& options, SMP::HLSCM_options libr
   if(falls_back) {
     library.maximal_iterations = patience;
   }
+  const auto pins = checked_pins(options, mesh);
   Parameterizer parameterizer(library);
-  parameterizer.set_pins(checked_pins(options, mesh));
-
+  parameterizer.set_pins(pins);
   if(library.method == SMP::Conformal_method::DIRECT) {
     reserve_blas_memory(1);
   }
   progress.start_stage("solving");
-  const auto border = CGAL::Polygon_mesh_processing::longest_border(mesh).first;
-  SMP::Error_code error = parameterizer.parameterize(mesh, border, uv);
+  const auto border = border_of(mesh);
+  const SMP::Error_code error = parameterizer.parameterize(mesh, border, uv);
   Interruption::check();
-  const std::size_t iterations = parameterizer.report().iterations;
-  const bool gave_up = error != SMP::OK && iterations > 0 && !parameterizer.report().converged;
-  if(gave_up && falls_back) {
+  const SMP::HLSCM_report& report = parameterizer.report();
+  const bool gave_up = error != SMP::OK && report.iterations > 0 && !report.converged;
+  if(falls_back && (gave_up || is_vague(report, library))) {
+    library.method = SMP::Conformal_method::DIRECT;
+    library.level_observer = nullptr; // the coarse levels were shown
+    Parameterizer direct(library);
+    direct.set_pins(pins);
     reserve_blas_memory(1);
-    parameterizer.options().method = SMP::Conformal_method::DIRECT;
-    parameterizer.options().level_observer = nullptr; // the coarse levels were shown
-    error = parameterizer.parameterize(mesh, border, uv);
+    if(direct.parameterize(mesh, border, uv) == SMP::OK) {
+      Solved_chart result = {direct.report(), {}};
+      result.report.warnings.push_back("the default method found no exact map in "
+                                       + std::to_string(report.iterations)
+                                       + " iterations, this is that of --method direct");
+      return result;
+    }
     Interruption::check();
   }
   if(error != SMP::OK) {
-    throw Program_error(options.input, gave_up ? not_converged(iterations)
-                                               : parameterizer.report().message);
+    throw Program_error(options.input,
+                        gave_up ? not_converged(report.iterations) : report.message);
   }
-  Solved_chart result = {parameterizer.report(), parameterizer.progressive_mesh()};
-  if(gave_up) {
-    result.report.warnings.push_back("the default method did not converge in "
-                                     + std::to_string(iterations)
-                                     + " iterations, this is the map of --method direct");
-  }
-  return result;
+  return {report, parameterizer.progressive_mesh()};
 }
 
 Similarity fit_to_unit_square(const Mesh& mesh, Uv_map uv, SMP::HLSCM_report& report)

@@ -28,7 +28,7 @@ struct Solved_chart
 };
 
 /// Parameterizes a chart with the pins of the program's options; throws `Program_error`. Where the
-/// default method does not converge, and the user has set neither a method nor limits, it is the map
+/// default method finds no exact map, and the user has set neither a method nor limits, it is the map
 /// of the direct method, which has no progressive mesh, and a warning says so.
 Solved_chart solve_chart(const Program_options& options,
                          CGAL::Surface_mesh_parameterization::HLSCM_options library,

@@ -16,6 +16,7 @@
 #include <mutex>
 #include <thread>
 
+#include <fcntl.h>
 #include <pthread.h>
 #include <semaphore.h>
 #include <unistd.h>
@@ -116,10 +117,22 @@ void start_thread()
   pthread_attr_destroy(&attributes);
 }
 
+// A file of the program must not become one of the standard streams where those are closed; what is
+// printed to them fails as before.
+void fill_closed_streams()
+{
+  for(const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if(fcntl(stream, F_GETFD) < 0) {
+      open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY); // gets the least number
+    }
+  }
+}
+
 } // namespace
 
 void install()
 {
+  fill_closed_streams();
   clean_up();
   sem_init(&arrival, 0, 0);
   start_thread();
