@@ -42,7 +42,7 @@ hash_of() {
 
 for mesh in "${meshes[@]}"; do
   name="$(basename "$mesh")"
-  if "$program" info --json "$mesh" | grep -q '"can_be_parameterized": true'; then
+  if "$program" info --json "$mesh" | grep -q '"is_chart": true'; then
     for method in hlscm spectral cascadic direct; do
       hash_of "$name $method" parameterize "$mesh" -o OUT/m.obj --method "$method"
     done

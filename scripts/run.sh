@@ -42,7 +42,7 @@ fact() { # the value of a key that says what the mesh is
 }
 
 map="$output/light/atlas.obj"
-if [ "$(fact can_be_parameterized)" = True ]; then
+if [ "$(fact is_chart)" = True ]; then
   say "parameterizing $mesh"
   map="$output/$name.obj"
   "$hlscm" parameterize "$mesh" -o "$map" --report "$output/$name.json" --pictures "$output"

@@ -94,7 +94,8 @@ TEST_F(Atlas, refuses_what_it_cannot_do)
       const std::string in = write("bad.off", bytes);
       const Outcome outcome
           = call(command, in, "none",
-                 std::string(command) == "bake" ? Texts{"--faces", "2"} : Texts{});
+                 std::string(command) == "bake" ? Texts{"--faces", "2", "--strict"}
+                                                : Texts{"--strict"});
       EXPECT_EQ(outcome.exit_code, 1) << what;
       EXPECT_EQ(error_in_message(outcome.err, in, {}), "") << what;
     }

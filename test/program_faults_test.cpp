@@ -157,7 +157,7 @@ TEST_F(Faults, signals_leave_nothing)
   const unsigned int seed = std::random_device()();
   std::printf("seed %u\n", seed);
   std::mt19937 random(seed);
-  const std::vector<Faulty_run> all = runs(60);
+  const std::vector<Faulty_run> all = runs(40);
   std::vector<double> seconds;
   for(const Faulty_run& run : all) {
     const pid_t child = start(run.arguments);
@@ -189,7 +189,7 @@ TEST_F(Faults, signals_leave_nothing)
 // Also where a library gives up, and where it would ask for memory for ever.
 TEST_F(Faults, little_memory_is_an_error)
 {
-  const std::vector<Faulty_run> all = runs(90);
+  const std::vector<Faulty_run> all = runs(50);
   std::size_t failed = 0;
   for(const Faulty_run& run : all) {
     clear(all);

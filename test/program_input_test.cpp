@@ -124,7 +124,7 @@ TEST_F(Program, names_what_is_wrong_with_a_file)
     SCOPED_TRACE(bad.name);
     const std::string in = write(bad.name, bad.bytes);
     write("out.obj", "was here before");
-    const Texts outputs{"--report", path("report.json"), "--pictures", path("pictures")};
+    const Texts outputs{"--report", path("report.json"), "--pictures", path("pictures"), "--strict"};
     const Outcome outcome = parameterize(in, "out.obj", outputs);
     EXPECT_EQ(outcome.exit_code, 1);
     EXPECT_EQ(error_in_message(outcome.err, in, bad.words), "");
@@ -205,8 +205,8 @@ TEST_F(Program, solves_a_vertex_of_degree_10000)
   EXPECT_EQ(json["flips"], 0);
 }
 
-// What makes `parameterize` refuse a mesh is an obstacle of `info`, in the same words; and `atlas`
-// takes what `info` says that it does.
+// What makes `parameterize --strict` refuse a mesh is an obstacle of `info`, in the same words; and
+// both commands take what `info` says that they do.
 TEST_F(Program, agrees_with_itself)
 {
   for(const Bad_file& bad : bad_files()) {
@@ -214,13 +214,14 @@ TEST_F(Program, agrees_with_itself)
     const Outcome info = run({"info", in, "--json"});
     const Outcome text = run({"info", in});
     EXPECT_EQ(info.exit_code, text.exit_code);
-    const Outcome refused = parameterize(in, "out.obj");
+    const Outcome refused = parameterize(in, "out.obj", {"--strict"}), taken = parameterize(in, "out.obj");
     if(info.exit_code != 0) { // the file could not be read
       EXPECT_EQ(info.err, refused.err);
       continue;
     }
     const Json json = Json::parse(info.out), first = json["obstacles"][0];
     const Outcome atlas = run({"atlas", in, "-o", path("atlas"), "--texture", "256"});
+    EXPECT_EQ(taken.exit_code == 0, json["can_be_parameterized"].get<bool>()) << in << taken.err;
     EXPECT_EQ(atlas.exit_code == 0, json["can_have_an_atlas"].get<bool>()) << in << atlas.err;
     EXPECT_EQ(refused.err, "hlscm: error: " + in + ": " + first["what"].get<std::string>() + ", "
                                + first["remedy"].get<std::string>() + "\n");

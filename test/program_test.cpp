@@ -267,6 +267,7 @@ TEST_F(Program, knows_what_a_mesh_is)
         {"genus", 0},
         {"orientable", true},
         {"manifold", true},
+        {"is_chart", true},
         {"can_be_parameterized", true},
         {"can_have_an_atlas", true}}},
       {"band",
@@ -275,7 +276,7 @@ TEST_F(Program, knows_what_a_mesh_is)
         {"borders", 2},
         {"euler_characteristic", 0},
         {"genus", 0},
-        {"can_be_parameterized", true}}},
+        {"is_chart", true}}},
       {"moebius",
        band(20, true),
        {{"components", 1},
@@ -283,15 +284,17 @@ TEST_F(Program, knows_what_a_mesh_is)
         {"euler_characteristic", 0},
         {"genus", nullptr},
         {"orientable", false},
-        {"can_be_parameterized", false},
-        {"can_have_an_atlas", false}}},
+        {"is_chart", false},
+        {"can_be_parameterized", true},
+        {"can_have_an_atlas", true}}},
       {"torus",
        torus(9, false),
        {{"components", 1},
         {"borders", 0},
         {"euler_characteristic", 0},
         {"genus", 1},
-        {"can_be_parameterized", false},
+        {"is_chart", false},
+        {"can_be_parameterized", true},
         {"can_have_an_atlas", true}}},
       {"open_torus", torus(9, true), {{"borders", 1}, {"euler_characteristic", -1}, {"genus", 1}}},
       {"fan", fan(100), {{"vertices", 101}, {"edges", 200}, {"faces", 100}, {"borders", 1}}}};
@@ -302,7 +305,7 @@ TEST_F(Program, knows_what_a_mesh_is)
     for(const auto& [key, value] : c.expected.items()) {
       EXPECT_EQ(json[key], value) << c.name << " " << key;
     }
-    EXPECT_EQ(json["can_be_parameterized"].get<bool>(), json["obstacles"].empty());
+    EXPECT_EQ(json["is_chart"].get<bool>(), json["obstacles"].empty());
   }
 }
 

@@ -207,6 +207,8 @@ TEST(Soup, one_sided_surfaces_are_cut_open)
   EXPECT_EQ(surface_error_of(bottle, s), "");
   EXPECT_GE(s.repairs.cut.count, 10u);
   EXPECT_LE(s.repairs.cut.count, 24u);
+  for(std::size_t t = 0; t < s.diagonals.size(); ++t)
+    EXPECT_NE(s.diagonals[t], 0) << "a diagonal was cut";
 }
 
 TEST(Soup, faces_that_continue_each_other_stay_joined)

@@ -16,9 +16,10 @@
 
 namespace hlscm {
 
-/// Reads a mesh that can be parameterized, or throws `Program_error`.
-Mesh read_chart(const std::string& input, Progress_bar& progress,
-                std::vector<std::string>& warnings);
+/// The pins of the options; throws `Program_error` if a vertex is out of range or pinned twice, or if
+/// all have the same place.
+std::vector<CGAL::Surface_mesh_parameterization::HLSCM_pin>
+checked_pins(const Program_options& options, std::size_t number_of_vertices);
 
 struct Solved_chart
 {
@@ -27,16 +28,21 @@ struct Solved_chart
   CGAL::Surface_mesh_parameterization::Chart_progressive_mesh progressive_mesh;
 };
 
-/// Parameterizes a chart with the pins of the program's options; throws `Program_error`. Where the
-/// default method finds no exact map, and the user has set neither a method nor limits, it is the map
-/// of the direct method, which has no progressive mesh, and a warning says so.
+/// Parameterizes a chart with the given pins, vertices of the mesh; throws `Program_error`. Where the
+/// method is the program's choice and finds no exact map, and the user has set no limits, it is the
+/// map of the direct method, which has no progressive mesh, and a warning says so.
 Solved_chart solve_chart(const Program_options& options,
                          CGAL::Surface_mesh_parameterization::HLSCM_options library,
-                         const Mesh& mesh, Uv_map uv, Progress_bar& progress);
+                         const Mesh& mesh,
+                         const std::vector<CGAL::Surface_mesh_parameterization::HLSCM_pin>& pins,
+                         Uv_map uv, Progress_bar& progress);
 
-/// Moves the map into the unit square, as large as possible without turning it.
-Similarity fit_to_unit_square(const Mesh& mesh, Uv_map uv,
-                              CGAL::Surface_mesh_parameterization::HLSCM_report& report);
+/// Moves a map into the unit square, as large as possible without turning it.
+Similarity fit_to_unit_square(std::vector<Kernel::Point_2>& uv);
+
+/// Says the same of the pins and the energies of a report.
+void move_report(const Similarity& similarity,
+                 CGAL::Surface_mesh_parameterization::HLSCM_report& report);
 
 } // namespace hlscm
 

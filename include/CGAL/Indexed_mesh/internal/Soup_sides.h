@@ -93,6 +93,8 @@ public:
   Soup_finding cut, separated; // see Soup_repairs
 
 private:
+  static constexpr std::uint32_t none = std::uint32_t(-1);
+
   typedef Edge_table::Side Side;
   typedef std::array<double, 3> Vector;
 
@@ -107,32 +109,27 @@ private:
     return vertex_of(m_triangles, h) == vertex_of(m_triangles, o);
   }
 
-  // Component by component, from each triangle to its neighbours, nearest first, so that the edges
-  // where this fails lie together.
+  // Component by component, from each face to its neighbours, nearest first, so that the edges where
+  // this fails lie together, and none of them is a diagonal.
   void orient()
   {
-    constexpr std::uint32_t none = std::uint32_t(-1);
     std::uint32_t number = 0;
     m_sign.assign(m_triangles.size(), 0);
     m_component.assign(m_triangles.size(), none);
-    std::vector<Triangle_index> queue;
     for(Triangle_index seed = 0; seed < m_triangles.size(); ++seed) {
       if(m_component[seed] != none)
         continue;
-      m_component[seed] = number;
-      queue.assign(1, seed);
+      std::vector<Triangle_index> queue;
+      reach(seed, 0, number, queue);
       for(std::size_t i = 0; i < queue.size(); ++i)
         for(Halfedge h = 3 * queue[i]; h < 3 * queue[i] + 3; ++h) {
           const Halfedge o = m_opposite[h];
           if(o == no_halfedge)
             continue;
-          const Triangle_index t = triangle_of(o);
-          const std::uint8_t sign = m_sign[queue[i]] ^ std::uint8_t(is_same_direction(h, o));
-          if(m_component[t] == none) {
-            m_component[t] = number;
-            m_sign[t] = sign;
-            queue.push_back(t);
-          } else if(m_sign[t] != sign) {
+          const std::uint8_t sign = sign_across(h, o);
+          if(m_component[triangle_of(o)] == none) {
+            reach(triangle_of(o), sign, number, queue);
+          } else if(m_sign[triangle_of(o)] != sign) {
             cut.add(vertex_of(m_triangles, h), vertex_of(m_triangles, next_halfedge(h)));
             m_opposite[h] = m_opposite[o] = no_halfedge;
           }
@@ -140,6 +137,31 @@ private:
       ++number;
     }
     m_sets = Parity_sets(number);
+  }
+
+  std::uint8_t sign_across(Halfedge h, Halfedge o) const
+  {
+    return m_sign[triangle_of(h)] ^ std::uint8_t(is_same_direction(h, o));
+  }
+
+  // A triangle, and those of its face across diagonals.
+  void reach(Triangle_index t, std::uint8_t sign, std::uint32_t component,
+             std::vector<Triangle_index>& queue)
+  {
+    m_component[t] = component;
+    m_sign[t] = sign;
+    queue.push_back(t);
+    for(std::size_t i = queue.size() - 1; i < queue.size(); ++i)
+      for(Halfedge h = 3 * queue[i]; m_all.diagonals[queue[i]] != 0 && h < 3 * queue[i] + 3; ++h) {
+        const Halfedge o = m_opposite[h];
+        if(o == no_halfedge || !is_diagonal(h)
+           || m_all.face[triangle_of(o)] != m_all.face[queue[i]]
+           || m_component[triangle_of(o)] != none)
+          continue;
+        m_component[triangle_of(o)] = component;
+        m_sign[triangle_of(o)] = sign_across(h, o);
+        queue.push_back(triangle_of(o));
+      }
   }
 
   bool is_diagonal(Halfedge h) const
