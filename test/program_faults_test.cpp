@@ -291,6 +291,14 @@ TEST_F(Faults, reader_that_has_gone_is_an_error)
   EXPECT_NE(outcome.err.find("could not be written"), std::string::npos) << outcome.err;
 }
 
+TEST_F(Faults, more_threads_than_processors_are_no_warning)
+{
+  const std::string in = write("in.off", off(grid(100, hilly)));
+  const Outcome outcome = parameterize(in, "out.obj", {"--threads", "64"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.err, "");
+}
+
 TEST_F(Faults, link_to_nothing_gets_its_file)
 {
   const std::string in = write("in.off", off(grid(6, flat)));

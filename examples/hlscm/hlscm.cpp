@@ -11,15 +11,21 @@
 #include "common/Interruption.h"
 #include "common/Program_error.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <new>
 #include <string>
+#include <thread>
 
 namespace {
 
 int run(hlscm::Program_options options)
 {
+  const unsigned int processors = std::max(1u, std::thread::hardware_concurrency());
+  if(options.library.threads > processors) { // of more, TBB prints that it has not so many
+    options.library.threads = processors;
+  }
   const bool factorizes_charts
       = options.command == hlscm::Command::ATLAS || options.command == hlscm::Command::BAKE;
   if(factorizes_charts) {
