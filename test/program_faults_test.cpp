@@ -410,7 +410,8 @@ TEST_F(Faults, largest_meshes_are_mapped)
           = report(write("large.off", off(moved(grid(12, hilly), unit, 0))), {"--method", method});
       EXPECT_EQ(json["converged"], true) << method << " " << unit;
       EXPECT_EQ(json["flips"], 0);
-      for(const char* measure : {"quasi_conformal_mean", "quasi_conformal_max", "area_scale_range"}) {
+      for(const char* measure :
+          {"quasi_conformal_mean", "quasi_conformal_max", "area_scale_range"}) {
         EXPECT_NEAR(json["distortion"][measure].get<double>(),
                     right["distortion"][measure].get<double>(), 1e-4)
             << method << " " << unit << " " << measure;

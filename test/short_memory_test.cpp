@@ -113,7 +113,7 @@ private:
 #endif
 };
 
-// Calls `map()` with ever more memory until that is enough; returns how often it was not. `map` says
+// Calls `map()` with ever more memory until it is enough; returns how often it was not. `map` says
 // what is wrong with what it found.
 template <class Map>
 std::size_t number_of_failures(const Map& map)

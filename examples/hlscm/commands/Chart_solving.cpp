@@ -63,7 +63,7 @@ using Vertex_pins = std::vector<std::pair<Mesh::Vertex_index, Kernel::Point_2>>;
 // Charts for which multigrid is made take at most some 40 iterations.
 constexpr std::size_t patience = 200;
 
-// Whether the direct method may take the place of the one that the program has chosen. So many faces
+// Whether the direct method may take the place of the one that the program chose. So many faces
 // cost it two seconds and 300 MB.
 bool may_fall_back(const Program_options& options, const SMP::HLSCM_options& library,
                    const Mesh& mesh)
