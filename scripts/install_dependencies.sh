@@ -15,7 +15,7 @@ packages=(
   g++ cmake ninja-build python3
   libcgal-dev libcgal-demo libeigen3-dev
   libsuitesparse-dev libopenmesh-dev libtbb-dev
-  libcli11-dev nlohmann-json3-dev libstb-dev libpng-dev libtinygltf-dev libembree-dev
+  libcli11-dev nlohmann-json3-dev libstb-dev libpng-dev zlib1g-dev libtinygltf-dev libembree-dev
   libgtest-dev libbenchmark-dev
   clang libclang-rt-14-dev)
 

@@ -8,6 +8,8 @@
 #include <reading/Mesh_reading.h>
 #include <common/Program_error.h>
 
+#include <CGAL/Indexed_mesh/mesh_error.h>
+#include <CGAL/Indexed_mesh/surface_of_soup.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Surface_mesh_parameterization/Distortion_measures.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_parameterizer_3.h>
@@ -67,10 +69,10 @@ std::string error_in_success(const Mesh& mesh, Uv_map uv, const SMP::HLSCM_repor
   return "";
 }
 
-std::string error_of_map(const Polygon_soup& soup)
+std::string error_of_map(const CGAL::Indexed_mesh::Indexed_triangle_mesh& arrays)
 {
-  Mesh mesh = build_mesh(soup);
-  if(mesh.number_of_faces() != soup.number_of_faces()) {
+  Mesh mesh = build_mesh(arrays);
+  if(mesh.number_of_faces() != arrays.triangles.size()) {
     return "a chart by its diagnosis, but the mesh has not all faces";
   }
   Uv_map uv = mesh.add_property_map<Mesh::Vertex_index, Kernel::Point_2>("v:uv").first;
@@ -108,15 +110,23 @@ std::string error_in_format(const std::string& file_name, std::string_view bytes
       return "an obstacle without words";
     }
   }
-  const bool is_small = mesh->soup.number_of_faces() <= most_faces_mapped;
-  return obstacles(diagnosis).empty() && is_small ? error_of_map(mesh->soup) : "";
+  const auto surface = CGAL::Indexed_mesh::surface_of_soup(mesh->soup);
+  if(!surface.is_ok()) {
+    return surface.error.empty() ? "no surface, without a sentence" : "";
+  }
+  const std::string error = CGAL::Indexed_mesh::manifold_error(surface.mesh);
+  if(!error.empty()) {
+    return "the surface of the soup is none: " + error;
+  }
+  const bool is_small = surface.mesh.triangles.size() <= most_faces_mapped;
+  return obstacles(diagnosis).empty() && is_small ? error_of_map(surface.mesh) : "";
 }
 
 } // namespace
 
 std::string error_of_mesh_bytes(std::string_view bytes)
 {
-  for(const std::string name : {"mesh.off", "mesh.obj", "mesh.ply", "mesh.stl"}) {
+  for(const std::string name : {"mesh.off", "mesh.obj", "mesh.ply", "mesh.stl", "mesh.gltf", "-"}) {
     const std::string error = error_in_format(name, bytes);
     if(!error.empty()) {
       return name + ": " + error;

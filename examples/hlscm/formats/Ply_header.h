@@ -4,7 +4,7 @@
 #ifndef HLSCM_PROGRAM_PLY_HEADER_H
 #define HLSCM_PROGRAM_PLY_HEADER_H
 
-#include "reading/Mesh_source.h"
+#include "formats/Mesh_source.h"
 
 #include <initializer_list>
 #include <optional>

@@ -1,9 +1,9 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "reading/Ply_header.h"
+#include "formats/Ply_header.h"
 
-#include "reading/Text_scanner.h"
+#include "formats/Text_scanner.h"
 
 #include <algorithm>
 
@@ -88,6 +88,21 @@ bool read_header_line(std::string_view keyword, Text_scanner& scanner, Header& h
   return keyword == "comment" || keyword == "obj_info";
 }
 
+// The header ends as its first line does: with one character, or with a carriage return and a line
+// feed. What follows may be any bytes, a line feed too.
+const char* end_of_header(const Mesh_source& source, const Text_scanner& scanner)
+{
+  const char* end =
+      std::find_if(source.begin, source.end, [](char c) { return c == '\n' || c == '\r'; });
+  const bool has_returns_only = *end == '\r' && end + 1 != source.end && end[1] != '\n';
+  if(has_returns_only) {
+    end = std::find(scanner.position(), source.end, '\r');
+  } else {
+    end = scanner.line_end();
+  }
+  return end == source.end ? end : end + 1;
+}
+
 } // namespace
 
 Header read_header(const Mesh_source& source)
@@ -101,8 +116,7 @@ Header read_header(const Mesh_source& source)
   while(scanner.next_content_line('\0')) {
     const std::string_view keyword = scanner.word();
     if(keyword == "end_header") {
-      scanner.next_line();
-      header.end = scanner.position();
+      header.end = end_of_header(source, scanner);
       return header;
     }
     if(!read_header_line(keyword, scanner, header)) {
@@ -111,7 +125,8 @@ Header read_header(const Mesh_source& source)
                     "the file is damaged: export it again");
     }
   }
-  source.fail("the header has no end, the file is cut short: copy or export it again");
+  source.fail("the header has no end up to byte " + std::to_string(source.size())
+              + ", the file is cut short: copy or export it again");
 }
 
 } // namespace ply

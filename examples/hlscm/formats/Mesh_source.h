@@ -4,9 +4,10 @@
 #ifndef HLSCM_PROGRAM_MESH_SOURCE_H
 #define HLSCM_PROGRAM_MESH_SOURCE_H
 
-#include "reading/Mesh_reading.h"
 #include "common/Program_error.h"
+#include "reading/Mesh_reading.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 
@@ -39,46 +40,56 @@ struct Mesh_source
                                    std::size_t want) const
   {
     fail("the file ends after " + std::to_string(have) + " of " + std::to_string(want) + " " + kind
-         + ", it is cut short: copy or export it again");
+         + ", at byte " + std::to_string(size()) + ", it is cut short: copy or export it again");
   }
 
   /// Refuses counts that no file of this size can hold, before memory is set aside for them.
   void check_count(const std::string& kind, std::size_t count, std::size_t bytes_each) const
   {
-    constexpr std::size_t limit = std::size_t(1) << 30; // of 32-bit halfedge indices
     if(count > size() / bytes_each) {
       fail("the header promises " + std::to_string(count) + " " + kind + " but the file has only "
            + std::to_string(size())
            + " bytes, it is cut short or damaged: copy or export it again");
     }
+    check_index(kind, count);
+  }
+
+  /// Refuses numbers of elements beyond 32-bit halfedge indices.
+  void check_index(const std::string& kind, std::size_t count) const
+  {
+    constexpr std::size_t limit = std::size_t(1) << 30;
     if(count >= limit) {
       fail(std::to_string(count) + " " + kind
            + " are more than this program can index, split the mesh");
     }
   }
 
+  /// The number of the line in which a position is, from 1. Linear time.
+  std::size_t line_of(const char* position) const
+  {
+    std::size_t line = 1;
+    for(const char* p = begin; p < position; ++p) {
+      line += *p == '\n' || (*p == '\r' && p + 1 != end && p[1] != '\n');
+    }
+    return line;
+  }
+
   /// A number that was cut in two is still a number.
   void warn_of_open_end(Read_mesh& mesh) const
   {
-    if(end[-1] != '\n') {
+    if(end[-1] != '\n' && end[-1] != '\r') {
       mesh.warnings.push_back(
           "the last line has no line feed: if the file was cut short there, its "
           "last number is wrong");
     }
   }
-
-  /// Appends a corner given by a vertex index of the file (from 0), or complains.
-  void add_corner(Polygon_soup& soup, long long index) const
-  {
-    if(index < 0 || std::size_t(index) >= soup.number_of_vertices()) {
-      fail("face " + std::to_string(soup.number_of_faces()) + " names vertex "
-           + std::to_string(index) + " but there are " + std::to_string(soup.number_of_vertices())
-           + " vertices, the file is damaged: export it again");
-    }
-    soup.corners.push_back(std::uint32_t(index));
-  }
 };
 
+/// Texture coordinates and normals are of use only if all corners have them: otherwise they are
+/// left out with a warning.
+void check_corner_data(Read_mesh& mesh);
+
+Read_mesh read_gltf(const Mesh_source& source);
 Read_mesh read_off(const Mesh_source& source);
 Read_mesh read_obj(const Mesh_source& source);
 Read_mesh read_ply(const Mesh_source& source);
