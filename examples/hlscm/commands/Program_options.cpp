@@ -53,6 +53,8 @@ void add_solver_options(CLI::App& app, Program_options& options)
 {
   SMP::HLSCM_options& o = options.library;
   add_method(app, o.method);
+  app.parse_complete_callback(
+      [&options, &app] { options.is_method_given = app.count("--method") > 0; });
   add_choice<SMP::Conformal_weights>(
       app, "--weights",
       {{"exact", SMP::Conformal_weights::EXACT}, {"cgal", SMP::Conformal_weights::CGAL_LSCM}},

@@ -84,6 +84,7 @@ struct Program_options
   std::string pictures;  ///< a folder; empty: none
   std::vector<Pin> pins; ///< none, or two and more
   CGAL::Surface_mesh_parameterization::HLSCM_options library;
+  bool is_method_given = false; ///< by the user, in `library`
   bool repairs_flips = false; ///< of the map
   Engine engine = Engine::FLAT;
 
