@@ -63,6 +63,15 @@ private:
   typedef std::priority_queue<Waiting, std::vector<Waiting>, std::greater<Waiting>> Queue;
 
   void spread(Queue& queue);
+
+  // Whether the triangle that was reached through this halfedge is not in the patch that the one
+  // before has come to: that is nearer to its seed now, but by so little that the sum is the same.
+  bool is_left_behind(std::uint32_t h, std::uint32_t patch) const
+  {
+    const std::uint32_t t = triangle_of(h);
+    return m_entry[t] == h && m_distance[t] > 0. && m_patch[t] != patch;
+  }
+
   void add_seed(std::uint32_t t);
   void add_far_seeds(std::size_t number, std::size_t least);
   bool move_seeds_inward();
@@ -85,7 +94,8 @@ inline void Patch_growth::spread(Queue& queue)
       continue;
     for(std::uint32_t g = 3 * t; g < 3 * t + 3; ++g) {
       const std::uint32_t across = m_surface.adjacency.opposite(g);
-      if(across == no_halfedge || !(distance + m_step[g] < m_distance[triangle_of(across)]))
+      if(across == no_halfedge || !(distance + m_step[g] < m_distance[triangle_of(across)]
+                                    || is_left_behind(across, patch)))
         continue;
       m_distance[triangle_of(across)] = distance + m_step[g];
       m_patch[triangle_of(across)] = patch;
