@@ -24,13 +24,14 @@ struct Probe
   int y, first, second, level;
 };
 
-// The probes of a mask, those first that are likely to find an obstacle: every 2^k-th row, for
-// decreasing k.
-inline std::vector<Probe> probes_of(const Texel_mask& mask)
+// The probes of the runs of a mask, those first that are likely to find an obstacle: every 2^k-th
+// row, for decreasing k.
+inline std::vector<Probe> probes_of(const std::vector<Cell_run>& runs)
 {
   std::vector<Probe> result;
+  result.reserve(runs.size());
   const auto rank = [](const Probe& p) { return p.y == 0 ? 32 : lowest_bit(Word(p.y)); };
-  for(const Cell_run& run : mask.runs()) {
+  for(const Cell_run& run : runs) {
     int level = 0;
     while(2 << level <= run.end - run.begin)
       ++level;
@@ -50,7 +51,7 @@ class Page_raster
 public:
   Page_raster(int width, int height)
     : m_width(width), m_height(height), m_words((width + 63) / 64),
-      m_framed(std::size_t(stride(width)) * (height + 2 * frame), 1)
+      m_framed(std::size_t(stride(width)) * (height + 2 * frame), 1), m_longest_free(height, width)
   {
     for(int y = 0; y < height; ++y)
       std::fill_n(m_framed.begin() + index(0, y), width, std::uint8_t(0));
@@ -61,6 +62,9 @@ public:
   int width() const { return m_width; }
   int height() const { return m_height; }
   int words() const { return m_words; } // of a row
+
+  // The most cells side by side in a row that are free.
+  int longest_free(int y) const { return m_longest_free[y]; }
 
   // The cells around a page that count as taken, and the cells of a row with them.
   static constexpr int frame = 4;
@@ -129,10 +133,23 @@ private:
   Word* row(int k, int y) { return m_levels[k].data() + std::size_t(m_words) * y; }
   const Word* row(int k, int y) const { return m_levels[k].data() + std::size_t(m_words) * y; }
 
-  // Derives the higher levels of the rows [begin, end) from the first.
+  int find_longest_free(const Word* words) const
+  {
+    int longest = 0, begin = 0;
+    for(int i = 0; i < m_words; ++i)
+      for(Word taken = words[i]; taken != 0; taken &= taken - 1) {
+        const int x = 64 * i + lowest_bit(taken);
+        longest = (std::max)(longest, x - begin);
+        begin = x + 1;
+      }
+    return (std::max)(longest, m_width - begin);
+  }
+
+  // Derives the rest of the rows [begin, end) from the first level.
   void update(int begin, int end)
   {
-    for(int y = begin; y < end; ++y)
+    for(int y = begin; y < end; ++y) {
+      m_longest_free[y] = find_longest_free(row(0, y));
       for(int k = 1; k < int(m_levels.size()); ++k) {
         const Word* from = row(k - 1, y);
         Word* to = row(k, y);
@@ -143,10 +160,12 @@ private:
           to[i] = from[i] | low >> s | high << 1 << (63 - s);
         }
       }
+    }
   }
 
   int m_width, m_height, m_words;
   std::vector<std::uint8_t> m_framed; // 1 where a cell is taken, with the frame
+  std::vector<int> m_longest_free;    // of each row
   std::vector<Level> m_levels; // each with a row and a word more than the page, which are read only
 };
 
@@ -198,6 +217,7 @@ struct Chart_raster
 {
   int width = 0, height = 0;           // 0 if it is larger than the page
   Vector_2d centre = {};               // of the chart, from the lower left corner
+  int widest = 0, widest_row = 0;      // the most cells side by side that it touches, and where
   std::vector<Probe> probes;           // of the cells it touches
   std::vector<Cell_run> padded;        // these and the padding around, from the same corner
   std::vector<int> rim;                // some cells around it, see `rim_of()`
@@ -228,8 +248,11 @@ inline std::vector<int> rim_of(const Texel_mask& mask, int stride)
   return result;
 }
 
+// Which charts have a rim: it takes more memory than the rest of a small chart.
+enum class Rims { ALL, NONE };
+
 inline Chart_raster chart_raster(const Chart_outline& outline, double angle, double density,
-                                 const Packing_raster& raster)
+                                 const Packing_raster& raster, Rims rims)
 {
   Chart_raster result;
   const Rasterized_chart chart
@@ -239,11 +262,18 @@ inline Chart_raster chart_raster(const Chart_outline& outline, double angle, dou
   result.width = chart.mask.width();
   result.height = chart.mask.height();
   result.centre = chart.centre;
-  result.probes = probes_of(chart.mask);
+  const std::vector<Cell_run> runs = chart.mask.runs();
+  for(const Cell_run& run : runs)
+    if(run.end - run.begin > result.widest) {
+      result.widest = run.end - run.begin;
+      result.widest_row = run.y;
+    }
+  result.probes = probes_of(runs);
   result.padded = dilated(chart.mask, raster.padding).runs();
   for(Cell_run& run : result.padded)
     run = {run.y - raster.padding, run.begin - raster.padding, run.end - raster.padding};
-  result.rim = rim_of(chart.mask, Page_raster::stride(raster.width));
+  if(rims == Rims::ALL)
+    result.rim = rim_of(chart.mask, Page_raster::stride(raster.width));
   return result;
 }
 
@@ -280,9 +310,9 @@ class Chart_rasters
 public:
   // `density` is in texels per unit of the outlines.
   Chart_rasters(const std::vector<Chart_outline>& outlines, int rotations, double density,
-                const Packing_raster& raster)
+                const Packing_raster& raster, Rims rims = Rims::ALL)
     : m_outlines(outlines), m_rotations(rotations), m_density(density), m_raster(raster),
-      m_charts(outlines.size() * rotations), m_is_made(m_charts.size(), 0)
+      m_rims(rims), m_charts(outlines.size() * rotations), m_is_made(m_charts.size(), 0)
   {}
 
   std::size_t size() const { return m_outlines.size(); }
@@ -327,12 +357,21 @@ public:
     return m_charts[chart * m_rotations + rotation];
   }
 
+  // Whether charts that are made have a rim.
+  bool have_rims() const { return m_rims == Rims::ALL; }
+
+  // Makes one more with a rim.
+  Chart_raster with_rim(std::size_t chart, int rotation) const
+  {
+    return chart_raster(m_outlines[chart], angle(chart, rotation), m_density, m_raster, Rims::ALL);
+  }
+
 private:
   void make_one(std::size_t i)
   {
     const std::size_t chart = i / m_rotations;
     m_charts[i] = chart_raster(m_outlines[chart], angle(chart, int(i % m_rotations)), m_density,
-                               m_raster);
+                               m_raster, m_rims);
     m_is_made[i] = 1;
   }
 
@@ -340,6 +379,7 @@ private:
   int m_rotations;
   double m_density;
   Packing_raster m_raster;
+  Rims m_rims;
   std::vector<Chart_raster> m_charts; // the rotations of the first, of the second ...
   std::vector<char> m_is_made;
 };
