@@ -51,7 +51,7 @@ class Page_raster
 public:
   Page_raster(int width, int height)
     : m_width(width), m_height(height), m_words((width + 63) / 64),
-      m_framed(std::size_t(stride(width)) * (height + 2 * frame), 1), m_longest_free(height, width)
+      m_framed(std::size_t(stride(width)) * (height + 2 * frame), 1)
   {
     for(int y = 0; y < height; ++y)
       std::fill_n(m_framed.begin() + index(0, y), width, std::uint8_t(0));
@@ -62,9 +62,6 @@ public:
   int width() const { return m_width; }
   int height() const { return m_height; }
   int words() const { return m_words; } // of a row
-
-  // The most cells side by side in a row that are free.
-  int longest_free(int y) const { return m_longest_free[y]; }
 
   // The cells around a page that count as taken, and the cells of a row with them.
   static constexpr int frame = 4;
@@ -133,23 +130,10 @@ private:
   Word* row(int k, int y) { return m_levels[k].data() + std::size_t(m_words) * y; }
   const Word* row(int k, int y) const { return m_levels[k].data() + std::size_t(m_words) * y; }
 
-  int find_longest_free(const Word* words) const
-  {
-    int longest = 0, begin = 0;
-    for(int i = 0; i < m_words; ++i)
-      for(Word taken = words[i]; taken != 0; taken &= taken - 1) {
-        const int x = 64 * i + lowest_bit(taken);
-        longest = (std::max)(longest, x - begin);
-        begin = x + 1;
-      }
-    return (std::max)(longest, m_width - begin);
-  }
-
-  // Derives the rest of the rows [begin, end) from the first level.
+  // Derives the higher levels of the rows [begin, end) from the first.
   void update(int begin, int end)
   {
-    for(int y = begin; y < end; ++y) {
-      m_longest_free[y] = find_longest_free(row(0, y));
+    for(int y = begin; y < end; ++y)
       for(int k = 1; k < int(m_levels.size()); ++k) {
         const Word* from = row(k - 1, y);
         Word* to = row(k, y);
@@ -160,12 +144,10 @@ private:
           to[i] = from[i] | low >> s | high << 1 << (63 - s);
         }
       }
-    }
   }
 
   int m_width, m_height, m_words;
   std::vector<std::uint8_t> m_framed; // 1 where a cell is taken, with the frame
-  std::vector<int> m_longest_free;    // of each row
   std::vector<Level> m_levels; // each with a row and a word more than the page, which are read only
 };
 
@@ -217,7 +199,6 @@ struct Chart_raster
 {
   int width = 0, height = 0;           // 0 if it is larger than the page
   Vector_2d centre = {};               // of the chart, from the lower left corner
-  int widest = 0, widest_row = 0;      // the most cells side by side that it touches, and where
   std::vector<Probe> probes;           // of the cells it touches
   std::vector<Cell_run> padded;        // these and the padding around, from the same corner
   std::vector<int> rim;                // some cells around it, see `rim_of()`
@@ -262,13 +243,7 @@ inline Chart_raster chart_raster(const Chart_outline& outline, double angle, dou
   result.width = chart.mask.width();
   result.height = chart.mask.height();
   result.centre = chart.centre;
-  const std::vector<Cell_run> runs = chart.mask.runs();
-  for(const Cell_run& run : runs)
-    if(run.end - run.begin > result.widest) {
-      result.widest = run.end - run.begin;
-      result.widest_row = run.y;
-    }
-  result.probes = probes_of(runs);
+  result.probes = probes_of(chart.mask.runs());
   result.padded = dilated(chart.mask, raster.padding).runs();
   for(Cell_run& run : result.padded)
     run = {run.y - raster.padding, run.begin - raster.padding, run.end - raster.padding};

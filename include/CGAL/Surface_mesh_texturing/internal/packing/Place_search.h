@@ -88,8 +88,6 @@ inline void Place_search::search_near(const Chart_raster& chart, const Page_rast
   for(place.y = bottom; place.y <= top; ++place.y) {
     if(m_criterion == Place_criterion::LOW && place.y + chart.height > m_score.first)
       return;
-    if(page.longest_free(place.y + chart.widest_row) < chart.widest)
-      continue;
     int begin = left >> 6, end = (right >> 6) + 1;
     std::copy(all.row(0) + begin, all.row(0) + end, m_free.begin() + begin);
     if(!page.restrict_to_free(chart.probes, place.y, m_free.data(), begin, end))

@@ -40,7 +40,7 @@ public:
   Raster_packing_search(const std::vector<Chart_outline>& outlines, double unit,
                         const Packing_options& options)
     : m_outlines(outlines), m_unit(unit), m_options(options), m_exact(exact_raster(options)),
-      m_rotations(options.rotations > 0 ? options.rotations : 8),
+      m_rotations(options.rotations > 0 ? options.rotations : is_dust() ? 4 : 8),
       m_coarse(coarser_raster(m_exact, coarse_cells())),
       m_ladder(outlines, m_exact, (std::max)(std::size_t(1), options.max_pages)),
       m_longest_edges(longest_edges(outlines))
@@ -102,6 +102,10 @@ private:
 
   Packing_result packing_result(const Raster_packing& packing, const Chart_rasters& charts,
                                 double density) const;
+
+  // So many charts are mostly single triangles: a little more density is not worth minutes.
+  bool is_dust() const { return m_outlines.size() > 1000; }
+  int precision() const { return is_dust() ? 8 : 1; } // in levels
 
   // So many charts take much memory, and a look at each takes time.
   bool are_many() const { return m_outlines.size() > 512; }
@@ -194,7 +198,7 @@ inline Raster_packing_search::Plan Raster_packing_search::first_plan()
     else
       forget_charts(level);
     return is_complete;
-  });
+  }, precision());
   return plan;
 }
 
@@ -253,7 +257,7 @@ inline void Raster_packing_search::refine(const Plan& plan)
   if(m_best.is_complete)
     highest_level(m_best_level + 1, m_best_level + 1, 1, succeeds);
   else
-    highest_level(m_ladder.lowest(), plan.level, 4, succeeds);
+    highest_level(m_ladder.lowest(), plan.level, 4, succeeds, precision());
 }
 
 // The places of the best packing, for `factor` times as many directions.
