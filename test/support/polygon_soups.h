@@ -154,13 +154,27 @@ inline void repeat_corners(Polygon_soup& soup, Random& random, std::size_t one_i
   soup = result;
 }
 
-// Triangles that stand on an edge.
+// How many faces have both vertices.
+inline std::size_t number_of_faces_with(const Polygon_soup& soup, Vertex_index a, Vertex_index b)
+{
+  std::size_t number = 0;
+  for(std::size_t f = 0; f < soup.number_of_faces(); ++f) {
+    const Polygon_soup::Face face = soup.face(f);
+    number += std::count(face.begin(), face.end(), a) > 0
+           && std::count(face.begin(), face.end(), b) > 0;
+  }
+  return number;
+}
+
+// Triangles that stand on edges within the surface.
 inline void add_fins(Polygon_soup& soup, Random& random, std::size_t number)
 {
   const std::size_t faces = soup.number_of_faces();
   for(std::size_t i = 0; i < number; ++i) {
     const Polygon_soup::Face face = soup.face(uniform_index(random, faces));
     const Vertex_index a = face[0], b = face[1];
+    if(number_of_faces_with(soup, a, b) < 2)
+      continue;
     const auto &p = soup.points[a], &q = soup.points[b];
     const double length = std::sqrt(CGAL::to_double(squared_distance(p, q)));
     const Vertex_index tip = add_point(soup, 0.5 * (p.x() + q.x()), 0.5 * (p.y() + q.y()),

@@ -50,7 +50,7 @@ SMT::Texture_atlas_result build(const Indexed_triangle_mesh& mesh,
 
 } // namespace
 
-Built_atlas build_atlas(const Polygon_soup& surface, const Program_options& options,
+Built_atlas build_atlas(const Input_surface& surface, const Program_options& options,
                         Progress_bar& progress)
 {
   SMT::Texture_atlas_options library;
@@ -62,10 +62,13 @@ Built_atlas build_atlas(const Polygon_soup& surface, const Program_options& opti
   library.packing.padding = options.atlas.padding;
   library.packing.mip_levels = options.atlas.mip_levels;
   library.packing.max_pages = options.atlas.pages;
+  if(surface.surface.repairs.triangulated) {
+    library.no_seams = surface.surface.diagonals;
+  }
   library.progress = [&progress](double part) { return progress.try_advance(part); };
   progress.start_stage("atlas");
   const CGAL::Blocked_execution::Thread_scope threads(options.library.threads);
-  const Indexed_triangle_mesh mesh = to_indexed(surface);
+  const Indexed_triangle_mesh& mesh = surface.surface.mesh;
   SMT::Texture_atlas_result result
       = charts ? build(mesh, library, SMT::Given_charts_segmenter(*charts), options.atlas)
                : build(mesh, library, SMT::Chart_growth_segmenter(), options.atlas);

@@ -6,13 +6,11 @@
 
 #include "common/Program_options.h"
 #include "common/Progress_bar.h"
+#include "reading/Surface_reading.h"
 
-#include <CGAL/Indexed_mesh/Polygon_soup.h>
 #include <CGAL/Surface_mesh_texturing/Texture_atlas.h>
 
 namespace hlscm {
-
-using CGAL::Indexed_mesh::Polygon_soup;
 
 struct Built_atlas
 {
@@ -21,7 +19,7 @@ struct Built_atlas
 };
 
 /// Builds the atlas of a surface as the options want it; throws `Program_error`.
-Built_atlas build_atlas(const Polygon_soup& surface, const Program_options& options,
+Built_atlas build_atlas(const Input_surface& surface, const Program_options& options,
                         Progress_bar& progress);
 
 } // namespace hlscm

@@ -6,9 +6,11 @@
 #include "writing/Checkerboard.h"
 #include "common/Interruption.h"
 #include "commands/Overlap.h"
+#include "commands/Repairs.h"
 #include "commands/Run_report.h"
 #include "common/Stopwatch.h"
 #include "reading/Surface_reading.h"
+#include "writing/Mesh_writing.h"
 
 #include <CGAL/Surface_mesh_texturing/IO/GLB.h>
 #include <CGAL/Surface_mesh_texturing/IO/OBJ.h>
@@ -26,6 +28,55 @@ using CGAL::Surface_mesh_texturing::Texture_atlas;
 
 constexpr std::size_t checker_size = 1024, checker_squares = 64; // each way
 
+// The lines of the file but those of materials, and for each page the name of its material.
+std::vector<Mesh_line> lines_of_model(const Read_mesh& file, const Texture_atlas& atlas,
+                                      const std::string& name)
+{
+  std::vector<std::uint32_t> page(atlas.mesh.uv.size(), 0);
+  for(std::size_t t = 0; t < atlas.mesh.wedges.size(); ++t) {
+    for(const std::uint32_t w : atlas.mesh.wedges[t]) {
+      page[w] = atlas.page[atlas.charts.chart[t]];
+    }
+  }
+  std::vector<Mesh_line> lines = {{0, "mtllib " + name + ".mtl"}};
+  auto line = file.lines.begin();
+  std::optional<std::uint32_t> last;
+  for(std::size_t f = 0; f < file.soup.number_of_faces(); ++f) {
+    for(; line != file.lines.end() && line->face <= f; ++line) {
+      if(line->text.rfind("mtllib", 0) != 0 && line->text.rfind("usemtl", 0) != 0) {
+        lines.push_back(*line);
+      }
+    }
+    const std::uint32_t first = file.soup.first_corner[f];
+    const std::uint32_t uv
+        = first < file.soup.first_corner[f + 1] ? file.soup.uv_corners[first] : std::uint32_t(-1);
+    const std::uint32_t p = uv < page.size() ? page[uv] : last.value_or(0);
+    if(last != p) {
+      lines.push_back({f, "usemtl " + CGAL::Surface_mesh_texturing::material_name(p)});
+      last = p;
+    }
+  }
+  return lines;
+}
+
+// The faces of the file in the atlas, with the normals of the model unless it has its own.
+Read_mesh faces_of_model(const Input_surface& input, const Texture_atlas& atlas,
+                         const Textured_model& model, std::vector<std::string>& warnings)
+{
+  Read_mesh file = input.file;
+  if(file.normal_corners.empty()) {
+    file.normals.clear();
+    for(const auto& n : model.frames.normals) {
+      file.normals.emplace_back(n.x(), n.y(), n.z());
+    }
+    file.normal_corners = CGAL::Indexed_mesh::uv_corners_of_soup(
+        file.soup, input.surface, input.surface.mesh.triangles);
+  }
+  file = with_map(std::move(file), input.surface, atlas.mesh.uv, atlas.mesh.wedges, warnings);
+  file.lines = lines_of_model(file, atlas, "atlas");
+  return file;
+}
+
 } // namespace
 
 Model_outputs::Model_outputs(Folder_outputs& folder, std::string name, bool has_ply)
@@ -34,11 +85,15 @@ Model_outputs::Model_outputs(Folder_outputs& folder, std::string name, bool has_
     m_ply(has_ply ? &folder.create(m_name + ".ply") : nullptr)
 {}
 
-void Model_outputs::write(Textured_model model)
+void Model_outputs::write(Textured_model model, const Read_mesh* faces)
 {
   namespace IO = CGAL::Surface_mesh_texturing::IO;
   model.name = m_name;
-  m_obj.write([&](std::ostream& stream) { return IO::write_OBJ(stream, model); });
+  if(faces != nullptr) {
+    write_obj(*faces, m_obj);
+  } else {
+    m_obj.write([&](std::ostream& stream) { return IO::write_OBJ(stream, model); });
+  }
   m_mtl.write([&](std::ostream& stream) { return IO::write_MTL(stream, model); });
   m_glb.write([&](std::ostream& stream) { return IO::write_GLB(stream, model); });
   if(m_ply != nullptr) {
@@ -64,7 +119,8 @@ Atlas_outputs::Atlas_outputs(const Program_options& options)
   }
 }
 
-void Atlas_outputs::write(const Texture_atlas& atlas, Progress_bar& progress)
+void Atlas_outputs::write(const Input_surface& input, const Texture_atlas& atlas,
+                          Progress_bar& progress, std::vector<std::string>& warnings)
 {
   progress.start_stage("writing");
   Textured_model model = CGAL::Surface_mesh_texturing::textured_model(atlas);
@@ -73,7 +129,12 @@ void Atlas_outputs::write(const Texture_atlas& atlas, Progress_bar& progress)
     material.color = 0;
   }
   m_checker->put(model.textures[0].png);
-  m_model->write(std::move(model));
+  if(input.surface.repairs.sentences().empty() && input.file.lines.empty()) {
+    m_model->write(std::move(model));
+    return;
+  }
+  const Read_mesh faces = faces_of_model(input, atlas, model, warnings);
+  m_model->write(std::move(model), &faces);
 }
 
 void Atlas_outputs::draw(const Texture_atlas& atlas, Progress_bar& progress)
@@ -91,25 +152,26 @@ void Atlas_outputs::finish(Atlas_report& report, Progress_bar& progress)
   m_folder.files().commit();
   progress.erase();
   if(!m_options.is_quiet) {
-    for(const std::string& warning : report.all_warnings()) {
-      std::cerr << "hlscm: warning: " << m_options.input << ": " << warning << "\n";
-    }
+    print_notes(m_options.input, report.repairs, report.all_warnings());
     std::cout << to_table(report, m_options) << std::flush;
   }
 }
 
-Polygon_soup read_input(const Program_options& options, Progress_bar& progress,
-                        Atlas_report& report)
+Input_surface read_input(const Program_options& options, Progress_bar& progress,
+                         Atlas_report& report)
 {
   const Stopwatch reading;
-  Polygon_soup surface = read_surface(options.input, progress, report.warnings);
+  Input_surface surface
+      = read_surface(options.input, options, atlas_obstacles, progress, report.warnings);
+  refuse_beyond_floats(options.input, surface.surface.mesh.points);
+  report.repairs = surface.surface.repairs;
   report.seconds_read = reading.seconds();
-  report.faces = surface.number_of_faces();
-  report.vertices = surface.number_of_vertices();
+  report.faces = surface.surface.mesh.triangles.size();
+  report.vertices = surface.surface.mesh.points.size();
   return surface;
 }
 
-Texture_atlas make_atlas(const Polygon_soup& surface, const Program_options& options,
+Texture_atlas make_atlas(const Input_surface& surface, const Program_options& options,
                          Progress_bar& progress, Atlas_report& report)
 {
   Built_atlas built = build_atlas(surface, options, progress);

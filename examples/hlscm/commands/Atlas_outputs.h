@@ -12,6 +12,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace hlscm {
 
@@ -21,7 +22,8 @@ class Model_outputs
 public:
   Model_outputs(Folder_outputs& folder, std::string name, bool has_ply);
 
-  void write(Textured_model model);
+  /// Writes it. `faces`, if there are some, are what NAME.obj has in the place of the triangles.
+  void write(Textured_model model, const Read_mesh* faces = nullptr);
 
 private:
   std::string m_name;
@@ -40,8 +42,9 @@ public:
 
   Folder_outputs& folder() { return m_folder; }
 
-  /// Writes the model with its checkerboard.
-  void write(const CGAL::Surface_mesh_texturing::Texture_atlas& atlas, Progress_bar& progress);
+  /// Writes the model with its checkerboard; atlas.obj has the faces of the input.
+  void write(const Input_surface& input, const CGAL::Surface_mesh_texturing::Texture_atlas& atlas,
+             Progress_bar& progress, std::vector<std::string>& warnings);
 
   /// Draws, if pictures are wanted.
   void draw(const CGAL::Surface_mesh_texturing::Texture_atlas& atlas, Progress_bar& progress);
@@ -59,11 +62,11 @@ private:
 };
 
 /// Reads the input, and fills what the report says about it.
-Polygon_soup read_input(const Program_options& options, Progress_bar& progress,
-                        Atlas_report& report);
+Input_surface read_input(const Program_options& options, Progress_bar& progress,
+                         Atlas_report& report);
 
 /// Builds its atlas, and fills what the report says about that.
-CGAL::Surface_mesh_texturing::Texture_atlas make_atlas(const Polygon_soup& surface,
+CGAL::Surface_mesh_texturing::Texture_atlas make_atlas(const Input_surface& surface,
                                                        const Program_options& options,
                                                        Progress_bar& progress,
                                                        Atlas_report& report);

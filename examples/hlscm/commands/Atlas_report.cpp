@@ -3,6 +3,7 @@
 
 #include "commands/Atlas_report.h"
 #include "commands/Json_number.h"
+#include "commands/Repairs.h"
 
 #include <cmath>
 #include <iomanip>
@@ -162,6 +163,7 @@ std::string to_json(const Atlas_report& report, const Program_options& options)
   json["files"] = files;
   json["seconds"] = seconds(report);
   json["peak_memory_mb"] = report.peak_memory_mb;
+  json["repairs"] = to_json(report.repairs);
   json["warnings"] = report.all_warnings();
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -6,6 +6,7 @@
 
 #include "common/Program_options.h"
 
+#include <CGAL/Indexed_mesh/surface_of_soup.h>
 #include <CGAL/Surface_mesh_multiresolution/texture_deviation.h>
 #include <CGAL/Surface_mesh_texturing/Texture_atlas.h>
 
@@ -45,6 +46,7 @@ struct Bake_report
 /// What a run of `atlas` or `bake` did.
 struct Atlas_report
 {
+  CGAL::Indexed_mesh::Soup_repairs repairs; ///< before all else
   std::vector<std::string> warnings; ///< of reading
   std::size_t faces = 0, vertices = 0, wedges = 0;
   std::size_t pages = 0, width = 0, height = 0;

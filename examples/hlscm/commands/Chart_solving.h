@@ -16,9 +16,10 @@
 
 namespace hlscm {
 
-/// Reads a mesh that can be parameterized, or throws `Program_error`.
-Mesh read_chart(const std::string& input, Progress_bar& progress,
-                std::vector<std::string>& warnings);
+/// The pins of the options; throws `Program_error` if a vertex is out of range or pinned twice, or if
+/// all have the same place.
+std::vector<CGAL::Surface_mesh_parameterization::HLSCM_pin>
+checked_pins(const Program_options& options, std::size_t number_of_vertices);
 
 struct Solved_chart
 {
@@ -27,14 +28,19 @@ struct Solved_chart
   CGAL::Surface_mesh_parameterization::Chart_progressive_mesh progressive_mesh;
 };
 
-/// Parameterizes a chart with the pins of the program's options; throws `Program_error`.
+/// Parameterizes a chart with the given pins, vertices of the mesh; throws `Program_error`.
 Solved_chart solve_chart(const Program_options& options,
                          CGAL::Surface_mesh_parameterization::HLSCM_options library,
-                         const Mesh& mesh, Uv_map uv, Progress_bar& progress);
+                         const Mesh& mesh,
+                         const std::vector<CGAL::Surface_mesh_parameterization::HLSCM_pin>& pins,
+                         Uv_map uv, Progress_bar& progress);
 
-/// Moves the map into the unit square, as large as possible without turning it.
-Similarity fit_to_unit_square(const Mesh& mesh, Uv_map uv,
-                              CGAL::Surface_mesh_parameterization::HLSCM_report& report);
+/// Moves a map into the unit square, as large as possible without turning it.
+Similarity fit_to_unit_square(std::vector<Kernel::Point_2>& uv);
+
+/// Says the same of the pins and the energies of a report.
+void move_report(const Similarity& similarity,
+                 CGAL::Surface_mesh_parameterization::HLSCM_report& report);
 
 } // namespace hlscm
 

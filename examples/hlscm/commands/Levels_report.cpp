@@ -56,6 +56,7 @@ std::string to_json(const Levels_report& report, const std::vector<Level_of_deta
                  {"measure", report.seconds_measure},
                  {"write", report.seconds_write}}},
                {"peak_memory_mb", report.peak_memory_mb},
+               {"repairs", hlscm::to_json(report.repairs)},
                {"warnings", report.warnings}};
   if(report.solver) {
     json["method"] = report.solver->method;

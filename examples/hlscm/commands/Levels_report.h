@@ -7,6 +7,7 @@
 #include "writing/Level_of_detail.h"
 #include "common/Program_options.h"
 
+#include <CGAL/Indexed_mesh/surface_of_soup.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
 
 #include <cstddef>
@@ -20,6 +21,7 @@ namespace hlscm {
 /// What a run of `levels` did.
 struct Levels_report
 {
+  CGAL::Indexed_mesh::Soup_repairs repairs; ///< before all else
   std::vector<std::string> warnings;
   std::optional<CGAL::Surface_mesh_parameterization::HLSCM_report> solver; ///< if it was needed
   std::size_t faces = 0, vertices = 0, wedges = 0; ///< of the fine mesh

@@ -80,6 +80,8 @@ void add_report_and_quiet(CLI::App& app, Program_options& options)
   app.add_option("--report", options.report, "what was done and measured, as JSON")
       ->type_name("FILE.json");
   app.add_flag("--quiet", options.is_quiet, "print errors only");
+  app.add_flag("--strict", options.is_strict,
+               "refuse a mesh that is not what the command needs, instead of mending or cutting it");
 }
 
 } // namespace hlscm

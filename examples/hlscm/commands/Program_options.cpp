@@ -106,8 +106,11 @@ void add_info(CLI::App& app, Program_options& o)
 void add_parameterize(CLI::App& app, Program_options& o)
 {
   CLI::App* run =
-      app.add_subcommand("parameterize", "Map a disk-like surface to the plane, conformally");
-  run->add_option("IN", o.input, "a triangle mesh with a border: .off, .obj, .ply or .stl")
+      app.add_subcommand("parameterize", "Map a surface to the plane, conformally, in one piece for each "
+                                         "connected component");
+  run->add_option("IN", o.input,
+                  "a mesh of any kind: .off, .obj, .ply or .stl; closed components, and those with "
+                  "handles, are cut open, and several are laid side by side")
       ->required();
   run->add_option("-o,--output", o.output,
                   "the mesh with texture coordinates: .obj, or .ply (binary)")
@@ -128,6 +131,10 @@ void add_parameterize(CLI::App& app, Program_options& o)
   run->add_option("--pictures", o.pictures,
                   "a folder for domain.png, isolines.png, checker.png and levels.png")
       ->type_name("DIR");
+  run->add_option("--component", o.component,
+                  "map only that connected component, counted from 0; the others stay without "
+                  "texture coordinates")
+      ->type_name("N");
   add_report_and_quiet(*run, o);
   run->add_flag("--verbose", o.is_verbose, "show the levels of the solver on stderr");
   run->callback([&o] { o.command = Command::PARAMETERIZE; });

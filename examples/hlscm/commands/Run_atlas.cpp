@@ -13,10 +13,10 @@ int run_atlas(const Program_options& options)
   Progress_bar progress(!options.is_quiet);
   Atlas_outputs outputs(options);
   Atlas_report report;
-  const Polygon_soup surface = read_input(options, progress, report);
+  const Input_surface surface = read_input(options, progress, report);
   const auto atlas = make_atlas(surface, options, progress, report);
   const Stopwatch writing;
-  outputs.write(atlas, progress);
+  outputs.write(surface, atlas, progress, report.warnings);
   report.seconds_write = writing.seconds();
   report.peak_memory_mb = peak_memory_mb();
   outputs.draw(atlas, progress);

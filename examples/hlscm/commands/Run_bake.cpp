@@ -54,12 +54,14 @@ Textured_triangle_mesh read_target(const Program_options& options, Progress_bar&
                                    Atlas_report& report)
 {
   const std::string& name = options.bake.target;
-  const Polygon_soup soup = read_surface(name, progress, report.warnings);
-  if(!soup.has_uv()) {
+  const Input_surface target
+      = read_surface(name, options, atlas_obstacles, progress, report.warnings);
+  refuse_beyond_floats(name, target.surface.mesh.points);
+  if(!target.file.soup.has_uv()) {
     throw Program_error(name, "it has no texture coordinates at all its corners, make some by "
                               "hlscm atlas first");
   }
-  Textured_triangle_mesh mesh = SMM::with_wedges(to_textured(soup));
+  Textured_triangle_mesh mesh = SMM::with_wedges(to_textured(target));
   for(const auto& uv : mesh.uv) {
     if(!(uv.x() >= 0 && uv.x() <= 1 && uv.y() >= 0 && uv.y() <= 1)) {
       throw Program_error(name, "its texture coordinates leave the unit square, scale them");
@@ -73,12 +75,12 @@ Textured_triangle_mesh read_target(const Program_options& options, Progress_bar&
   return mesh;
 }
 
-Baking_input prepare(const Polygon_soup& surface, const Program_options& options,
+Baking_input prepare(const Input_surface& surface, const Program_options& options,
                      Atlas_outputs& outputs, Progress_bar& progress, Atlas_report& report)
 {
   Baking_input input;
   if(!options.bake.colours.empty()) {
-    if(!surface.has_uv()) {
+    if(!surface.file.soup.has_uv()) {
       throw Program_error(options.input, "it has no texture coordinates at all its corners, "
                                          "which --colors needs, leave that out");
     }
@@ -86,14 +88,13 @@ Baking_input prepare(const Polygon_soup& surface, const Program_options& options
     input.colours = read_image(options.bake.colours);
   }
   if(!options.bake.target.empty()) {
-    CGAL::Indexed_mesh::Indexed_triangle_mesh fine = to_indexed(surface);
-    input.fine.points = std::move(fine.points);
-    input.fine.triangles = std::move(fine.triangles);
+    input.fine.points = surface.surface.mesh.points;
+    input.fine.triangles = surface.surface.mesh.triangles;
     input.light = read_target(options, progress, report);
     return input;
   }
   const auto atlas = make_atlas(surface, options, progress, report);
-  outputs.write(atlas, progress);
+  outputs.write(surface, atlas, progress, report.warnings);
   outputs.draw(atlas, progress);
   input.pages = atlas.number_of_pages;
   input.fine = to_sheet(atlas.mesh, pages_of_triangles(atlas), atlas.number_of_pages);
@@ -123,7 +124,7 @@ int run_bake(const Program_options& options)
   }
   Atlas_report report;
   Bake_report& bake = report.bake.emplace();
-  const Polygon_soup surface = read_input(options, progress, report);
+  const Input_surface surface = read_input(options, progress, report);
   const Baking_input input = prepare(surface, options, outputs, progress, report);
   bake.faces = input.light.triangles.size();
   bake.vertices = input.light.points.size();

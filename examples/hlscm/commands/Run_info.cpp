@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "commands/Commands.h"
+#include "commands/Repairs.h"
 #include "reading/Diagnosis.h"
 #include "reading/Mesh_reading.h"
+
+#include <CGAL/Indexed_mesh/surface_of_soup.h>
+#include <CGAL/Surface_mesh_texturing/chart_topology.h>
 
 #include <nlohmann/json.hpp>
 
@@ -37,15 +41,61 @@ std::vector<Row> findings(const Diagnosis& d)
           {"non_manifold_vertices", "non-manifold vertices", d.non_manifold_vertices, 1}};
 }
 
-std::string conclusion(const Diagnosis& d, const std::vector<Obstacle>& reasons)
+/// What the commands that map a mesh would do to it first.
+struct Plan
 {
-  if(!reasons.empty()) {
-    return "no";
+  std::string refusal; ///< why it cannot be mapped at all; empty if it can
+  CGAL::Indexed_mesh::Soup_repairs repairs;
+  std::size_t components = 0; ///< of the surface
+  std::size_t cut = 0;        ///< of these: closed, or with handles
+};
+
+Plan plan_for(const Polygon_soup& soup, const Diagnosis& d)
+{
+  namespace SMT = CGAL::Surface_mesh_texturing;
+  Plan plan;
+  if(d.not_finite) {
+    plan.refusal = surface_obstacles(d).front().what;
+    return plan;
   }
-  return d.zero_area ? "yes, triangles without area are replaced by very thin ones" : "yes";
+  const auto surface = CGAL::Indexed_mesh::surface_of_soup(soup);
+  plan.refusal = surface.error;
+  plan.repairs = surface.repairs;
+  const auto& triangles = surface.mesh.triangles;
+  const auto charts
+      = SMT::charts_between(triangles, std::vector<std::uint8_t>(triangles.size(), 0));
+  for(const auto& topology : SMT::chart_topologies(triangles, charts)) {
+    ++plan.components;
+    plan.cut += topology.borders == 0 || topology.genus() > 0;
+  }
+  return plan;
 }
 
-void print_text(const std::string& file, const Diagnosis& d,
+/// One line each.
+std::vector<std::string> steps(const Plan& plan, const Diagnosis& d)
+{
+  std::vector<std::string> all = plan.repairs.sentences();
+  if(plan.cut > 0) {
+    all.push_back(std::to_string(plan.cut)
+                  + (plan.cut == 1 ? " component is closed or has handles: it is cut open"
+                                   : " components are closed or have handles: they are cut open"));
+  }
+  if(plan.components > 1) {
+    all.push_back("the " + std::to_string(plan.components)
+                  + " components are laid side by side");
+  }
+  if(d.coinciding_points > 0) {
+    all.push_back(std::to_string(d.coinciding_points)
+                  + " vertices have the place of another one: merge them first if the parts belong "
+                    "together");
+  }
+  if(d.zero_area) {
+    all.push_back("triangles without area are replaced by very thin ones");
+  }
+  return all;
+}
+
+void print_text(const std::string& file, const Diagnosis& d, const Plan& plan,
                 const std::vector<std::string>& warnings)
 {
   const auto row = [](const std::string& label) -> std::ostream& {
@@ -70,19 +120,13 @@ void print_text(const std::string& file, const Diagnosis& d,
   for(const std::string& warning : warnings) {
     row("warning") << warning << "\n";
   }
-  const std::vector<Obstacle> reasons = obstacles(d);
-  row("can be parameterized") << conclusion(d, reasons) << "\n";
-  for(const Obstacle& reason : reasons) {
-    std::cout << "  " << reason.what << ": " << reason.remedy << "\n";
-  }
-  const std::vector<Obstacle> against_atlas = atlas_obstacles(d);
-  row("can have an atlas") << (against_atlas.empty() ? "yes" : "no") << "\n";
-  for(const Obstacle& reason : against_atlas) {
-    std::cout << "  " << reason.what << ": " << reason.remedy << "\n";
+  row("can be mapped") << (plan.refusal.empty() ? "yes" : "no, " + plan.refusal) << "\n";
+  for(const std::string& step : steps(plan, d)) {
+    std::cout << "  " << step << "\n";
   }
 }
 
-void print_json(const std::string& file, const Diagnosis& d,
+void print_json(const std::string& file, const Diagnosis& d, const Plan& plan,
                 const std::vector<std::string>& warnings)
 {
   Json json = {{"file", file},
@@ -103,8 +147,10 @@ void print_json(const std::string& file, const Diagnosis& d,
   }
   const std::vector<Obstacle> reasons = obstacles(d);
   json["warnings"] = warnings;
-  json["can_be_parameterized"] = reasons.empty();
-  json["can_have_an_atlas"] = atlas_obstacles(d).empty();
+  json["can_be_mapped"] = plan.refusal.empty();
+  json["is_chart"] = reasons.empty();
+  json["repairs"] = to_json(plan.repairs);
+  json["components_to_cut"] = plan.cut;
   json["obstacles"] = Json::array();
   for(const Obstacle& reason : reasons) {
     json["obstacles"].push_back({{"what", reason.what}, {"remedy", reason.remedy}});
@@ -119,8 +165,9 @@ int run_info(const Program_options& options)
   Progress_bar progress(true);
   const Read_mesh mesh = read_mesh(options.input, progress);
   const Diagnosis diagnosis = diagnose(mesh.soup, progress);
+  const Plan plan = plan_for(mesh.soup, diagnosis);
   progress.erase();
-  (options.prints_json ? print_json : print_text)(options.input, diagnosis, mesh.warnings);
+  (options.prints_json ? print_json : print_text)(options.input, diagnosis, plan, mesh.warnings);
   return 0;
 }
 

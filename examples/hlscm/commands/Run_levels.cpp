@@ -3,15 +3,15 @@
 
 #include "commands/Chart_solving.h"
 #include "commands/Commands.h"
-#include "reading/Diagnosis.h"
 #include "writing/Folder_outputs.h"
 #include "common/Interruption.h"
 #include "pictures/Level_pictures.h"
 #include "commands/Levels_report.h"
-#include "reading/Mesh_reading.h"
 #include "common/Program_error.h"
 #include "commands/Progressive_building.h"
+#include "commands/Repairs.h"
 #include "commands/Run_report.h"
+#include "commands/Surface_mapping.h"
 #include "common/Stopwatch.h"
 #include "reading/Surface_reading.h"
 #include "writing/Checkerboard.h"
@@ -72,16 +72,23 @@ Progressive_model read_progressive(const std::string& name, std::vector<std::str
   return std::move(read.mesh);
 }
 
-Progressive_model build_from_chart(const Polygon_soup& soup, const Program_options& options,
+Progressive_model build_from_chart(const Input_surface& input, const Program_options& options,
                                    Progress_bar& progress, Levels_report& report)
 {
-  Mesh mesh = build_mesh(soup);
+  Mesh mesh = build_mesh(input.surface.mesh);
   const Stopwatch solving;
   Uv_map uv = mesh.add_property_map<Mesh::Vertex_index, Kernel::Point_2>("v:uv").first;
   SMP::HLSCM_options library = options.library;
   library.keep_progressive_mesh = true;
-  Solved_chart chart = solve_chart(options, library, mesh, uv, progress);
-  fit_to_unit_square(mesh, uv, chart.report);
+  Solved_chart chart = solve_chart(options, library, mesh, {}, uv, progress);
+  std::vector<Kernel::Point_2> points;
+  for(const auto v : mesh.vertices()) {
+    points.push_back(uv[v]);
+  }
+  move_report(fit_to_unit_square(points), chart.report);
+  for(const auto v : mesh.vertices()) {
+    uv[v] = points[v];
+  }
   report.solver = chart.report;
   report.warnings.insert(report.warnings.end(), chart.report.warnings.begin(),
                          chart.report.warnings.end());
@@ -97,6 +104,19 @@ Progressive_model build_from_chart(const Polygon_soup& soup, const Program_optio
   return std::move(result.mesh);
 }
 
+// What is no chart and has no texture coordinates is mapped in one piece for each component first.
+SMM::Textured_triangle_mesh map_first(const Input_surface& input, const Program_options& options,
+                                      Progress_bar& progress, Levels_report& report)
+{
+  const Stopwatch solving;
+  Mapped_surface map = map_input(input, options, nullptr, progress);
+  report.solver = map.report;
+  report.warnings.insert(report.warnings.end(), map.report.warnings.begin(),
+                         map.report.warnings.end());
+  report.seconds_parameterize = solving.seconds();
+  return std::move(map.mesh);
+}
+
 Progressive_model make_model(const Program_options& options, Progress_bar& progress,
                              Levels_report& report)
 {
@@ -107,17 +127,18 @@ Progressive_model make_model(const Program_options& options, Progress_bar& progr
     report.seconds_read = reading.seconds();
     return model;
   }
-  const Read_mesh read = read_mesh(options.input, progress);
-  report.warnings = read.warnings;
-  const Diagnosis diagnosis = diagnose(read.soup, progress);
-  refuse_obstacles(options.input, read.soup.has_uv() ? surface_obstacles(diagnosis)
-                                                     : obstacles(diagnosis));
+  const Input_surface input
+      = read_surface(options.input, options, surface_obstacles, progress, report.warnings);
+  report.repairs = input.surface.repairs;
   report.seconds_read = reading.seconds();
-  if(!read.soup.has_uv()) {
-    return build_from_chart(read.soup, options, progress, report);
+  if(!input.file.soup.has_uv() && input.is_chart()) {
+    return build_from_chart(input, options, progress, report);
   }
+  const SMM::Textured_triangle_mesh textured = input.file.soup.has_uv()
+                                                   ? to_textured(input)
+                                                   : map_first(input, options, progress, report);
   const Stopwatch building;
-  Progressive_model model = build_progressive(to_textured(read.soup), options, progress);
+  Progressive_model model = build_progressive(textured, options, progress);
   report.seconds_build = building.seconds();
   return model;
 }
@@ -287,9 +308,7 @@ int run_levels(const Program_options& options)
   outputs.finish(model, levels, report, progress);
   progress.erase();
   if(!options.is_quiet) {
-    for(const std::string& warning : report.warnings) {
-      std::cerr << "hlscm: warning: " << options.input << ": " << warning << "\n";
-    }
+    print_notes(options.input, report.repairs, report.warnings);
     std::cout << to_table(report, levels, options) << std::flush;
   }
   return 0;

@@ -1,11 +1,11 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "commands/Chart_solving.h"
 #include "commands/Commands.h"
+#include "commands/Repairs.h"
+#include "commands/Surface_mapping.h"
 #include "common/Interruption.h"
 #include "pictures/Level_snapshots.h"
-#include "common/Mesh.h"
 #include "writing/Mesh_writing.h"
 #include "pictures/Pictures.h"
 #include "common/Program_error.h"
@@ -16,6 +16,8 @@
 
 #include <iostream>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace hlscm {
 
@@ -59,9 +61,7 @@ void add_warnings(Run_report& report)
 
 void print(const Run_report& report, const Program_options& options)
 {
-  for(const std::string& warning : report.warnings) {
-    std::cerr << "hlscm: warning: " << options.input << ": " << warning << "\n";
-  }
+  print_notes(options.input, report.repairs, report.warnings);
   std::cout << to_table(report, options) << std::flush;
 }
 
@@ -74,42 +74,42 @@ int run_parameterize(const Program_options& options)
   Run_report report;
 
   const Stopwatch reading;
-  Mesh mesh = read_chart(options.input, progress, report.warnings);
+  Input_surface input
+      = read_surface(options.input, options, obstacles, progress, report.warnings);
+  choose_component(input, options);
   report.seconds_read = reading.seconds();
 
   const Stopwatch working;
-  Uv_map uv = mesh.add_property_map<Mesh::Vertex_index, Kernel::Point_2>("v:uv").first;
   std::optional<Level_snapshots> snapshots;
   if(files.pictures) {
-    snapshots.emplace(mesh);
+    snapshots.emplace(input.surface.mesh.points);
   }
-  SMP::HLSCM_options library = options.library;
-  if(snapshots) {
-    library.level_observer = [&snapshots](const SMP::Level_view& view) {
-      snapshots->observe(view);
-      return true;
-    };
-  }
-  report.solver = solve_chart(options, library, mesh, uv, progress).report;
-  Similarity to_result;
-  if(options.pins.empty()) {
-    to_result = fit_to_unit_square(mesh, uv, report.solver);
-  }
+  Mapped_surface map
+      = map_input(input, options, snapshots ? &*snapshots : nullptr, progress);
+  report.solver = map.report;
+  report.components = map.components;
+  report.repairs = input.surface.repairs;
   report.seconds_total = working.seconds();
   const Stopwatch measuring;
-  report.distortion = SMP::measure_distortion(mesh, uv);
+  report.distortion = SMP::measure_distortion(map.mesh);
   report.seconds_measure = measuring.seconds();
   add_warnings(report);
 
+  std::vector<Drawn_surface> drawn;
+  if(files.pictures) {
+    drawn = snapshots->surfaces(map.mesh, map.from_solver);
+  }
   const Stopwatch writing;
-  write_mesh(mesh, uv, options.output, *files.output, progress);
+  write_mesh(with_map(std::move(input.file), input.surface, std::move(map.mesh.uv),
+                      map.mesh.wedges, report.warnings),
+             options.output, *files.output, progress);
   report.seconds_write = writing.seconds();
   report.peak_memory_mb = peak_memory_mb();
   if(files.report != nullptr) {
     files.report->put(to_json(report, options));
   }
   if(files.pictures) {
-    files.pictures->draw(snapshots->surfaces(uv, to_result), progress);
+    files.pictures->draw(drawn, progress);
   }
   Interruption::finish();
   files.all.commit();

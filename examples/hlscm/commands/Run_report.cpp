@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "commands/Json_number.h"
+#include "commands/Repairs.h"
 #include "commands/Run_report.h"
 
 #include <algorithm>
@@ -82,6 +83,42 @@ Json to_json(const CGAL::Surface_mesh_parameterization::Flip_repair_report& repa
           {"unmended_faces", repair.unmended_faces}};
 }
 
+// One object for each component.
+Json to_json(const std::vector<CGAL::Surface_mesh_texturing::Mapped_component>& components)
+{
+  Json result = Json::array();
+  for(const auto& component : components) {
+    result.push_back({{"faces", component.faces},
+                      {"borders", component.borders},
+                      {"genus", component.genus},
+                      {"cut", component.is_cut},
+                      {"mapped", component.is_mapped},
+                      {"energy", number(component.report.energy)}});
+  }
+  return result;
+}
+
+// What a reader should know about components, nothing for a single one that was not cut.
+std::string components_text(const Run_report& report)
+{
+  std::size_t cut = 0, unmapped = 0;
+  for(const auto& component : report.components) {
+    cut += component.is_cut;
+    unmapped += !component.is_mapped;
+  }
+  if(report.components.size() == 1) {
+    return cut > 0 ? "1, cut to a disk" : "";
+  }
+  std::string text = std::to_string(report.components.size()) + ", laid side by side";
+  if(cut > 0) {
+    text += ", " + std::to_string(cut) + " of them cut to disks";
+  }
+  if(unmapped > 0) {
+    text += ", " + std::to_string(unmapped) + " without extent, each mapped to one point";
+  }
+  return text;
+}
+
 } // namespace
 
 double peak_memory_mb()
@@ -112,6 +149,8 @@ std::string to_json(const Run_report& report, const Program_options& options)
                {"vertices", s.vertices},
                {"faces", s.faces},
                {"borders", s.borders},
+               {"components", to_json(report.components)},
+               {"repairs", to_json(report.repairs)},
                {"pins", pins},
                {"levels", s.levels.size()},
                {"level_table", levels},
@@ -153,6 +192,10 @@ std::string to_table(const Run_report& report, const Program_options& options)
   Table table;
   table.add("input", options.input, ": ", s.vertices, " vertices, ", s.faces, " faces, ", s.borders,
             s.borders == 1 ? " border" : " borders");
+  const std::string components = components_text(report);
+  if(!components.empty()) {
+    table.add("components", components);
+  }
   if(s.method == "direct") {
     table.add("method", s.method);
   } else {

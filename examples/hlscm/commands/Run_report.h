@@ -8,6 +8,7 @@
 
 #include <CGAL/Surface_mesh_parameterization/Distortion_measures.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
+#include <CGAL/Surface_mesh_texturing/map_surface.h>
 
 #include <string>
 #include <vector>
@@ -19,6 +20,9 @@ struct Run_report
 {
   CGAL::Surface_mesh_parameterization::HLSCM_report solver;
   CGAL::Surface_mesh_parameterization::Distortion_measures distortion;
+  /// Of each connected component.
+  std::vector<CGAL::Surface_mesh_texturing::Mapped_component> components;
+  CGAL::Indexed_mesh::Soup_repairs repairs; ///< before it was mapped
   std::vector<std::string> warnings;
   double seconds_read = 0;    ///< reading and checking the file and building the mesh
   double seconds_measure = 0; ///< of the distortion

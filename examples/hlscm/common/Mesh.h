@@ -4,32 +4,28 @@
 #ifndef HLSCM_PROGRAM_MESH_H
 #define HLSCM_PROGRAM_MESH_H
 
-#include <CGAL/Indexed_mesh/Polygon_soup.h>
+#include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 
 namespace hlscm {
 
-using CGAL::Indexed_mesh::Polygon_soup;
-
 using Kernel = CGAL::Simple_cartesian<double>;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using Uv_map = Mesh::Property_map<Mesh::Vertex_index, Kernel::Point_2>;
 
-/// Builds a mesh from a soup without obstacles; vertices, faces and corners keep their order.
-inline Mesh build_mesh(const Polygon_soup& soup)
+/// Builds a mesh of an oriented manifold; vertices, faces and corners keep their order.
+inline Mesh build_mesh(const CGAL::Indexed_mesh::Indexed_triangle_mesh& arrays)
 {
   Mesh mesh;
-  const std::size_t vertices = soup.number_of_vertices(), faces = soup.number_of_faces();
+  const std::size_t vertices = arrays.points.size(), faces = arrays.triangles.size();
   mesh.reserve(Mesh::size_type(vertices), Mesh::size_type(vertices + faces),
                Mesh::size_type(faces));
-  for(const Kernel::Point_3& p : soup.points) {
+  for(const Kernel::Point_3& p : arrays.points) {
     mesh.add_vertex(p);
   }
-  for(std::size_t f = 0; f < faces; ++f) {
-    const Polygon_soup::Face face = soup.face(f);
-    mesh.add_face(Mesh::Vertex_index(face[0]), Mesh::Vertex_index(face[1]),
-                  Mesh::Vertex_index(face[2]));
+  for(const auto& t : arrays.triangles) {
+    mesh.add_face(Mesh::Vertex_index(t[0]), Mesh::Vertex_index(t[1]), Mesh::Vertex_index(t[2]));
   }
   return mesh;
 }

@@ -72,6 +72,8 @@ struct Program_options
 {
   Command command = Command::PARAMETERIZE;
   std::string input;
+  bool is_strict = false;                ///< what is no oriented manifold is refused
+  std::optional<std::size_t> component; ///< of `parameterize`: the only one to be mapped
   bool is_quiet = false;
   bool is_verbose = false;  ///< of `parameterize`: shows the levels of the solver
   bool prints_json = false; ///< of `info`

@@ -8,6 +8,7 @@
 #include "common/Mesh.h"
 #include "pictures/Unit_cube.h"
 
+#include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
 
 namespace hlscm {
@@ -30,7 +31,9 @@ class Level_snapshots
 public:
   using Level_view = CGAL::Surface_mesh_parameterization::Level_view;
 
-  explicit Level_snapshots(const Mesh& mesh) : m_mesh(mesh), m_cube(mesh.points()) {}
+  explicit Level_snapshots(const std::vector<Kernel::Point_3>& points)
+    : m_points(points), m_cube(points)
+  {}
 
   /// To be called with each level, from coarse to fine.
   void observe(const Level_view& view)
@@ -43,14 +46,16 @@ public:
     Drawn_surface level;
     level.triangles = *view.faces;
     for(std::size_t i = 0; i < view.vertices->size(); ++i) {
-      level.points.push_back(m_cube(m_mesh.point(Mesh::Vertex_index((*view.vertices)[i]))));
+      level.points.push_back(m_cube(m_points[(*view.vertices)[i]]));
       level.uv.push_back({(*view.uv)[i].real(), (*view.uv)[i].imag()});
     }
     m_levels.push_back(std::move(level));
   }
 
-  /// The kept levels, mapped like the result, and the result itself.
-  std::vector<Drawn_surface> surfaces(const Uv_map& uv, const Similarity& to_result)
+  /// The kept levels, mapped like the result, and the result itself, whose vertices lie at `points`.
+  std::vector<Drawn_surface>
+  surfaces(const CGAL::Surface_mesh_multiresolution::Textured_triangle_mesh& result,
+           const Similarity& to_result)
   {
     for(Drawn_surface& level : m_levels) {
       for(Vector_2& p : level.uv) {
@@ -58,13 +63,13 @@ public:
       }
     }
     Drawn_surface whole;
-    for(const auto v : m_mesh.vertices()) {
-      whole.points.push_back(m_cube(m_mesh.point(v)));
-      whole.uv.push_back({uv[v].x(), uv[v].y()});
+    for(const std::uint32_t v : vertices_of_wedges(result)) {
+      whole.points.push_back(m_cube(result.points[v]));
     }
-    for(const auto f : m_mesh.faces()) {
-      whole.triangles.push_back(corners(m_mesh, f));
+    for(const Kernel::Point_2& p : result.uv) {
+      whole.uv.push_back({p.x(), p.y()});
     }
+    whole.triangles = result.wedges;
     m_levels.push_back(std::move(whole));
     for(Drawn_surface& level : m_levels) {
       find_border(level);
@@ -73,7 +78,7 @@ public:
   }
 
 private:
-  const Mesh& m_mesh;
+  const std::vector<Kernel::Point_3>& m_points;
   Unit_cube m_cube;
   std::vector<Drawn_surface> m_levels;
 };

@@ -31,7 +31,7 @@ struct Obstacle
 std::vector<Obstacle> surface_obstacles(const Diagnosis& diagnosis);
 
 /// What keeps it from having an atlas: the same, but for vertices of no face, which are left out.
-std::vector<Obstacle> atlas_obstacles(Diagnosis diagnosis);
+std::vector<Obstacle> atlas_obstacles(const Diagnosis& diagnosis);
 
 /// All obstacles; empty for a chart.
 std::vector<Obstacle> obstacles(const Diagnosis& diagnosis);

@@ -69,11 +69,11 @@ std::vector<std::uint32_t> ranks(const std::vector<long long>& patches)
 
 } // namespace
 
-std::optional<SMT::Face_charts> given_charts(const Polygon_soup& surface,
+std::optional<SMT::Face_charts> given_charts(const Input_surface& surface,
                                              const Program_options& options)
 {
   const std::string& charts = options.atlas.charts;
-  const auto triangles = to_indexed(surface).triangles;
+  const auto& triangles = surface.surface.mesh.triangles;
   if(options.atlas.is_one_disk) {
     return SMT::charts_between(triangles, std::vector<std::uint8_t>(triangles.size(), 0));
   }
@@ -81,9 +81,15 @@ std::optional<SMT::Face_charts> given_charts(const Polygon_soup& surface,
     return std::nullopt;
   }
   if(charts != "uv") {
-    return SMT::charts_of_labels(triangles, ranks(read_patches(charts, triangles.size())));
+    const std::vector<std::uint32_t> of_faces
+        = ranks(read_patches(charts, surface.file.soup.number_of_faces()));
+    std::vector<std::uint32_t> of_triangles;
+    for(const std::uint32_t f : surface.surface.face) {
+      of_triangles.push_back(of_faces[f]);
+    }
+    return SMT::charts_of_labels(triangles, of_triangles);
   }
-  if(!surface.has_uv()) {
+  if(!surface.file.soup.has_uv()) {
     throw Program_error(options.input, "it has no texture coordinates at all its corners whose "
                                        "seams --charts uv could take, leave that out");
   }

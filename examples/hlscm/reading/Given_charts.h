@@ -5,21 +5,19 @@
 #define HLSCM_PROGRAM_GIVEN_CHARTS_H
 
 #include "common/Program_options.h"
+#include "reading/Surface_reading.h"
 
-#include <CGAL/Indexed_mesh/Polygon_soup.h>
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
 
 #include <optional>
 
 namespace hlscm {
 
-using CGAL::Indexed_mesh::Polygon_soup;
-
 /// Returns the charts of a surface that the options give, if they do: between patches named by
-/// numbers in a file, between the seams of the surface's own texture coordinates, or one for each
+/// numbers in a file, one for each face, between the seams of the surface's own texture coordinates, or one for each
 /// connected component. Throws `Program_error`.
 std::optional<CGAL::Surface_mesh_texturing::Face_charts>
-given_charts(const Polygon_soup& surface, const Program_options& options);
+given_charts(const Input_surface& surface, const Program_options& options);
 
 } // namespace hlscm
 

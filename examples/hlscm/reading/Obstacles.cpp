@@ -93,8 +93,9 @@ std::vector<Obstacle> surface_obstacles(const Diagnosis& d)
   return all;
 }
 
-std::vector<Obstacle> atlas_obstacles(Diagnosis d)
+std::vector<Obstacle> atlas_obstacles(const Diagnosis& diagnosis)
 {
+  Diagnosis d = diagnosis;
   d.isolated = Finding();
   return surface_obstacles(d);
 }

@@ -3,8 +3,9 @@
 
 #include "reading/Surface_reading.h"
 
-#include "reading/Diagnosis.h"
-#include "reading/Mesh_reading.h"
+#include <algorithm>
+#include <numeric>
+#include <utility>
 
 namespace hlscm {
 
@@ -12,68 +13,130 @@ namespace SMM = CGAL::Surface_mesh_multiresolution;
 
 namespace {
 
-void drop_isolated_vertices(Polygon_soup& soup)
+using CGAL::Indexed_mesh::Surface_of_soup;
+using CGAL::Indexed_mesh::Triangle_indices;
+
+// Of triangles that are a surface already.
+Surface_of_soup copy_surface(const Polygon_soup& soup)
 {
-  std::vector<std::uint32_t> number(soup.points.size(), 0);
-  for(const std::uint32_t v : soup.corners) {
-    number[v] = 1;
+  Surface_of_soup surface;
+  surface.mesh.points = soup.points;
+  surface.vertex.resize(soup.points.size());
+  std::iota(surface.vertex.begin(), surface.vertex.end(), 0u);
+  const std::uint32_t n = std::uint32_t(soup.number_of_faces());
+  surface.mesh.triangles.resize(n);
+  surface.corners.resize(n);
+  surface.face.resize(n);
+  surface.diagonals.assign(n, 0);
+  for(std::uint32_t t = 0, c = 0; t < n; ++t, c += 3) {
+    surface.mesh.triangles[t] = {soup.corners[c], soup.corners[c + 1], soup.corners[c + 2]};
+    surface.corners[t] = {c, c + 1, c + 2};
+    surface.face[t] = t;
   }
-  std::uint32_t kept = 0;
-  for(std::size_t v = 0; v < number.size(); ++v) {
-    if(number[v] != 0) {
-      soup.points[kept] = soup.points[v];
-      number[v] = kept++;
-    }
-  }
-  soup.points.resize(kept);
-  for(std::uint32_t& v : soup.corners) {
-    v = number[v];
-  }
+  return surface;
 }
 
-template <typename Mesh>
-void copy_triangles(const Polygon_soup& soup, Mesh& mesh)
+// Replaces faces by their triangles; `faces` are ascending.
+void cut_into_triangles(Read_mesh& file, const Surface_of_soup& surface,
+                        const std::vector<Triangle_indices>& wedges,
+                        const std::vector<std::uint32_t>& faces)
 {
-  mesh.points = soup.points;
-  for(std::size_t c = 0; c < soup.corners.size(); c += 3) {
-    mesh.triangles.push_back({soup.corners[c], soup.corners[c + 1], soup.corners[c + 2]});
+  Read_mesh result;
+  Polygon_soup& soup = result.soup;
+  auto line = file.lines.begin();
+  const auto add_corner = [&](std::uint32_t c, std::uint32_t uv) {
+    soup.corners.push_back(file.soup.corners[c]);
+    soup.uv_corners.push_back(uv);
+    if(!file.normal_corners.empty()) {
+      result.normal_corners.push_back(file.normal_corners[c]);
+    }
+  };
+  for(std::uint32_t f = 0; f < file.soup.number_of_faces(); ++f) {
+    for(; line != file.lines.end() && line->face <= f; ++line) {
+      result.lines.push_back({soup.number_of_faces(), line->text});
+    }
+    if(!std::binary_search(faces.begin(), faces.end(), f)) {
+      for(std::uint32_t c = file.soup.first_corner[f]; c < file.soup.first_corner[f + 1]; ++c) {
+        add_corner(c, file.soup.uv_corners[c]);
+      }
+      soup.close_face();
+      continue;
+    }
+    const auto range = std::equal_range(surface.face.begin(), surface.face.end(), f);
+    for(auto t = std::size_t(range.first - surface.face.begin());
+        t < std::size_t(range.second - surface.face.begin()); ++t)
+    {
+      for(std::size_t k = 0; k < 3; ++k) {
+        add_corner(surface.corners[t][k], wedges[t][k]);
+      }
+      soup.close_face();
+    }
   }
+  for(; line != file.lines.end(); ++line) {
+    result.lines.push_back({soup.number_of_faces(), line->text});
+  }
+  file.soup.corners.swap(soup.corners);
+  file.soup.first_corner.swap(soup.first_corner);
+  file.soup.uv_corners.swap(soup.uv_corners);
+  file.normal_corners.swap(result.normal_corners);
+  file.lines.swap(result.lines);
 }
 
 } // namespace
 
-Polygon_soup read_surface(const std::string& input, Progress_bar& progress,
-                          std::vector<std::string>& warnings)
+Input_surface read_surface(const std::string& input, const Program_options& options,
+                           std::vector<Obstacle> (*obstacles)(const Diagnosis&),
+                           Progress_bar& progress, std::vector<std::string>& warnings)
 {
-  Read_mesh read = read_mesh(input, progress);
-  warnings.insert(warnings.end(), read.warnings.begin(), read.warnings.end());
-  const Diagnosis diagnosis = diagnose(read.soup, progress);
-  refuse_obstacles(input, atlas_obstacles(diagnosis));
-  refuse_beyond_floats(input, read.soup.points);
-  if(diagnosis.isolated) {
-    drop_isolated_vertices(read.soup);
-    warnings.push_back("vertices of no face are left out: "
-                       + std::to_string(diagnosis.isolated.count));
+  Input_surface result;
+  result.file = read_mesh(input, progress);
+  warnings.insert(warnings.end(), result.file.warnings.begin(), result.file.warnings.end());
+  result.diagnosis = diagnose(result.file.soup, progress);
+  if(options.is_strict || result.diagnosis.not_finite) {
+    refuse_obstacles(input, obstacles(result.diagnosis));
   }
-  return std::move(read.soup);
+  result.surface = result.diagnosis.is_surface()
+                       ? copy_surface(result.file.soup)
+                       : CGAL::Indexed_mesh::surface_of_soup(result.file.soup);
+  if(!result.surface.is_ok()) {
+    throw Program_error(input, result.surface.error
+                                   + ", give a mesh with a surface instead of points, lines or a "
+                                     "damaged file");
+  }
+  return result;
 }
 
-CGAL::Indexed_mesh::Indexed_triangle_mesh to_indexed(const Polygon_soup& soup)
-{
-  CGAL::Indexed_mesh::Indexed_triangle_mesh mesh;
-  copy_triangles(soup, mesh);
-  return mesh;
-}
-
-SMM::Textured_triangle_mesh to_textured(const Polygon_soup& soup)
+SMM::Textured_triangle_mesh to_textured(const Input_surface& input)
 {
   SMM::Textured_triangle_mesh mesh;
-  copy_triangles(soup, mesh);
-  mesh.uv = soup.uv;
-  for(std::size_t c = 0; c < soup.uv_corners.size(); c += 3) {
-    mesh.wedges.push_back({soup.uv_corners[c], soup.uv_corners[c + 1], soup.uv_corners[c + 2]});
+  mesh.points = input.surface.mesh.points;
+  mesh.triangles = input.surface.mesh.triangles;
+  mesh.uv = input.file.soup.uv;
+  mesh.wedges = input.surface.corners;
+  for(Triangle_indices& wedge : mesh.wedges) {
+    for(std::uint32_t& w : wedge) {
+      w = input.file.soup.uv_corners[w];
+    }
   }
   return mesh;
+}
+
+Read_mesh with_map(Read_mesh file, const Surface_of_soup& surface,
+                   std::vector<Polygon_soup::Point_2> uv,
+                   const std::vector<Triangle_indices>& wedges, std::vector<std::string>& warnings)
+{
+  file.soup.uv = std::move(uv);
+  file.soup.uv_corners = CGAL::Indexed_mesh::uv_corners_of_soup(file.soup, surface, wedges);
+  const std::vector<std::uint32_t> cut
+      = CGAL::Indexed_mesh::cut_faces(file.soup, surface, wedges);
+  if(!cut.empty()) {
+    warnings.push_back("seams run across " + std::to_string(cut.size())
+                       + (cut.size() == 1 ? " face" : " faces")
+                       + " of more than three corners (the first is "
+                       + std::to_string(cut.front()) + "), which became triangles");
+    cut_into_triangles(file, surface, wedges, cut);
+  }
+  return file;
 }
 
 } // namespace hlscm

@@ -11,6 +11,8 @@
 
 namespace hlscm {
 
+namespace IO = CGAL::Surface_mesh_texturing::IO;
+
 namespace {
 
 constexpr double obj_bytes_of_vertex = 104, obj_bytes_of_face = 40; // about, for the progress bar
@@ -18,21 +20,37 @@ constexpr double ply_bytes_of_vertex = 48, ply_bytes_of_face = 13;
 
 } // namespace
 
-void write_mesh(const Mesh& mesh, const Uv_map& uv, const std::string& name, Output_file& file,
+void write_obj(const Read_mesh& mesh, Output_file& file,
+               const std::function<void(std::size_t)>& written)
+{
+  IO::OBJ_details details;
+  for(const Polygon_soup::Point_3& n : mesh.normals) {
+    details.normals.emplace_back(n.x(), n.y(), n.z());
+  }
+  details.normal_corners = mesh.normal_corners;
+  for(const Mesh_line& line : mesh.lines) {
+    details.lines.emplace_back(line.face, line.text);
+  }
+  file.write([&](std::ostream& stream) { return IO::write_OBJ(stream, mesh.soup, details); },
+             written);
+}
+
+void write_mesh(const Read_mesh& mesh, const std::string& name, Output_file& file,
                 Progress_bar& progress)
 {
-  namespace IO = CGAL::Surface_mesh_texturing::IO;
   progress.start_stage("writing");
   const std::string extension = std::filesystem::path(name).extension().string();
   const bool is_ply = extension.size() == 4 && std::tolower((unsigned char)(extension[1])) == 'p';
-  const double vertices = double(mesh.number_of_vertices()), faces = double(mesh.number_of_faces());
+  const double vertices = double(mesh.soup.number_of_vertices()),
+               faces = double(mesh.soup.number_of_faces());
   const double all = is_ply ? ply_bytes_of_vertex * vertices + ply_bytes_of_face * faces
                             : obj_bytes_of_vertex * vertices + obj_bytes_of_face * faces;
-  file.write(
-      [&](std::ostream& stream) {
-        return is_ply ? IO::write_PLY(stream, mesh, uv) : IO::write_OBJ(stream, mesh, uv);
-      },
-      [&](std::size_t bytes) { progress.advance(double(bytes) / all); });
+  const auto written = [&](std::size_t bytes) { progress.advance(double(bytes) / all); };
+  if(is_ply) {
+    file.write([&](std::ostream& stream) { return IO::write_PLY(stream, mesh.soup); }, written);
+  } else {
+    write_obj(mesh, file, written);
+  }
 }
 
 } // namespace hlscm

@@ -26,8 +26,8 @@ The struct `Polygon_soup` is what people have before it is known to be a surface
 with any number of corners that name them. See `diagnose_soup()` and `surface_of_soup()`.
 
 Invariants: `first_corner` begins with 0, does not fall, and ends with `corners.size()`; the entries
-of `corners` are smaller than `points.size()`; `uv_corners` is empty or as long as `corners`, with
-entries smaller than `uv.size()`. See `soup_error()`.
+of `corners` are smaller than `points.size()` (see `soup_error()`); `uv_corners` is empty or as long as
+`corners`, with entries smaller than `uv.size()`, or `no_vertex`.
 */
 struct Polygon_soup
 {
@@ -72,13 +72,10 @@ struct Polygon_soup
 };
 
 /// \ingroup PkgHLSCMIndexedMesh
-/// Returns a sentence on what is wrong with the arrays of a soup, or nothing: its invariants, and
-/// points that are not finite. Linear time.
+/// Returns a sentence on what is wrong with the points and the faces of a soup, or nothing: its
+/// invariants, and points that are not finite. Texture coordinates do not count. Linear time.
 inline std::string soup_error(const Polygon_soup& soup)
 {
-  const auto is_below = [](const std::vector<std::uint32_t>& entries, std::size_t n) {
-    return std::all_of(entries.begin(), entries.end(), [n](std::uint32_t i) { return i < n; });
-  };
   if(soup.first_corner.empty() || soup.first_corner.front() != 0
      || soup.first_corner.back() != soup.corners.size()
      || !std::is_sorted(soup.first_corner.begin(), soup.first_corner.end()))
@@ -87,9 +84,6 @@ inline std::string soup_error(const Polygon_soup& soup)
     for(const Vertex_index v : soup.face(f))
       if(v >= soup.points.size())
         return "face " + std::to_string(f) + " has a vertex that does not exist";
-  if(!soup.uv_corners.empty()
-     && (soup.uv_corners.size() != soup.corners.size() || !is_below(soup.uv_corners, soup.uv.size())))
-    return "the texture coordinates are not those of the corners";
   return point_error(soup.points);
 }
 

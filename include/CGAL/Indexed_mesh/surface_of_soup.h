@@ -8,6 +8,7 @@
 #include <CGAL/Indexed_mesh/internal/Soup_sides.h>
 #include <CGAL/Indexed_mesh/internal/Soup_triangles.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -101,6 +102,16 @@ std::vector<std::uint32_t> uv_corners_of_soup(const Polygon_soup& soup,
 /// coordinates: a seam runs along a diagonal. Ascending. Linear time.
 std::vector<std::uint32_t> cut_faces(const Polygon_soup& soup, const Surface_of_soup& surface,
                                      const std::vector<Triangle_indices>& wedges);
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// Returns the first vertex of the surface that stands for a vertex of the soup, or `no_vertex`.
+/// Logarithmic time.
+inline Vertex_index vertex_of_surface(const Surface_of_soup& surface, std::size_t v)
+{
+  const auto found = std::lower_bound(surface.vertex.begin(), surface.vertex.end(), v);
+  return found != surface.vertex.end() && *found == v
+         ? Vertex_index(found - surface.vertex.begin()) : no_vertex;
+}
 
 // ---------------------------------------------------------------------------------------------
 

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_DISTORTION_MEASURES_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_DISTORTION_MEASURES_H
 
+#include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/Conformal_triangle.h>
 #include <CGAL/Surface_mesh_parameterization/self_overlap.h>
 
@@ -176,6 +177,42 @@ Distortion_measures measure_distortion(const TriangleMesh& mesh, VertexUVMap uvm
     const Uv_triangle uv = view.triangle(f);
     summary.add(internal::conformal_triangle(mesh, f, mean_edge), uv,
                 orientation_of(uv));
+  }
+  return summary.result();
+}
+
+/*!
+\ingroup PkgHLSCMMeasures
+
+The same for a mesh with its texture coordinates, which may have seams. Zero measures if an index is
+out of range. Linear time.
+*/
+inline Distortion_measures
+measure_distortion(const Surface_mesh_multiresolution::Textured_triangle_mesh& mesh)
+{
+  typedef Surface_mesh_multiresolution::Textured_triangle_mesh Mesh;
+  if(!mesh_error(mesh).empty() || !texture_error(mesh).empty())
+    return Distortion_measures();
+  const auto side = [&mesh](const Triangle_indices& t, int from, int to, double unit) {
+    const auto &p = mesh.points[t[from]], &q = mesh.points[t[to]];
+    return Mesh::Point_3((q.x() - p.x()) / unit, (q.y() - p.y()) / unit, (q.z() - p.z()) / unit);
+  };
+  double sum = 0.;
+  for(const Triangle_indices& t : mesh.triangles)
+    for(const int c : {2, 0, 1}) {
+      const Mesh::Point_3 e = side(t, c, (c + 1) % 3, 1.);
+      sum += std::sqrt(e.x() * e.x() + e.y() * e.y() + e.z() * e.z());
+    }
+  const double mean_edge = sum > 0. ? sum / (3. * double(mesh.triangles.size())) : 1.;
+  internal::Distortion_summary summary;
+  for(std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Triangle_indices& v = mesh.triangles[t];
+    const Triangle_indices& w = mesh.wedges[t];
+    const auto point = [&](int c) { return Uv_point(mesh.uv[w[c]].x(), mesh.uv[w[c]].y()); };
+    const Uv_triangle uv = {point(0), point(1), point(2)};
+    summary.add(Conformal_triangle(Mesh::Point_3(0., 0., 0.), side(v, 0, 1, mean_edge),
+                                   side(v, 0, 2, mean_edge)),
+                uv, orientation_of(uv));
   }
   return summary.result();
 }

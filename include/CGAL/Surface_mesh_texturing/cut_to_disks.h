@@ -264,20 +264,20 @@ inline void Disk_cutter::add_extremities()
   }
 }
 
-// As the public one, of a mesh and charts that have been checked; `avoided` may be empty, see
-// Refinable_seam_graph::avoid().
-inline Face_charts cut_to_disks(const Indexed_triangle_mesh& mesh,
-                                const Triangle_adjacency& adjacency, Face_charts charts,
-                                const Disk_cut_options& options,
-                                const std::vector<std::uint8_t>& avoided)
+// Cuts charts for which `needs_cut(topology)` to disks. Mesh and charts have been checked; `avoided`
+// may be empty, see Refinable_seam_graph::avoid().
+template <class NeedsCut>
+Face_charts cut_charts(const Indexed_triangle_mesh& mesh, const Triangle_adjacency& adjacency,
+                       Face_charts charts, const Disk_cut_options& options,
+                       const std::vector<std::uint8_t>& avoided, const NeedsCut& needs_cut)
 {
   charts.seams = without_lonely_seams(adjacency, std::move(charts.seams));
   const std::vector<Chart_topology> topologies = chart_topologies(adjacency, charts);
-  if(error_of_charts(topologies).empty())
+  if(std::none_of(topologies.begin(), topologies.end(), needs_cut))
     return charts;
   const std::vector<Chart_mesh> meshes = cut_out_charts(mesh, adjacency, charts);
   for(std::size_t c = 0; c < meshes.size(); ++c) {
-    if(topologies[c].is_disk())
+    if(!needs_cut(topologies[c]))
       continue;
     const std::vector<std::uint8_t> seams
       = Disk_cutter(meshes[c].mesh, options, meshes[c].sides(avoided)).cut();
@@ -285,6 +285,16 @@ inline Face_charts cut_to_disks(const Indexed_triangle_mesh& mesh,
       charts.seams[meshes[c].triangles[t]] |= seams[t];
   }
   return charts;
+}
+
+// As the public one.
+inline Face_charts cut_to_disks(const Indexed_triangle_mesh& mesh,
+                                const Triangle_adjacency& adjacency, Face_charts charts,
+                                const Disk_cut_options& options,
+                                const std::vector<std::uint8_t>& avoided)
+{
+  return cut_charts(mesh, adjacency, std::move(charts), options, avoided,
+                    [](const Chart_topology& topology) { return !topology.is_disk(); });
 }
 
 } // namespace internal

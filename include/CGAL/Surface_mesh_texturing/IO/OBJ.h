@@ -4,14 +4,18 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_IO_OBJ_H
 #define CGAL_SURFACE_MESH_TEXTURING_IO_OBJ_H
 
+#include <CGAL/Indexed_mesh/Polygon_soup.h>
 #include <CGAL/Surface_mesh_texturing/IO/Textured_model.h>
 #include <CGAL/Surface_mesh_texturing/internal/writing/Byte_output.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <initializer_list>
 #include <ostream>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -40,21 +44,29 @@ inline void put_obj_vertices(Byte_output& out,
     put_line(out, "vt", {p.x(), p.y()});
 }
 
+// A corner v, v/vt, v//vn or v/vt/vn.
+inline void put_obj_corner(Byte_output& out, Vertex_index v, std::uint32_t uv, std::uint32_t normal)
+{
+  out.put(" ");
+  out.put_text(v + std::size_t(1));
+  if(uv == no_vertex && normal == no_vertex)
+    return;
+  out.put("/");
+  if(uv != no_vertex)
+    out.put_text(uv + std::size_t(1));
+  if(normal == no_vertex)
+    return;
+  out.put("/");
+  out.put_text(normal + std::size_t(1));
+}
+
 // The corners v/vt, or v/vt/vn with normals of vertices.
 inline void put_obj_face(Byte_output& out, const Triangle_indices& vertices,
                          const Triangle_indices& wedges, bool has_normals)
 {
   out.put("f");
-  for(std::size_t c = 0; c < 3; ++c) {
-    out.put(" ");
-    out.put_text(vertices[c] + std::size_t(1));
-    out.put("/");
-    out.put_text(wedges[c] + std::size_t(1));
-    if(has_normals) {
-      out.put("/");
-      out.put_text(vertices[c] + std::size_t(1));
-    }
-  }
+  for(std::size_t c = 0; c < 3; ++c)
+    put_obj_corner(out, vertices[c], wedges[c], has_normals ? vertices[c] : no_vertex);
   out.put("\n");
 }
 
@@ -149,9 +161,61 @@ inline bool write_OBJ(std::ostream& os, const Textured_model& model)
   for(std::size_t t = 0; t < model.mesh.triangles.size(); ++t) {
     const std::uint32_t page = internal::page_of(model, t);
     if(t == 0 || page != internal::page_of(model, t - 1))
-      out.put("usemtl " + internal::material_name(page) + "\n");
+      out.put("usemtl " + material_name(page) + "\n");
     internal::put_obj_face(out, model.mesh.triangles[t], model.mesh.wedges[t],
                            !model.frames.normals.empty());
+  }
+  return out.finish();
+}
+
+/// \ingroup PkgHLSCMTextureFiles
+/// What an OBJ file has beside vertices, faces and texture coordinates.
+struct OBJ_details
+{
+  std::vector<Vector_3> normals;             ///< lines `vn`; may be empty
+  std::vector<std::uint32_t> normal_corners; ///< for each corner of a face one of them; or empty
+  /// Other lines, such as `usemtl wood`, without line feeds: each before the face of this number, or
+  /// behind the last one. They are ascending.
+  std::vector<std::pair<std::size_t, std::string>> lines;
+};
+
+/*!
+\ingroup PkgHLSCMTextureFiles
+
+Writes faces with any number of corners: lines `v`, `vt` and `vn`, then the faces in their order, with
+the other lines between them; lines before the first face that begin with `mtllib` come first. A
+corner whose entry in `soup.uv_corners` is `Indexed_mesh::no_vertex` has no texture coordinate.
+
+\return `false` if `os` did not take all, or, before anything is written, if an index is out of range
+or a number not finite.
+
+Linear time.
+*/
+inline bool write_OBJ(std::ostream& os, const Indexed_mesh::Polygon_soup& soup,
+                      const OBJ_details& details = OBJ_details())
+{
+  if(!internal::can_be_written(soup)
+     || !internal::corners_are_below(details.normal_corners, soup, details.normals.size()))
+    return false;
+  internal::Byte_output out(os);
+  auto line = details.lines.begin();
+  for(; line != details.lines.end() && line->first == 0 && line->second.rfind("mtllib", 0) == 0; ++line)
+    out.put(line->second + "\n");
+  internal::put_obj_vertices(out, soup.points, soup.uv);
+  for(const Vector_3& n : details.normals)
+    internal::put_line(out, "vn", {n.x(), n.y(), n.z()});
+  for(std::uint32_t f = 0; f <= soup.number_of_faces(); ++f) {
+    for(; line != details.lines.end() && line->first <= f; ++line)
+      out.put(line->second + "\n");
+    if(f == soup.number_of_faces())
+      break;
+    out.put("f");
+    for(std::uint32_t c = soup.first_corner[f]; c < soup.first_corner[f + 1]; ++c)
+      internal::put_obj_corner(out, soup.corners[c],
+                               soup.has_uv() ? soup.uv_corners[c] : Indexed_mesh::no_vertex,
+                               details.normal_corners.empty() ? Indexed_mesh::no_vertex
+                                                              : details.normal_corners[c]);
+    out.put("\n");
   }
   return out.finish();
 }
@@ -171,7 +235,7 @@ inline bool write_MTL(std::ostream& os, const Textured_model& model)
   internal::Byte_output out(os);
   for(std::size_t page = 0; page < model.materials.size(); ++page) {
     const Texture_material& material = model.materials[page];
-    out.put("newmtl " + internal::material_name(page) + "\n");
+    out.put("newmtl " + material_name(page) + "\n");
     out.put("Kd 0.8 0.8 0.8\nKs 0.2 0.2 0.2\nNs 40\n");
     if(material.color != Texture_material::none)
       out.put("map_Kd " + model.textures[material.color].name + "\n");

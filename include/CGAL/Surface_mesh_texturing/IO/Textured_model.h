@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_IO_TEXTURED_MODEL_H
 #define CGAL_SURFACE_MESH_TEXTURING_IO_TEXTURED_MODEL_H
 
+#include <CGAL/Indexed_mesh/Polygon_soup.h>
 #include <CGAL/Surface_mesh_texturing/Texture_atlas.h>
 #include <CGAL/Surface_mesh_texturing/internal/mesh_of_graph.h>
 #include <CGAL/Surface_mesh_texturing/tangent_frames.h>
@@ -86,6 +87,10 @@ inline Textured_model textured_model(const Texture_atlas& atlas, const std::stri
   return model;
 }
 
+/// \ingroup PkgHLSCMTextureFiles
+/// Returns the name of the material of a page in an OBJ file and its file of materials.
+inline std::string material_name(std::size_t page) { return "page_" + std::to_string(page + 1); }
+
 namespace internal {
 
 // Whether the arrays of a textured mesh fit together, with finite numbers.
@@ -107,6 +112,23 @@ inline bool can_be_written(const std::vector<Textured_triangle_mesh::Point_3>& p
 inline bool can_be_written(const Textured_triangle_mesh& mesh)
 {
   return can_be_written(mesh.points, mesh.triangles, mesh.uv, mesh.wedges);
+}
+
+// Whether a soup has these entries for its corners, smaller than n or none, or no entries at all.
+inline bool corners_are_below(const std::vector<std::uint32_t>& entries,
+                              const Indexed_mesh::Polygon_soup& soup, std::size_t n)
+{
+  return entries.empty()
+      || (entries.size() == soup.corners.size()
+          && std::all_of(entries.begin(), entries.end(),
+                         [n](std::uint32_t i) { return i < n || i == no_vertex; }));
+}
+
+inline bool can_be_written(const Indexed_mesh::Polygon_soup& soup)
+{
+  return soup_error(soup).empty()
+      && corners_are_below(soup.uv_corners, soup, soup.uv.size())
+      && Surface_mesh_multiresolution::uv_error(soup.uv).empty();
 }
 
 inline bool has_valid_frames(const Textured_model& model)
@@ -143,8 +165,6 @@ inline std::uint32_t page_of(const Textured_model& model, std::size_t triangle)
 {
   return model.page.empty() ? 0 : model.page[triangle];
 }
-
-inline std::string material_name(std::size_t page) { return "page_" + std::to_string(page + 1); }
 
 // A mesh of any type with its texture coordinates, those of halfedges at their targets. Empty if
 // not all faces are triangles.

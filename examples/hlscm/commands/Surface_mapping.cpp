@@ -1,0 +1,257 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "commands/Surface_mapping.h"
+
+#include "common/Interruption.h"
+#include "common/Program_error.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace hlscm {
+
+namespace SMP = CGAL::Surface_mesh_parameterization;
+namespace SMT = CGAL::Surface_mesh_texturing;
+
+namespace {
+
+using CGAL::Indexed_mesh::Indexed_triangle_mesh;
+using CGAL::Indexed_mesh::no_vertex;
+using CGAL::Indexed_mesh::Surface_of_soup;
+
+// The triangles with a flag, and their vertices.
+Surface_of_soup part_of(const Surface_of_soup& whole, const std::vector<bool>& is_chosen)
+{
+  Surface_of_soup part;
+  part.repairs = whole.repairs;
+  std::vector<std::uint32_t> rank(whole.vertex.size(), no_vertex);
+  for(std::size_t t = 0; t < is_chosen.size(); ++t) {
+    for(std::size_t k = 0; is_chosen[t] && k < 3; ++k) {
+      rank[whole.mesh.triangles[t][k]] = 0;
+    }
+  }
+  for(std::size_t v = 0; v < rank.size(); ++v) {
+    if(rank[v] != no_vertex) {
+      rank[v] = std::uint32_t(part.vertex.size());
+      part.vertex.push_back(whole.vertex[v]);
+      part.mesh.points.push_back(whole.mesh.points[v]);
+    }
+  }
+  for(std::size_t t = 0; t < is_chosen.size(); ++t) {
+    if(is_chosen[t]) {
+      const auto& v = whole.mesh.triangles[t];
+      part.mesh.triangles.push_back({rank[v[0]], rank[v[1]], rank[v[2]]});
+      part.corners.push_back(whole.corners[t]);
+      part.face.push_back(whole.face[t]);
+      part.diagonals.push_back(whole.diagonals[t]);
+    }
+  }
+  return part;
+}
+
+SMP::HLSCM_options observed(const Program_options& options, Level_snapshots* snapshots)
+{
+  SMP::HLSCM_options library = options.library;
+  if(snapshots != nullptr) {
+    library.level_observer = [snapshots](const SMP::Level_view& view) {
+      snapshots->observe(view);
+      return true;
+    };
+  }
+  return library;
+}
+
+// One connected component with a border, without handles.
+SMP::Conformal_map map_component(const Program_options& options, SMP::HLSCM_options library,
+                                 const Indexed_triangle_mesh& component,
+                                 const std::vector<SMP::HLSCM_pin>& pins, Progress_bar& progress)
+{
+  Mesh mesh = build_mesh(component);
+  const Uv_map uv = mesh.add_property_map<Mesh::Vertex_index, Kernel::Point_2>("v:uv").first;
+  SMP::Conformal_map result;
+  result.report = solve_chart(options, std::move(library), mesh, pins, uv, progress).report;
+  for(const auto v : mesh.vertices()) {
+    result.uv.push_back(uv[v]);
+  }
+  return result;
+}
+
+// From the elements of the surface to those of the file.
+void name_elements(const Surface_of_soup& surface, SMP::HLSCM_report& report)
+{
+  for(SMP::HLSCM_pin& pin : report.pins) {
+    pin.vertex = surface.vertex[pin.vertex];
+  }
+  if(report.flip_repair) {
+    for(std::size_t& face : report.flip_repair->unmended_faces) {
+      face = surface.face[face];
+    }
+  }
+}
+
+void add(const SMP::Flip_repair_report& part, SMP::Flip_repair_report& all)
+{
+  all.flipped_before += part.flipped_before;
+  all.degenerate_before += part.degenerate_before;
+  all.flipped_after += part.flipped_after;
+  all.degenerate_after += part.degenerate_after;
+  all.patches += part.patches;
+  all.moved_vertices += part.moved_vertices;
+  all.branch_vertices += part.branch_vertices;
+  all.energy_before += part.energy_before;
+  all.energy_after += part.energy_after;
+  all.seconds += part.seconds;
+  all.unmended_faces.insert(all.unmended_faces.end(), part.unmended_faces.begin(),
+                            part.unmended_faces.end());
+}
+
+// The sums over all components, and the worst of them.
+SMP::HLSCM_report sum(const std::vector<SMT::Mapped_component>& components)
+{
+  SMP::HLSCM_report all = components.front().report;
+  for(std::size_t c = 1; c < components.size(); ++c) {
+    const SMP::HLSCM_report& part = components[c].report;
+    all.converged = all.converged && part.converged;
+    all.stopped_early = all.stopped_early || part.stopped_early;
+    all.vertices += part.vertices;
+    all.faces += part.faces;
+    all.borders += part.borders;
+    all.mollified_faces += part.mollified_faces;
+    all.iterations = std::max(all.iterations, part.iterations);
+    all.energy += part.energy;
+    all.energy_gap_estimate += part.energy_gap_estimate;
+    all.seconds_hierarchy += part.seconds_hierarchy;
+    all.seconds_operators += part.seconds_operators;
+    all.seconds_solve += part.seconds_solve;
+    all.seconds_total += part.seconds_total;
+    all.pins.insert(all.pins.end(), part.pins.begin(), part.pins.end());
+    for(const std::string& warning : part.warnings) {
+      if(std::find(all.warnings.begin(), all.warnings.end(), warning) == all.warnings.end()) {
+        all.warnings.push_back(warning);
+      }
+    }
+    if(part.flip_repair) {
+      all.flip_repair = all.flip_repair ? all.flip_repair : SMP::Flip_repair_report();
+      add(*part.flip_repair, *all.flip_repair);
+    }
+    if(part.levels.size() > all.levels.size()) {
+      all.levels = part.levels;
+    }
+  }
+  return all;
+}
+
+Mapped_surface map_chart(const Input_surface& input, const Program_options& options,
+                         const std::vector<SMP::HLSCM_pin>& pins, Level_snapshots* snapshots,
+                         Progress_bar& progress)
+{
+  const Indexed_triangle_mesh& mesh = input.surface.mesh;
+  SMP::Conformal_map map
+      = map_component(options, observed(options, snapshots), mesh, pins, progress);
+  Mapped_surface result;
+  result.mesh.points = mesh.points;
+  result.mesh.triangles = result.mesh.wedges = mesh.triangles;
+  result.mesh.uv = std::move(map.uv);
+  result.components.emplace_back();
+  result.components.back().faces = mesh.triangles.size();
+  result.components.back().borders = map.report.borders;
+  result.components.back().report = std::move(map.report);
+  return result;
+}
+
+// What is wrong, without the name of the file, which `Program_error` begins with.
+std::string reason(const Program_error& error, const std::string& file)
+{
+  const std::string text = error.what(), begin = file + ": ";
+  return text.rfind(begin, 0) == 0 ? text.substr(begin.size()) : text;
+}
+
+Mapped_surface map_components(const Input_surface& input, const Program_options& options,
+                              const std::vector<SMP::HLSCM_pin>& pins, Progress_bar& progress)
+{
+  SMT::Surface_map_options map;
+  map.no_seams = input.surface.diagonals;
+  map.pins = pins;
+  const std::size_t whole = input.surface.mesh.triangles.size();
+  map.map = [&](const Indexed_triangle_mesh& component, const std::vector<SMP::HLSCM_pin>& fixed) {
+    SMP::HLSCM_options library = options.library;
+    const bool is_small = component.triangles.size() < map.direct_faces;
+    if(component.triangles.size() < whole && is_small) {
+      library.method = SMP::Conformal_method::DIRECT;
+    }
+    try {
+      return map_component(options, library, component, fixed, progress);
+    } catch(const Program_error& error) {
+      SMP::Conformal_map none;
+      none.report.message = reason(error, options.input);
+      return none;
+    }
+  };
+  progress.start_stage("cutting");
+  SMT::Surface_map mapped = SMT::map_surface(input.surface.mesh, map);
+  Interruption::check();
+  if(!mapped.is_ok()) {
+    throw Program_error(options.input, mapped.error);
+  }
+  Mapped_surface result;
+  result.mesh = std::move(mapped.mesh);
+  result.components = std::move(mapped.components);
+  return result;
+}
+
+} // namespace
+
+void choose_component(Input_surface& input, const Program_options& options)
+{
+  if(!options.component) {
+    return;
+  }
+  const SMT::Face_charts components
+      = SMT::charts_between(input.surface.mesh.triangles,
+                            std::vector<std::uint8_t>(input.surface.mesh.triangles.size(), 0));
+  if(*options.component >= components.number_of_charts) {
+    throw Program_error(options.input, "there is no component " + std::to_string(*options.component)
+                                           + ", the surface has "
+                                           + std::to_string(components.number_of_charts)
+                                           + " counted from 0: choose another one");
+  }
+  std::vector<bool> is_chosen;
+  for(const std::uint32_t c : components.chart) {
+    is_chosen.push_back(c == *options.component);
+  }
+  input.surface = part_of(input.surface, is_chosen);
+}
+
+Mapped_surface map_input(const Input_surface& input, const Program_options& options,
+                         Level_snapshots* snapshots, Progress_bar& progress)
+{
+  std::vector<SMP::HLSCM_pin> pins
+      = checked_pins(options, input.file.soup.number_of_vertices());
+  for(SMP::HLSCM_pin& pin : pins) {
+    const std::size_t vertex = pin.vertex;
+    pin.vertex = CGAL::Indexed_mesh::vertex_of_surface(input.surface, vertex);
+    if(pin.vertex == no_vertex) {
+      throw Program_error(options.input, "vertex " + std::to_string(vertex)
+                                             + " is pinned, but no face that is mapped has it: "
+                                               "choose another vertex");
+    }
+  }
+  Mapped_surface result = input.is_chart()
+                              ? map_chart(input, options, pins, snapshots, progress)
+                              : map_components(input, options, pins, progress);
+  if(pins.empty()) {
+    result.from_solver = fit_to_unit_square(result.mesh.uv);
+  }
+  for(SMT::Mapped_component& component : result.components) {
+    name_elements(input.surface, component.report);
+    if(pins.empty()) {
+      move_report(result.from_solver, component.report);
+    }
+  }
+  result.report = sum(result.components);
+  return result;
+}
+
+} // namespace hlscm

@@ -1,0 +1,333 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_MAP_SURFACE_H
+#define CGAL_SURFACE_MESH_TEXTURING_MAP_SURFACE_H
+
+#include <CGAL/Indexed_mesh/surface_of_soup.h>
+#include <CGAL/Surface_mesh_parameterization/conformal_map.h>
+#include <CGAL/Surface_mesh_texturing/cut_to_disks.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/lay_side_by_side.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+
+/// \ingroup PkgHLSCMTexturing
+/// Maps a connected mesh of genus 0 that has a border, with pins, by the indices of its vertices, or
+/// without.
+typedef std::function<Surface_mesh_parameterization::Conformal_map(
+  const Indexed_triangle_mesh& component,
+  const std::vector<Surface_mesh_parameterization::HLSCM_pin>& pins)>
+  Component_map_function;
+
+/// \ingroup PkgHLSCMTexturing
+/// The options of `map_surface()`.
+struct Surface_map_options
+{
+  /// How each component is mapped. Progress is that of the whole.
+  Surface_mesh_parameterization::HLSCM_options solver;
+  /// Of several components, those with fewer triangles are mapped by a direct solver all the same.
+  std::size_t direct_faces = 20000;
+  /// What maps them in the place of `solver`; nothing by default.
+  Component_map_function map;
+  /// Vertices of the mesh with given parameters. A component with pins stays where they put it; the
+  /// others lie to the right of it, at its density.
+  std::vector<Surface_mesh_parameterization::HLSCM_pin> pins;
+  /// Edges that shall not be seams, three bits for each triangle as in `Face_charts::seams`, such as
+  /// `Surface_of_soup::diagonals`; empty for none.
+  std::vector<std::uint8_t> no_seams;
+  /// How closed components, and those with handles, are cut.
+  Disk_cut_options cut;
+};
+
+/// \ingroup PkgHLSCMTexturing
+/// What became of one connected component.
+struct Mapped_component
+{
+  std::size_t faces = 0;   ///< its triangles
+  std::size_t borders = 0; ///< before it was cut
+  std::size_t genus = 0;   ///< its handles
+  bool is_cut = false;     ///< whether it had to be cut to a disk
+  bool is_mapped = true;   ///< otherwise its texture coordinates are one point
+  /// Of its map, by the vertices and triangles of the whole mesh, in the units of the whole map.
+  Surface_mesh_parameterization::HLSCM_report report;
+};
+
+/// \ingroup PkgHLSCMTexturing
+/// What `map_surface()` returns.
+struct Surface_map
+  : Indexed_mesh::Mesh_outcome
+{
+  Textured_triangle_mesh mesh; ///< the surface with its texture coordinates
+  Face_charts charts;          ///< the components of its triangles, and the seams that were cut
+  std::vector<Mapped_component> components; ///< in the order of their first triangles
+};
+
+namespace internal {
+
+// Maps the components of one mesh, and lays them side by side.
+class Surface_mapper
+{
+public:
+  Surface_mapper(const Indexed_triangle_mesh& mesh, const Surface_map_options& options)
+    : m_mesh(mesh), m_options(options)
+  {}
+
+  Surface_map run()
+  {
+    if(m_result.fail(Mesh_status::BAD_MESH, manifold_error(m_mesh))
+       || m_result.fail(Mesh_status::BAD_OPTIONS, options_error()))
+      return m_result;
+    const Triangle_adjacency adjacency(m_mesh.triangles);
+    cut(adjacency);
+    if(m_result.components.size() == 1 && !m_result.components[0].is_cut)
+      m_parts = {whole()};
+    else
+      m_parts = cut_out_charts(m_mesh, adjacency, m_result.charts);
+    for(std::size_t c = 0; c < m_parts.size() && m_result.is_ok(); ++c)
+      map(c);
+    if(m_result.is_ok() && m_parts.size() > 1)
+      lay_out();
+    if(m_result.is_ok())
+      write();
+    return std::move(m_result);
+  }
+
+private:
+  typedef Simple_cartesian<double>::Point_2 Point_2;
+  typedef Surface_mesh_parameterization::Conformal_map Conformal_map;
+  typedef Surface_mesh_parameterization::HLSCM_pin Pin;
+
+  std::string options_error() const
+  {
+    for(const Pin& pin : m_options.pins)
+      if(pin.vertex >= m_mesh.points.size())
+        return "there is no vertex " + std::to_string(pin.vertex) + " that could be pinned";
+    const std::vector<std::uint8_t>& no_seams = m_options.no_seams;
+    return no_seams.empty() ? std::string() : foreign_seams_error(m_mesh, no_seams).error;
+  }
+
+  // Cuts what cannot be laid out in the plane.
+  void cut(const Triangle_adjacency& adjacency)
+  {
+    const auto needs_cut = [](const Chart_topology& topology) {
+      return topology.borders == 0 || topology.genus() > 0;
+    };
+    Face_charts& charts = m_result.charts;
+    charts = charts_between(adjacency, std::vector<std::uint8_t>(m_mesh.triangles.size()));
+    for(const Chart_topology& topology : chart_topologies(adjacency, charts)) {
+      Mapped_component component;
+      component.faces = topology.faces;
+      component.borders = topology.borders;
+      component.genus = topology.genus();
+      component.is_cut = needs_cut(topology);
+      m_result.components.push_back(component);
+    }
+    charts = cut_charts(m_mesh, adjacency, std::move(charts), m_options.cut, m_options.no_seams,
+                        needs_cut);
+  }
+
+  // The mesh as its only component.
+  Chart_mesh whole() const
+  {
+    Chart_mesh part;
+    part.mesh = m_mesh;
+    part.vertices.resize(m_mesh.points.size());
+    part.triangles.resize(m_mesh.triangles.size());
+    std::iota(part.vertices.begin(), part.vertices.end(), Vertex_index(0));
+    std::iota(part.triangles.begin(), part.triangles.end(), Triangle_index(0));
+    return part;
+  }
+
+  // The pins of a component, in their order: of several vertices on a seam the first one has the pin.
+  std::vector<Pin> pins_of(const Chart_mesh& part)
+  {
+    std::vector<Pin> result;
+    if(m_options.pins.empty())
+      return result;
+    m_place.assign(m_mesh.points.size(), no_vertex);
+    for(Vertex_index v = Vertex_index(part.vertices.size()); v-- > 0;)
+      m_place[part.vertices[v]] = v;
+    for(const Pin& pin : m_options.pins)
+      if(m_place[pin.vertex] != no_vertex)
+        result.push_back({m_place[pin.vertex], pin.u, pin.v});
+    return result;
+  }
+
+  Conformal_map solve(const Chart_mesh& part, const std::vector<Pin>& pins) const
+  {
+    if(m_options.map)
+      return m_options.map(part.mesh, pins);
+    Surface_mesh_parameterization::HLSCM_options options = m_options.solver;
+    if(m_parts.size() > 1 && part.triangles.size() < m_options.direct_faces)
+      options.method = Surface_mesh_parameterization::Conformal_method::DIRECT;
+    if(m_options.solver.progress)
+      options.progress = [this, &part](double done) {
+        return m_options.solver.progress(
+          (double(m_faces_done) + done * double(part.triangles.size()))
+          / double(m_mesh.triangles.size()));
+      };
+    return pins.empty() ? Surface_mesh_parameterization::conformal_map(part.mesh, options)
+                        : Surface_mesh_parameterization::conformal_map(part.mesh, pins, options);
+  }
+
+  void map(std::size_t c)
+  {
+    const Chart_mesh& part = m_parts[c];
+    const std::vector<Pin> pins = pins_of(part);
+    Conformal_map map = solve(part, pins);
+    Mapped_component& component = m_result.components[c];
+    m_faces_done += part.triangles.size();
+    component.report = std::move(map.report);
+    for(Pin& pin : component.report.pins)
+      pin.vertex = part.vertices[pin.vertex];
+    if(component.report.flip_repair)
+      for(std::size_t& face : component.report.flip_repair->unmended_faces)
+        face = part.triangles[face];
+    if(component.report.cancelled)
+      m_result.cancel();
+    else if(map.uv.size() != part.mesh.points.size()
+            && (m_parts.size() == 1 || !pins.empty()))
+      m_result.fail(Mesh_status::FAILED, component.report.message);
+    component.is_mapped = map.uv.size() == part.mesh.points.size();
+    if(!component.is_mapped)
+      map.uv.assign(part.mesh.points.size(), Point_2(0., 0.));
+    m_uv.push_back(std::move(map.uv));
+    m_is_pinned.push_back(!pins.empty());
+  }
+
+  void lay_out()
+  {
+    std::vector<Laid_component> all;
+    for(std::size_t c = 0; c < m_parts.size(); ++c)
+      all.push_back({m_parts[c].mesh, m_uv[c], m_is_pinned[c]});
+    lay_side_by_side(all);
+    for(std::size_t c = 0; c < m_parts.size(); ++c)
+      move_report(all[c], m_result.components[c].report);
+  }
+
+  static void move_report(const Laid_component& laid,
+                          Surface_mesh_parameterization::HLSCM_report& report)
+  {
+    const double area_scale = laid.scale * laid.scale;
+    for(Pin& pin : report.pins) {
+      pin.u = laid.scale * pin.u + laid.x;
+      pin.v = laid.scale * pin.v + laid.y;
+    }
+    report.energy *= area_scale;
+    report.energy_gap_estimate *= area_scale;
+    if(report.flip_repair) {
+      report.flip_repair->energy_before *= area_scale;
+      report.flip_repair->energy_after *= area_scale;
+    }
+  }
+
+  void write()
+  {
+    Textured_triangle_mesh& mesh = m_result.mesh;
+    mesh.points = m_mesh.points;
+    mesh.triangles = m_mesh.triangles;
+    mesh.wedges.resize(m_mesh.triangles.size());
+    for(std::size_t c = 0; c < m_parts.size(); ++c) {
+      const Vertex_index first = Vertex_index(mesh.uv.size());
+      mesh.uv.insert(mesh.uv.end(), m_uv[c].begin(), m_uv[c].end());
+      for(std::size_t i = 0; i < m_parts[c].triangles.size(); ++i)
+        for(std::size_t k = 0; k < 3; ++k)
+          mesh.wedges[m_parts[c].triangles[i]][k] = first + m_parts[c].mesh.triangles[i][k];
+    }
+  }
+
+  const Indexed_triangle_mesh& m_mesh;
+  const Surface_map_options& m_options;
+  Surface_map m_result;
+  std::vector<Chart_mesh> m_parts;
+  std::vector<std::vector<Point_2>> m_uv; // of each part
+  std::vector<bool> m_is_pinned;          // each part
+  std::vector<Vertex_index> m_place;      // of each vertex in the part, if there are pins
+  std::size_t m_faces_done = 0;
+};
+
+} // namespace internal
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+Maps a whole surface to the plane, whatever it is: closed components, and those with handles, are
+cut to disks first along short seams that prefer creases; each component is mapped by
+`Surface_mesh_parameterization::conformal_map()`, in one piece and with a free border; all are
+scaled to the same texels for a unit of area and laid side by side, if there are several. For charts
+of bounded distortion that do not overlap see `build_texture_atlas()`.
+
+Of several components those that cannot be mapped, such as one whose vertices all have the same
+place, get one point. Errors: a `manifold_error()`, pins of vertices that do not exist, a single or
+pinned component that cannot be mapped, and cancelling.
+
+Time of the maps, and \f$ O(n \log n) \f$ for what is cut.
+*/
+inline Surface_map map_surface(const Indexed_triangle_mesh& mesh,
+                               const Surface_map_options& options = Surface_map_options())
+{
+  return internal::Surface_mapper(mesh, options).run();
+}
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+Maps a mesh of any type, whose faces may have any number of corners: they are cut into triangles for
+the computation (see `Indexed_mesh::surface_of_soup()`), and no seam runs along such a cut unless
+there is no other way.
+
+\tparam FaceGraph a model of `FaceListGraph`
+\param mesh a mesh; it is not changed
+\param uvmap a model of `WritablePropertyMap` with the halfedge descriptor as key and a point with
+       two coordinates as value: gets for each halfedge of a face the texture coordinate of the
+       corner at its target. If there is an error, it is left as it is.
+\param options the options; `no_seams` is that of the triangles, and does not count
+\param np optional named parameters: `vertex_point_map` and `geom_traits`; see
+       `Indexed_mesh::copy_points()`
+*/
+template <class FaceGraph, class HalfedgeUVMap,
+          class NamedParameters = parameters::Default_named_parameters,
+          class = typename boost::property_traits<HalfedgeUVMap>::key_type>
+Surface_map map_surface(const FaceGraph& mesh, HalfedgeUVMap uvmap,
+                        Surface_map_options options = Surface_map_options(),
+                        const NamedParameters& np = parameters::default_values())
+{
+  typedef typename boost::property_traits<HalfedgeUVMap>::value_type Uv;
+  const Indexed_mesh::Polygon_soup soup = Indexed_mesh::copy_soup(mesh, np);
+  const Indexed_mesh::Surface_of_soup surface = Indexed_mesh::surface_of_soup(soup);
+  Surface_map result;
+  if(result.fail(surface))
+    return result;
+  options.no_seams = surface.diagonals;
+  for(auto& pin : options.pins)
+    pin.vertex = Indexed_mesh::vertex_of_surface(surface, pin.vertex);
+  result = map_surface(surface.mesh, options);
+  if(!result.is_ok())
+    return result;
+  const std::vector<std::uint32_t> uv
+    = Indexed_mesh::uv_corners_of_soup(soup, surface, result.mesh.wedges);
+  std::size_t corner = 0;
+  for(const auto f : faces(mesh))
+    for(const auto h : CGAL::halfedges_around_face(halfedge(f, mesh), mesh)) {
+      const std::uint32_t i = uv[corner++];
+      if(i != Indexed_mesh::no_vertex)
+        put(uvmap, h, Uv(result.mesh.uv[i].x(), result.mesh.uv[i].y()));
+    }
+  return result;
+}
+
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_MAP_SURFACE_H
