@@ -71,6 +71,9 @@ struct Packing_options
   /// the result is the same on any machine. More is never worse. They are not used for a single
   /// chart, nor with a given density.
   double time_budget = 0.;
+  /// Is asked from time to time; once it returns `true` the packing ends with the best there is, or
+  /// with the first one found from then on. Then the result may not be the same again.
+  std::function<bool()> is_enough;
   /// Is told the part done, from 0 to 1; the packing stops with an error if it returns `false`.
   std::function<bool(double)> progress;
 };

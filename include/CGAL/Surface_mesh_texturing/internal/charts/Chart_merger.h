@@ -5,7 +5,7 @@
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_CHART_MERGER_H
 
 #include <CGAL/Blocked_execution/blocked_for.h>
-#include <CGAL/Surface_mesh_texturing/internal/charts/Chart_state.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/Union_finder.h>
 
 #include <algorithm>
 #include <cmath>

@@ -90,6 +90,7 @@ struct Search_options
   double least_fill = 0.65;
   std::size_t patch_size = 25;
   double effort = 150.;
+  std::function<bool()> is_enough;
   std::function<bool(double)> progress;
 };
 
@@ -110,7 +111,7 @@ public:
     , m_merger(surface, m_is_feature, options.bound, options.least_fill, options.least_charts)
     , m_most_work(options.effort * double(surface.size() + small_size))
   {
-    m_merger.set_progress([this] { return tell_progress(); });
+    m_merger.set_progress([this] { return tell_progress() && !is_enough(); });
   }
 
   // Returns false if it was cancelled.
@@ -126,7 +127,8 @@ private:
   State straightened(const std::vector<bool>& is_fixed);
   std::vector<std::uint32_t> charts_by_area() const;
   bool tell_progress();
-  bool is_worn() const { return double(m_merger.work()) >= m_most_work; }
+  bool is_enough() const { return m_options.is_enough && m_options.is_enough(); }
+  bool is_worn() const { return double(m_merger.work()) >= m_most_work || is_enough(); }
 
   const Growth_surface& m_surface;
   const Search_options& m_options;
@@ -161,7 +163,7 @@ inline Chart_search::State Chart_search::start()
     for(std::uint32_t p = 0; p < state.pieces.size(); ++p)
       if(!m_merger.is_good(state.pieces[p].trial))
         bad.push_back(p);
-    if(!growth.refine(bad))
+    if(is_enough() || !growth.refine(bad))
       return state;
   }
 }
@@ -267,7 +269,7 @@ inline void Chart_search::straighten()
   };
   for(std::size_t c = 0; c < is_fixed.size(); ++c)
     is_fixed[c] = !is_good(*m_best, c);
-  for(bool is_changed = true; is_changed && !m_is_cancelled; ) {
+  for(bool is_changed = true; is_changed && !m_is_cancelled && !is_enough(); ) {
     State state = straightened(is_fixed);
     is_changed = false;
     for(std::size_t c = 0; c < is_fixed.size(); ++c)

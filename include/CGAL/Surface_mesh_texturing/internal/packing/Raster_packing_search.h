@@ -153,6 +153,8 @@ private:
     return !m_is_cancelled;
   }
 
+  bool is_enough() const { return m_options.is_enough && m_options.is_enough(); }
+
   // Counts the positions of some orders.
   void count_work(const Packing_raster& raster, std::size_t orders)
   {
@@ -183,7 +185,7 @@ inline Raster_packing_search::Plan Raster_packing_search::first_plan()
   Plan plan;
   plan.keys = keys_by_area(m_outlines);
   plan.level = highest_level(m_ladder.lowest(), -62, 16, [&](int level) {
-    if(!report())
+    if(!report() || (plan.packing.is_complete && is_enough()))
       return false;
     count_work(m_coarse, 1);
     if(is_beyond_pages(m_coarse, level))
@@ -237,7 +239,7 @@ inline bool Raster_packing_search::improve(Plan& plan)
 inline void Raster_packing_search::refine(const Plan& plan)
 {
   const auto succeeds = [&](int level) {
-    if(!report())
+    if(!report() || (m_best.is_complete && is_enough()))
       return false;
     count_work(m_coarse, 2); // few positions are compared, but it takes this time
     if(is_beyond_pages(m_exact, level))
@@ -295,7 +297,7 @@ inline void Raster_packing_search::raise_density()
     m_best_charts->make_where([&](std::size_t i, int r) { return better[i].rotation == r; });
   };
   Density_raising(base, m_ladder)
-    .run(m_best_level, best_places(factor), [&] { return m_work < work && report(); }, take);
+    .run(m_best_level, best_places(factor), [&] { return m_work < work && report() && !is_enough(); }, take);
 }
 
 // The first part of the search takes up to 8 rounds; all plans on the way are refined, since the
@@ -319,7 +321,7 @@ inline void Raster_packing_search::maximize()
     return is_better;
   };
   const auto may_go_on = [&](double work) {
-    return m_work < work && plans.back().level < 0 && !m_is_cancelled;
+    return m_work < work && plans.back().level < 0 && !m_is_cancelled && !is_enough();
   };
   while(m_rounds < first_rounds && may_go_on(first_work))
     improve_last();
