@@ -286,9 +286,8 @@ Flip_repair::mend_patches(const std::vector<Flip_patch>& patches, Branches choic
   for(std::size_t begin = 0, end; begin < patches.size(); begin = end) {
     end = end_of_group(patches, begin);
     m_is_stopped = m_is_stopped || (options.progress
-                     && !options.progress(double(begin) / double(patches.size())))
-                   || !(m_effort > 0.);
-    if(m_is_stopped)
+                     && !options.progress(double(begin) / double(patches.size())));
+    if(m_is_stopped || !(m_effort > 0.))
       break;
     Blocked_execution::blocked_for(end - begin, 1, [&](std::size_t i, std::size_t) {
       if(patches[begin + i].vertices.size() <= options.largest_patch)
@@ -312,6 +311,9 @@ inline void Flip_repair::mend_all(Faces bad, const Flip_repair_options& options,
 {
   bad.erase(std::remove_if(bad.begin(), bad.end(),
                            [this](std::uint32_t t) { return is_too_small(t); }), bad.end());
+  constexpr double group = 100.; // faces that share the effort
+  const double effort = options.effort * std::ceil(double(bad.size()) / group);
+  m_effort = effort;
   Flip_patch_finder finder(m_triangles, m_is_fixed);
   Faces growing = bad;
   std::size_t last_size = 0;
@@ -333,6 +335,8 @@ inline void Flip_repair::mend_all(Faces bad, const Flip_repair_options& options,
     growing = bad_faces(hopeful);
   }
   bad = bad_faces(bad);
+  report.stopped_early = !bad.empty() && !(m_effort > 0.);
+  m_effort = effort; // small patches need little, and are often mended
   if(!bad.empty())
     mend_patches(finder.patches_around(bad, options.first_rings), Branches::ACCEPT, options,
                  report);
@@ -348,12 +352,10 @@ inline Flip_repair_report Flip_repair::run(const Flip_repair_options& options)
   report.degenerate_before = bad.size() - report.flipped_before;
   if(bad.empty())
     return report;
-  constexpr double group = 100.; // faces that share the effort
   const Values before = m_z;
-  m_effort = options.effort * std::ceil(double(bad.size()) / group);
   mend_all(bad, options, report);
   bad = bad_faces(bad);
-  report.stopped_early = m_is_stopped || (!bad.empty() && !(m_effort > 0.));
+  report.stopped_early = m_is_stopped || (report.stopped_early && !bad.empty());
   report.unmended_faces.assign(bad.begin(), bad.end());
   report.flipped_after = number_of_flipped(bad);
   report.degenerate_after = bad.size() - report.flipped_after;
