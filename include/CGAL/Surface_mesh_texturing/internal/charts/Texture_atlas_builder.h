@@ -340,11 +340,48 @@ inline void Texture_atlas_builder::fill()
   measure_atlas(atlas, report);
 }
 
+// The power of two that is about the extent of the mesh if that is so small or large that squares of
+// squares of lengths may not exist; else 1.
+inline double unit_of_length(const Indexed_triangle_mesh& mesh)
+{
+  constexpr int usual = 40; // powers of two
+  if(mesh.points.empty())
+    return 1.;
+  const double extent = Indexed_mesh::longest_side(Indexed_mesh::bounding_box(mesh.points));
+  if(!(extent > 0.) || !std::isfinite(extent) || std::abs(std::ilogb(extent)) <= usual)
+    return 1.;
+  return std::ldexp(1., (std::max)(std::ilogb(extent), -1022));
+}
+
+// The report in a unit of length that is `unit` times as small.
+inline void scale_lengths(double unit, Texture_atlas_report& report)
+{
+  report.seam_length *= unit;
+  report.texels_per_unit /= unit;
+  for(Chart_report& chart : report.charts) {
+    chart.border_length *= unit;
+    chart.distortion.area *= unit * unit;
+    chart.distortion.uv_area *= unit * unit;
+  }
+}
+
 CGAL_HLSCM_INLINE Texture_atlas_result build_atlas(const Indexed_triangle_mesh& mesh,
                                                    const Texture_atlas_options& options,
                                                    const Atlas_models& models)
 {
-  return Texture_atlas_builder(mesh, options, models).run();
+  const double unit = unit_of_length(mesh);
+  if(unit == 1.)
+    return Texture_atlas_builder(mesh, options, models).run();
+  Indexed_triangle_mesh scaled = mesh;
+  for(auto& p : scaled.points) // exactly
+    p = Indexed_triangle_mesh::Point_3(p.x() / unit, p.y() / unit, p.z() / unit);
+  Texture_atlas_options of_scaled = options;
+  of_scaled.packing.texels_per_unit *= unit;
+  Texture_atlas_result result = Texture_atlas_builder(scaled, of_scaled, models).run();
+  if(result.is_ok())
+    result.atlas.mesh.points = mesh.points;
+  scale_lengths(unit, result.report);
+  return result;
 }
 
 #endif // CGAL_HLSCM_DEFINITIONS
