@@ -8,6 +8,7 @@
 #include <CGAL/Surface_mesh_parameterization/conformal_map.h>
 #include <CGAL/Surface_mesh_texturing/cut_to_disks.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/lay_side_by_side.h>
+#include <CGAL/Surface_mesh_texturing/segment_coarse_to_fine.h>
 
 #include <algorithm>
 #include <cmath>
@@ -108,6 +109,8 @@ public:
   }
 
 private:
+  static constexpr std::size_t large = 80000; // triangles
+
   typedef Simple_cartesian<double>::Point_2 Point_2;
   typedef Surface_mesh_parameterization::Conformal_map Conformal_map;
   typedef Surface_mesh_parameterization::HLSCM_pin Pin;
@@ -137,8 +140,37 @@ private:
       component.is_cut = needs_cut(topology);
       m_result.components.push_back(component);
     }
+    cut_large_components(adjacency);
     charts = cut_charts(m_mesh, adjacency, std::move(charts), m_options.cut, m_options.no_seams,
                         needs_cut);
+  }
+
+  // Cuts components of many triangles on a coarser mesh, from where the seams are carried back: that
+  // takes linear time, and what fails is cut as the others are.
+  void cut_large_components(const Triangle_adjacency& adjacency)
+  {
+    Face_charts& charts = m_result.charts;
+    const auto& components = m_result.components;
+    if(std::none_of(components.begin(), components.end(),
+                    [](const Mapped_component& c) { return c.is_cut && c.faces > large; }))
+      return;
+    const std::vector<Chart_mesh> parts = cut_out_charts(m_mesh, adjacency, charts);
+    for(std::size_t c = 0; c < parts.size(); ++c) {
+      if(!components[c].is_cut || components[c].faces <= large)
+        continue;
+      Segmentation_options options;
+      options.coarse_faces = large / 4;
+      options.cut = m_options.cut;
+      options.no_seams = parts[c].sides(m_options.no_seams);
+      const Segmentation_result cut = segment_coarse_to_fine(
+        parts[c].mesh, options, [this](const Indexed_triangle_mesh& coarse) {
+          return one_disk_per_component(coarse, m_options.cut);
+        });
+      if(!cut.is_ok() || cut.charts.number_of_charts != 1)
+        continue;
+      for(std::size_t t = 0; t < cut.charts.seams.size(); ++t)
+        charts.seams[parts[c].triangles[t]] |= cut.charts.seams[t];
+    }
   }
 
   // The mesh as its only component.
@@ -286,7 +318,7 @@ Of several components those that cannot be mapped, such as one whose vertices al
 place, get one point. Errors: a `manifold_error()`, pins of vertices that do not exist, a single or
 pinned component that cannot be mapped, and cancelling.
 
-Time of the maps, and \f$ O(n \log n) \f$ for what is cut.
+Time of the maps, and expected linear time for the cuts.
 */
 inline Surface_map map_surface(const Indexed_triangle_mesh& mesh,
                                const Surface_map_options& options = Surface_map_options())
