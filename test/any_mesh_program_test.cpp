@@ -210,6 +210,7 @@ TEST_F(Program, maps_one_component_if_that_is_wanted)
   using namespace test_support;
   Polygon_soup soup = quadrangles(3);
   append(soup, to_soup(sphere(1)), 20);
+  const std::size_t others = soup.number_of_faces() - 9;
   const std::string in = write("in.obj", obj_of(soup));
   const auto lines_with_uv = [&] {
     std::istringstream lines(read_file(folder / "out.obj"));
@@ -220,11 +221,11 @@ TEST_F(Program, maps_one_component_if_that_is_wanted)
     return number;
   };
   const Texts arguments = {"parameterize", in, "-o", path("out.obj"), "--quiet", "--component"};
-  for(const auto& [component, faces] : {std::pair("0", 9), std::pair("1", 80)}) {
+  for(const auto& [component, faces] : {std::pair("0", std::size_t(9)), std::pair("1", others)}) {
     Texts with = arguments;
     with.push_back(component);
     ASSERT_EQ(run(with).exit_code, 0);
-    EXPECT_EQ(lines_with_uv(), std::size_t(faces));
+    EXPECT_EQ(lines_with_uv(), faces);
     EXPECT_EQ(without_texture(read_file(folder / "out.obj")), without_texture(obj_of(soup)));
   }
   Texts with = arguments;
@@ -232,6 +233,28 @@ TEST_F(Program, maps_one_component_if_that_is_wanted)
   const Outcome outcome = run(with);
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_EQ(error_in_message(outcome.err, in, {"no component 2", "has 2"}), "");
+}
+
+TEST_F(Program, merges_vertices_within_a_length)
+{
+  using namespace test_support;
+  Polygon_soup soup; // two squares with a gap between them
+  for(const double x : {0., 1., 1.01, 2.}) {
+    for(const double y : {0., 1.}) {
+      add_point(soup, x, y, 0);
+    }
+  }
+  add_face(soup, {0, 2, 3, 1});
+  add_face(soup, {4, 6, 7, 5});
+  const std::string in = write("in.obj", obj_of(soup));
+  for(const auto& [weld, components] : {std::pair("0.005", 2), std::pair("0.02", 1), std::pair("1%", 1)}) {
+    const Json info = Json::parse(run({"info", in, "--json", "--weld", weld}).out);
+    EXPECT_EQ(info["components"], components);
+    const Outcome outcome = run({"parameterize", in, "-o", path("out.obj"), "--weld", weld});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("vertices merged with others: " + std::to_string(2 * (2 - components))),
+              std::string::npos) << outcome.err;
+  }
 }
 
 TEST_F(Program, makes_levels_and_light_models_of_any_mesh)

@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -250,6 +251,88 @@ TEST(Repair, is_the_same_in_every_run)
     const CGAL::Blocked_execution::Thread_scope scope(threads);
     EXPECT_EQ(repair(mesh, uv).uv, first);
   }
+}
+
+// A grid of 96,800 triangles under a map that winds twice around two points, each within a face. No
+// map without flips has these values around a patch, unless it winds twice around a vertex.
+Parameters winding_twice(const Indexed_triangle_mesh& mesh, double side)
+{
+  const Complex c(0.2637, 0.15), d(-0.4551, 0.2078);
+  return map_of(mesh, [&](Complex w) {
+    const Complex z = 2. * w / side - Complex(1., 1.);
+    return z * z * z / 3. - (c + d) * z * z / 2. + c * d * z; // the derivative is (z - c) (z - d)
+  });
+}
+
+TEST(Repair, of_a_map_that_winds_twice_takes_the_smallest_patches)
+{
+  const Indexed_triangle_mesh mesh = grid(220, 220);
+  const Parameters uv = winding_twice(mesh, 220.);
+  ASSERT_EQ(bad_faces(mesh, uv).size(), 2u);
+  // There is no try of larger ones, for which there would be no effort
+  Flip_repair_options options;
+  options.effort = 1e4;
+  const Repaired repaired = repair(mesh, uv, {}, options);
+  EXPECT_EQ(error_in_repair(mesh, uv, {}, repaired), "");
+  EXPECT_EQ(repaired.report.branch_vertices, 2u);
+  EXPECT_EQ(repaired.report.unmended_faces.size(), 0u);
+  EXPECT_LT(repaired.report.moved_vertices, 100u);
+  EXPECT_FALSE(repaired.report.stopped_early);
+  EXPECT_EQ(repaired.uv, repair(mesh, uv).uv);
+}
+
+TEST(Turns_of_border, tell_whether_there_is_a_map_without_flips)
+{
+  namespace internal = SMP::internal;
+  const Indexed_triangle_mesh mesh = grid(40, 40);
+  const std::vector<bool> is_fixed(mesh.points.size(), false);
+  internal::Flip_patch_finder finder(mesh.triangles, is_fixed);
+  const auto turns = [&](const Complex& centre, int rings, const auto& map) {
+    const Parameters uv = map_of(mesh, map);
+    std::uint32_t nearest = 0;
+    for(std::uint32_t v = 0; v < mesh.points.size(); ++v)
+      if(std::abs(Complex(mesh.points[v].x(), mesh.points[v].y()) - centre)
+         < std::abs(Complex(mesh.points[nearest].x(), mesh.points[nearest].y()) - centre))
+        nearest = v;
+    std::uint32_t face = 0;
+    while(mesh.triangles[face][0] != nearest)
+      ++face;
+    return internal::turns_of_border(finder.patches_around({face}, rings).at(0), mesh.triangles, uv);
+  };
+  const Complex c(20.3, 19.6);
+  const auto square = [&c](Complex w) { return (w - c) * (w - c); };
+  EXPECT_EQ(turns(c, 2, square), 2);
+  EXPECT_EQ(turns(c, 8, square), 2);
+  EXPECT_EQ(turns({10., 30.}, 3, square), 1);
+  EXPECT_EQ(turns(c, 3, [&](Complex w) { return (w - c) * (w - c) * (w - c); }), 3);
+  EXPECT_EQ(turns(c, 3, [](Complex w) { return std::conj(w); }), -1);
+  EXPECT_EQ(turns({1., 20.}, 2, square), std::nullopt); // on the border
+}
+
+// Around a hole the border of a patch tells nothing, so that larger and larger patches are tried.
+TEST(Repair, has_a_bounded_effort)
+{
+  Indexed_triangle_mesh mesh = grid(220, 220);
+  Parameters uv = winding_twice(mesh, 220.);
+  std::vector<bool> is_kept(mesh.points.size(), true);
+  for(const std::size_t bad : bad_faces(mesh, uv))
+    is_kept[mesh.triangles[bad][0] + 5] = false; // a hole beside it
+  Parameters kept;
+  for(std::size_t v = 0; v < uv.size(); ++v)
+    if(is_kept[v])
+      kept.push_back(uv[v]);
+  mesh = without_vertices(mesh, is_kept);
+  ASSERT_EQ(bad_faces(mesh, kept).size(), 2u);
+  const Repaired usual = repair(mesh, kept);
+  EXPECT_EQ(error_in_repair(mesh, kept, {}, usual), "");
+  EXPECT_EQ(usual.report.unmended_faces.size(), 0u);
+  EXPECT_FALSE(usual.report.stopped_early);
+  Flip_repair_options options;
+  options.effort = 1.;
+  const Repaired none = repair(mesh, kept, {}, options);
+  EXPECT_EQ(error_in_repair(mesh, kept, {}, none), "");
+  EXPECT_EQ(none.report.unmended_faces.size(), 2u);
+  EXPECT_TRUE(none.report.stopped_early);
 }
 
 } // namespace flip_repair_test

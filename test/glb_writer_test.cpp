@@ -26,7 +26,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <sstream>
@@ -195,6 +197,88 @@ TEST(Writers, glb_of_levels_shares_its_vertices)
   std::ostringstream os;
   EXPECT_FALSE(SMT::IO::write_GLB(os, built.mesh, levels, SMT::Texture_file()));
   EXPECT_EQ(os.str(), "");
+}
+
+// A grid with steps of 1/30 of `unit`, its corner at `corner`, as a mesh with levels.
+SMM::Textured_triangle_mesh grid_at(const Point_3& corner, double unit)
+{
+  constexpr SMT::Vertex_index n = 12;
+  SMM::Textured_triangle_mesh mesh;
+  for(SMT::Vertex_index j = 0; j <= n; ++j)
+    for(SMT::Vertex_index i = 0; i <= n; ++i) {
+      mesh.points.emplace_back(corner.x() + unit * i / 30., corner.y() + unit * j / 30.,
+                               corner.z() + unit * (i % 3) / 90.);
+      mesh.uv.emplace_back(double(i) / n, double(j) / n);
+      const SMT::Vertex_index v = (n + 1) * j + i;
+      if(i == n || j == n)
+        continue;
+      mesh.triangles.push_back({v, v + 1, v + n + 2});
+      mesh.triangles.push_back({v, v + n + 2, v + n + 1});
+    }
+  mesh.wedges = mesh.triangles;
+  return mesh;
+}
+
+// How far positions are from where they should be, to the unit: node by node, `point_of(v)` is the
+// place of vertex v.
+template <class Point_of>
+double distance_of_positions(const tinygltf::Model& model, const Point_of& point_of, double unit)
+{
+  double result = 0.;
+  for(const tinygltf::Node& node : model.nodes) {
+    const auto& primitive = model.meshes.at(std::size_t(node.mesh)).primitives.at(0);
+    const auto positions = numbers<float>(model, primitive.attributes.at("POSITION"));
+    for(std::size_t i = 0; i < positions.size(); ++i) {
+      const double scale = node.scale.empty() ? 1. : node.scale[i % 3];
+      const double shift = node.translation.empty() ? 0. : node.translation[i % 3];
+      const double place = shift + scale * double(positions[i]);
+      result = (std::max)(result, std::abs(place - point_of(i / 3)[int(i % 3)]) / unit);
+    }
+  }
+  return result;
+}
+
+TEST(Writers, glb_has_its_place_in_the_node_where_floats_are_too_coarse)
+{
+  struct Place
+  {
+    Point_3 corner;
+    double unit;
+    bool is_placed, is_scaled;
+  };
+  const Place places[] = {{Point_3(0., 0., 0.), 1., false, false},
+                          {Point_3(100., -50., 3.), 1., false, false},
+                          {Point_3(0., 0., 0.), 1e-30, false, false},
+                          {Point_3(1e6, -1e6, 0.), 1., true, false},
+                          {Point_3(448262., 5411932., 100.), 6., true, false},
+                          {Point_3(1e7, 1e7, 1e7), 1., true, false},
+                          {Point_3(0., 0., 0.), 1e-45, true, true},
+                          {Point_3(-3e-200, 0., 1e-200), 1e-200, true, true},
+                          {Point_3(1e35, 0., 0.), 1e28, true, true}};
+  for(const auto& [corner, unit, is_placed, is_scaled] : places) {
+    const SMM::Textured_triangle_mesh mesh = grid_at(corner, unit);
+    const auto built = SMM::build_textured_progressive_mesh(mesh);
+    ASSERT_EQ(built.error, "") << corner;
+    const SMM::Level_extractor extractor(built.mesh);
+    std::vector<std::vector<SMT::Triangle_indices>> levels;
+    for(const std::size_t faces : {288u, 100u})
+      levels.push_back(extractor.triangles(extractor.position_of_triangles(faces)));
+    const tinygltf::Model model = read_glb(glb_of(mesh));
+    const tinygltf::Model of_levels
+      = read_glb(glb_of(built.mesh, levels, SMT::Texture_file{"plain", ""}));
+    for(const tinygltf::Model& read : {model, of_levels})
+      for(const tinygltf::Node& node : read.nodes) {
+        EXPECT_EQ(!node.translation.empty(), is_placed) << corner;
+        EXPECT_EQ(!node.scale.empty(), is_scaled) << corner;
+      }
+    const double edge = unit / 30.;
+    const double allowed = is_placed ? 1e-6 : 1e-3; // of an edge
+    EXPECT_LE(distance_of_positions(model, [&](std::size_t v) { return mesh.points[v]; }, edge),
+              allowed) << corner;
+    EXPECT_LE(distance_of_positions(of_levels, [&](std::size_t w) {
+                return built.mesh.points[built.mesh.vertex[w]];
+              }, edge), allowed) << corner;
+  }
 }
 
 #endif // HLSCM_WITH_TINYGLTF

@@ -4,6 +4,7 @@
 // Texture atlases: charts that are disks, maps that are one-to-one in each chart and between charts,
 // whatever the surface.
 
+#include <support/bad_surfaces.h>
 #include <support/chart_generators.h>
 #include <support/texture_atlas_properties.h>
 
@@ -318,6 +319,89 @@ TEST(Texture_atlas, can_be_cancelled)
     EXPECT_EQ(result.status, CGAL::Indexed_mesh::Mesh_status::CANCELLED);
     EXPECT_EQ(result.error, "cancelled");
     EXPECT_TRUE(result.atlas.mesh.uv.empty());
+  }
+}
+
+// --- Limits
+
+// Charts by thousands, hubs, needles and slivers: in time and memory that the tests end in
+TEST(Texture_atlas, is_valid_on_bad_surfaces)
+{
+  for(const auto& [name, mesh] : bad_surfaces(20000, seed)) {
+    SMT::Texture_atlas_options options = small_texture();
+    options.packing.width = options.packing.height = 512;
+    const SMT::Texture_atlas_result result = SMT::build_texture_atlas(mesh, options);
+    ASSERT_EQ(result.error, "") << name;
+    EXPECT_EQ(error_in_atlas(mesh, result.atlas), "") << name << seed_text;
+    EXPECT_FALSE(result.report.stopped_early) << name;
+  }
+}
+
+// The distances of its triangles from the seeds differ in their last bits only
+TEST(Texture_atlas, is_found_on_a_grid_that_is_nearly_a_line)
+{
+  for(const Vertex_index side : {29u, 42u}) {
+    const Indexed_triangle_mesh mesh = flattened_grid(side, 1e-8);
+    const SMT::Texture_atlas_result result = SMT::build_texture_atlas(mesh);
+    ASSERT_EQ(result.error, "") << side;
+    EXPECT_EQ(error_in_atlas(mesh, result.atlas), "") << side;
+  }
+}
+
+TEST(Texture_atlas, is_valid_when_the_time_is_over)
+{
+  const std::vector<Named_mesh> meshes
+    = {{"torus", with_noise(torus(60, 30), 0.02, seed)},
+       {"sphere and torus", joined(sphere(4), torus(30, 15))},
+       {"grid", with_hills(irregular_grid(40, 40, seed), 15., seed)},
+       {"triangles", single_triangles(1500, seed)}};
+  for(const auto& [name, mesh] : meshes) {
+    SMT::Texture_atlas_options options = small_texture();
+    options.packing.width = options.packing.height = 512;
+    const SMT::Texture_atlas_result best = SMT::build_texture_atlas(mesh, options);
+    EXPECT_FALSE(best.report.stopped_early) << name;
+    for(const double limit : {1e-9, 0.05, 1e6}) {
+      options.seconds = limit;
+      const SMT::Texture_atlas_result result = SMT::build_texture_atlas(mesh, options);
+      ASSERT_EQ(result.error, "") << name << ", " << limit;
+      EXPECT_EQ(error_in_atlas(mesh, result.atlas), "") << name << ", " << limit << seed_text;
+      EXPECT_GE(result.atlas.charts.number_of_charts, best.atlas.charts.number_of_charts);
+      if(limit < 1e-3)
+        EXPECT_TRUE(result.report.stopped_early) << name;
+      if(limit > 1e3) {
+        EXPECT_TRUE(are_equal(result.atlas, best.atlas)) << name;
+        EXPECT_FALSE(result.report.stopped_early) << name;
+      }
+    }
+  }
+  for(const double bad : {-1., std::numeric_limits<double>::quiet_NaN(),
+                          std::numeric_limits<double>::infinity()}) {
+    SMT::Texture_atlas_options options;
+    options.seconds = bad;
+    EXPECT_EQ(SMT::build_texture_atlas(sphere(1), options).status,
+              CGAL::Indexed_mesh::Mesh_status::BAD_OPTIONS);
+  }
+}
+
+TEST(Texture_atlas, does_not_depend_on_very_small_or_large_units)
+{
+  const Indexed_triangle_mesh mesh = with_noise(torus(40, 20), 0.02, seed);
+  SMT::Texture_atlas_options options = small_texture();
+  const SMT::Texture_atlas_result usual = SMT::build_texture_atlas(mesh, options);
+  ASSERT_EQ(usual.error, "");
+  for(const int power : {-498, -300, -80, -45, 45, 80, 300, 498}) {
+    const double unit = std::ldexp(1., power);
+    const Indexed_triangle_mesh other = scaled(mesh, unit);
+    const SMT::Texture_atlas_result result = SMT::build_texture_atlas(other, options);
+    ASSERT_EQ(result.error, "") << power;
+    EXPECT_TRUE(are_equal(result.atlas, usual.atlas)) << power;
+    EXPECT_EQ(result.atlas.mesh.points, other.points) << power;
+    EXPECT_NEAR(result.report.seam_length / unit, usual.report.seam_length,
+                1e-9 * usual.report.seam_length);
+    EXPECT_NEAR(result.report.texels_per_unit * unit, usual.report.texels_per_unit,
+                1e-9 * usual.report.texels_per_unit);
+    EXPECT_NEAR(result.report.charts[0].border_length / unit,
+                usual.report.charts[0].border_length, 1e-9 * usual.report.seam_length);
   }
 }
 

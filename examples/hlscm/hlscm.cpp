@@ -7,17 +7,30 @@
 // light model with a normal map.
 
 #include "commands/Commands.h"
+#include "common/Blas_memory.h"
 #include "common/Interruption.h"
 #include "common/Program_error.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <new>
+#include <string>
+#include <thread>
 
 namespace {
 
-int run(const hlscm::Program_options& options)
+int run(hlscm::Program_options options)
 {
+  const unsigned int processors = std::max(1u, std::thread::hardware_concurrency());
+  if(options.library.threads > processors) { // of more, TBB prints that it has not so many
+    options.library.threads = processors;
+  }
+  const bool factorizes_charts
+      = options.command == hlscm::Command::ATLAS || options.command == hlscm::Command::BAKE;
+  if(factorizes_charts) {
+    options.library.threads = hlscm::reserve_blas_memory(options.library.threads);
+  }
   switch(options.command) {
   case hlscm::Command::INFO:
     return hlscm::run_info(options);
@@ -45,18 +58,29 @@ int after_output(int exit_code)
   return 1;
 }
 
+// TBB tells by the text of a failure only that it could not have a thread.
+std::string sentence_of(const std::exception& e)
+{
+  const std::string what = e.what();
+  return what.find("pthread_create") != std::string::npos
+             ? "the system has no thread left, close other programs or use --threads 1"
+             : "unexpected failure (" + what + "), please report it with the mesh";
+}
+
 } // namespace
 
 int main(int argc, char** argv)
 {
-  hlscm::Interruption::install();
-  const hlscm::Parsed_command_line command_line = hlscm::parse_command_line(argc, argv);
-  if(!command_line.options) {
-    return after_output(command_line.exit_code);
-  }
-  const char* input = command_line.options->input.c_str();
+  std::string input = "the program";
   try {
-    return after_output(run(*command_line.options));
+    hlscm::Interruption::install();
+    const hlscm::Parsed_command_line command_line = hlscm::parse_command_line(argc, argv);
+    int exit_code = command_line.exit_code;
+    if(command_line.options) {
+      input = command_line.options->input;
+      exit_code = run(*command_line.options);
+    }
+    hlscm::Interruption::end_process(after_output(exit_code));
   } catch(const hlscm::Cancelled&) {
     hlscm::Interruption::say_cancelled();
   } catch(const hlscm::Program_error& e) {
@@ -64,11 +88,9 @@ int main(int argc, char** argv)
   } catch(const std::bad_alloc&) {
     std::fprintf(stderr,
                  "hlscm: error: %s: not enough memory, close other programs or split the mesh\n",
-                 input);
+                 input.c_str());
   } catch(const std::exception& e) {
-    std::fprintf(stderr,
-                 "hlscm: error: %s: unexpected failure (%s), please report it with the mesh\n",
-                 input, e.what());
+    std::fprintf(stderr, "hlscm: error: %s: %s\n", input.c_str(), sentence_of(e).c_str());
   }
-  return 1;
+  hlscm::Interruption::end_process(1);
 }

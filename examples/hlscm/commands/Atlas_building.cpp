@@ -57,6 +57,7 @@ Built_atlas build_atlas(const Input_surface& surface, const Program_options& opt
   library.bound = options.atlas.bound;
   library.max_charts = options.atlas.max_charts;
   const auto charts = given_charts(surface, options);
+  library.seconds = options.atlas.time_limit;
   library.packing.time_budget = options.atlas.packing_time;
   library.packing.width = library.packing.height = options.atlas.texture;
   library.packing.padding = options.atlas.padding;

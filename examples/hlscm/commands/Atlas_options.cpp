@@ -43,6 +43,9 @@ void add_atlas_options(CLI::App& app, Program_options& o)
       "raster: charts in any gap where they fit; horizon: from below, as in 2002 (default raster)");
   add_number(app, "--packing-time", 0, 1e6, atlas.packing_time,
              "seconds to look for a better packing, on a usual machine (default none)");
+  add_number(app, "--time-limit", 0, 1e9, atlas.time_limit,
+             "after that many seconds finish the atlas in the quickest way: more charts, more "
+             "distortion, a looser packing");
   add_choice<std::optional<SMP::Conformal_method>>(
       app, "--method",
       {{"border-first", std::nullopt},

@@ -128,6 +128,14 @@ void add_bake_lines(const Bake_report& bake, std::ostringstream& text)
 std::vector<std::string> Atlas_report::all_warnings() const
 {
   std::vector<std::string> all = warnings;
+  if(atlas && atlas->stopped_early) {
+    all.push_back("the time was up before the atlas was as good as it gets; see --time-limit");
+  }
+  if(atlas && atlas->distortion.degenerate_faces > 0) {
+    all.push_back("triangles without area in the texture: "
+                  + std::to_string(atlas->distortion.degenerate_faces) + " of "
+                  + std::to_string(faces));
+  }
   if(overlapping_texels > 0) {
     all.push_back("texels in more than one triangle: " + std::to_string(overlapping_texels));
   }

@@ -3,6 +3,7 @@
 
 #include "commands/Chart_solving.h"
 
+#include "common/Blas_memory.h"
 #include "common/Interruption.h"
 #include "common/Program_error.h"
 
@@ -12,6 +13,8 @@
 #include <CGAL/Surface_mesh_parameterization/repair_flipped_faces.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <utility>
 
 namespace hlscm {
@@ -50,6 +53,79 @@ std::vector<SMP::HLSCM_pin> checked_pins(const Program_options& options,
   return pins;
 }
 
+namespace {
+
+using Parameterizer =
+    SMP::HLSCM_parameterizer_3<Mesh, CGAL::Default, CGAL::Default,
+                               CGAL::Parallel_if_available_tag>;
+using Vertex_pins = std::vector<std::pair<Mesh::Vertex_index, Kernel::Point_2>>;
+
+// Charts for which multigrid is made take at most some 40 iterations.
+constexpr std::size_t patience = 200;
+
+// Whether the direct method may take the place of the one that the program chose. So many faces
+// cost it two seconds and 300 MB.
+bool may_fall_back(const Program_options& options, const SMP::HLSCM_options& library,
+                   const Mesh& mesh)
+{
+  constexpr std::size_t most_faces = 300000;
+  const bool is_chosen = library.method == SMP::Conformal_method::HLSCM
+                      || library.method == SMP::Conformal_method::SPECTRAL;
+  return is_chosen && !options.is_method_given && library.maximal_iterations == 0
+      && library.time_limit == 0 && mesh.number_of_faces() <= most_faces;
+}
+
+// A halfedge of the longest border; of any border if lengths are too small for CGAL to add them.
+Mesh::Halfedge_index border_of(const Mesh& mesh)
+{
+  const auto longest = CGAL::Polygon_mesh_processing::longest_border(mesh).first;
+  if(longest != Mesh::null_halfedge()) {
+    return longest;
+  }
+  const auto all = mesh.halfedges();
+  const auto found
+      = std::find_if(all.begin(), all.end(), [&](auto h) { return mesh.is_border(h); });
+  return found == all.end() ? Mesh::null_halfedge() : *found;
+}
+
+// Whether an iteration ended since no energy was left but what rounding makes, which on long strips
+// says little of lengths.
+bool is_vague(const SMP::HLSCM_report& report, const SMP::HLSCM_options& options)
+{
+  constexpr std::size_t long_iteration = 50; // the least with such an end
+  return report.converged && report.iterations >= long_iteration && options.uv_tolerance == 0
+      && !(report.energy_gap_estimate <= options.tolerance * std::abs(report.energy));
+}
+
+std::string not_converged(std::size_t iterations)
+{
+  return "the tolerance was not met after " + std::to_string(iterations)
+       + " iterations, take --method direct, which makes none";
+}
+
+// The map of the direct method, and why; nothing if it has none either.
+std::optional<Solved_chart> solve_directly(SMP::HLSCM_options library, const Mesh& mesh,
+                                           const Vertex_pins& pins, Uv_map uv,
+                                           std::size_t iterations)
+{
+  reserve_blas_memory(1);
+  library.method = SMP::Conformal_method::DIRECT;
+  library.level_observer = nullptr; // the coarse levels were shown
+  Parameterizer parameterizer(library);
+  parameterizer.set_pins(pins);
+  const SMP::Error_code error = parameterizer.parameterize(mesh, border_of(mesh), uv);
+  Interruption::check();
+  if(error != SMP::OK) {
+    return std::nullopt;
+  }
+  Solved_chart result = {parameterizer.report(), {}};
+  result.report.warnings.push_back("multigrid found no exact map in " + std::to_string(iterations)
+                                   + " iterations, this is that of --method direct");
+  return result;
+}
+
+} // namespace
+
 Solved_chart solve_chart(const Program_options& options, SMP::HLSCM_options library,
                          const Mesh& mesh, const std::vector<SMP::HLSCM_pin>& pins, Uv_map uv,
                          Progress_bar& progress)
@@ -63,23 +139,37 @@ Solved_chart solve_chart(const Program_options& options, SMP::HLSCM_options libr
     library.decimate = SMP::Edge_collapse_decimation();
   }
   library.progress = [&progress](double fraction) { return progress.try_advance(fraction); };
-  SMP::HLSCM_parameterizer_3<Mesh, CGAL::Default, CGAL::Default, CGAL::Parallel_if_available_tag>
-      parameterizer(library);
-  std::vector<std::pair<Mesh::Vertex_index, Kernel::Point_2>> pinned;
+  const bool falls_back = may_fall_back(options, library, mesh);
+  if(falls_back) {
+    library.maximal_iterations = patience;
+  }
+  if(library.method == SMP::Conformal_method::DIRECT) {
+    reserve_blas_memory(1);
+  }
+  Vertex_pins pinned;
   for(const SMP::HLSCM_pin& pin : pins) {
     pinned.emplace_back(Mesh::Vertex_index(Mesh::size_type(pin.vertex)),
                         Kernel::Point_2(pin.u, pin.v));
   }
+  Parameterizer parameterizer(library);
   parameterizer.set_pins(pinned);
 
   progress.start_stage("solving");
-  const auto border = CGAL::Polygon_mesh_processing::longest_border(mesh).first;
-  const SMP::Error_code error = parameterizer.parameterize(mesh, border, uv);
+  const SMP::Error_code error = parameterizer.parameterize(mesh, border_of(mesh), uv);
   Interruption::check();
-  if(error != SMP::OK) {
-    throw Program_error(options.input, parameterizer.report().message);
+  const SMP::HLSCM_report& report = parameterizer.report();
+  const bool gave_up = error != SMP::OK && report.iterations > 0 && !report.converged;
+  if(falls_back && (gave_up || is_vague(report, library))) {
+    const auto direct = solve_directly(library, mesh, pinned, uv, report.iterations);
+    if(direct) {
+      return *direct;
+    }
   }
-  return {parameterizer.report(), parameterizer.progressive_mesh()};
+  if(error != SMP::OK) {
+    throw Program_error(options.input,
+                        gave_up ? not_converged(report.iterations) : report.message);
+  }
+  return {report, parameterizer.progressive_mesh()};
 }
 
 namespace {
@@ -118,8 +208,10 @@ void move_report(const Similarity& similarity, SMP::HLSCM_report& report)
     pin.v = p[1];
   }
   const double area_scale = similarity.scale * similarity.scale;
-  report.energy *= area_scale;
-  report.energy_gap_estimate *= area_scale;
+  if(std::isfinite(report.energy)) { // else it is too large for a number in the unit of the mesh
+    report.energy *= area_scale;
+    report.energy_gap_estimate *= area_scale;
+  }
   if(report.flip_repair) {
     report.flip_repair->energy_before *= area_scale;
     report.flip_repair->energy_after *= area_scale;

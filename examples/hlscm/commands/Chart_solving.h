@@ -28,7 +28,9 @@ struct Solved_chart
   CGAL::Surface_mesh_parameterization::Chart_progressive_mesh progressive_mesh;
 };
 
-/// Parameterizes a chart with the given pins, vertices of the mesh; throws `Program_error`.
+/// Parameterizes a chart with the given pins, vertices of the mesh; throws `Program_error`. Where the
+/// method is the program's choice and finds no exact map, and the user has set no limits, it is the
+/// map of the direct method, which has no progressive mesh, and a warning says so.
 Solved_chart solve_chart(const Program_options& options,
                          CGAL::Surface_mesh_parameterization::HLSCM_options library,
                          const Mesh& mesh,

@@ -75,11 +75,21 @@ void add_threads(CLI::App& app, unsigned int& threads)
             "result does not depend on it");
 }
 
+void add_weld(CLI::App& app, Program_options& options)
+{
+  app.add_option_function<std::string>(
+         "--weld", [&options](const std::string& text) { options.weld = to_length(text); },
+         "merge vertices that are no farther apart than that, a length or in % of the diagonal of the "
+         "bounding box; STL, GLB and glTF files have equal points merged in any case")
+      ->type_name("E|E%");
+}
+
 void add_report_and_quiet(CLI::App& app, Program_options& options)
 {
   app.add_option("--report", options.report, "what was done and measured, as JSON")
       ->type_name("FILE.json");
   app.add_flag("--quiet", options.is_quiet, "print errors only");
+  add_weld(app, options);
   app.add_flag("--strict", options.is_strict,
                "refuse a mesh that is not what the command needs, instead of mending or cutting it");
 }

@@ -64,6 +64,9 @@ void add_method(CLI::App& app, CGAL::Surface_mesh_parameterization::Conformal_me
 
 void add_threads(CLI::App& app, unsigned int& threads);
 
+/// Adds what may be done to a mesh before all else.
+void add_weld(CLI::App& app, Program_options& options);
+
 void add_report_and_quiet(CLI::App& app, Program_options& options);
 
 /// Adds the commands `atlas` and `bake`.

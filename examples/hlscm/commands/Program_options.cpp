@@ -53,6 +53,8 @@ void add_solver_options(CLI::App& app, Program_options& options)
 {
   SMP::HLSCM_options& o = options.library;
   add_method(app, o.method);
+  app.parse_complete_callback(
+      [&options, &app] { options.is_method_given = app.count("--method") > 0; });
   add_choice<SMP::Conformal_weights>(
       app, "--weights",
       {{"exact", SMP::Conformal_weights::EXACT}, {"cgal", SMP::Conformal_weights::CGAL_LSCM}},
@@ -99,6 +101,7 @@ void add_info(CLI::App& app, Program_options& o)
 {
   CLI::App* info = app.add_subcommand("info", "Say what a mesh is and what can be done with it");
   info->add_option("IN", o.input, "a mesh: .off, .obj, .ply or .stl")->required();
+  add_weld(*info, o);
   info->add_flag("--json", o.prints_json, "print JSON instead of text");
   info->callback([&o] { o.command = Command::INFO; });
 }

@@ -4,7 +4,7 @@
 #include "commands/Commands.h"
 #include "commands/Repairs.h"
 #include "reading/Diagnosis.h"
-#include "reading/Mesh_reading.h"
+#include "reading/Surface_reading.h"
 
 #include <CGAL/Indexed_mesh/surface_of_soup.h>
 #include <CGAL/Surface_mesh_texturing/chart_topology.h>
@@ -169,7 +169,7 @@ void print_json(const std::string& file, const Diagnosis& d, const Plan& plan,
 int run_info(const Program_options& options)
 {
   Progress_bar progress(true);
-  const Read_mesh mesh = read_mesh(options.input, progress);
+  const Read_mesh mesh = read_and_weld(options.input, options, progress);
   const Diagnosis diagnosis = diagnose(mesh.soup, progress);
   const Plan plan = plan_for(mesh.soup, diagnosis);
   progress.erase();

@@ -94,6 +94,13 @@ Progressive_model build_from_chart(const Input_surface& input, const Program_opt
                          chart.report.warnings.end());
   report.seconds_parameterize = solving.seconds();
   const Stopwatch building;
+  if(chart.progressive_mesh.vertices.empty()) { // the method has no levels
+    const auto uv_at = [&](Mesh::Halfedge_index h) { return uv[mesh.target(h)]; };
+    Progressive_model model
+        = build_progressive(SMM::textured_triangle_mesh(mesh, uv_at), options, progress);
+    report.seconds_build = building.seconds();
+    return model;
+  }
   SMM::Textured_progressive_mesh_options build;
   SMM::Textured_progressive_mesh_result result
       = SMP::build_textured_progressive_mesh(mesh, uv, chart.progressive_mesh, build);

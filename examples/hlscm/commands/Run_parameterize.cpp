@@ -14,6 +14,7 @@
 
 #include <CGAL/Surface_mesh_parameterization/Distortion_measures.h>
 
+#include <cmath>
 #include <iostream>
 #include <optional>
 #include <utility>
@@ -48,17 +49,6 @@ struct Run_files
   std::optional<Picture_files> pictures;
 };
 
-void add_warnings(Run_report& report)
-{
-  const auto& solver = report.solver;
-  report.warnings.insert(report.warnings.end(), solver.warnings.begin(), solver.warnings.end());
-  if(report.distortion.flipped_faces > 0) {
-    report.warnings.push_back("flipped triangles in the map: "
-                              + std::to_string(report.distortion.flipped_faces) + " of "
-                              + std::to_string(solver.faces));
-  }
-}
-
 void print(const Run_report& report, const Program_options& options)
 {
   print_notes(options.input, report.repairs, report.warnings);
@@ -92,8 +82,11 @@ int run_parameterize(const Program_options& options)
   report.seconds_total = working.seconds();
   const Stopwatch measuring;
   report.distortion = SMP::measure_distortion(map.mesh);
+  if(!std::isfinite(report.solver.energy)) { // too large for a number in the unit of the mesh
+    report.solver.energy = report.distortion.conformal_energy;
+  }
   report.seconds_measure = measuring.seconds();
-  add_warnings(report);
+  report.warnings = all_warnings(report);
 
   std::vector<Drawn_surface> drawn;
   if(files.pictures) {

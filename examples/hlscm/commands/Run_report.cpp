@@ -68,6 +68,13 @@ std::string levels_text(const Run_report& report)
   return std::to_string(report.solver.levels.size()) + " (vertices: " + text.str() + ")";
 }
 
+std::string gap_text(double gap)
+{
+  std::ostringstream text;
+  text << std::setprecision(4) << ", about " << gap << " above the minimum";
+  return std::isfinite(gap) ? text.str() : ", how far above the minimum is not known";
+}
+
 Json to_json(const CGAL::Surface_mesh_parameterization::Flip_repair_report& repair)
 {
   return {{"flipped_before", repair.flipped_before},
@@ -126,6 +133,24 @@ double peak_memory_mb()
   rusage usage;
   getrusage(RUSAGE_SELF, &usage);
   return double(usage.ru_maxrss) / 1024;
+}
+
+std::vector<std::string> all_warnings(const Run_report& report)
+{
+  const auto& solver = report.solver;
+  std::vector<std::string> warnings = report.warnings;
+  warnings.insert(warnings.end(), solver.warnings.begin(), solver.warnings.end());
+  if(solver.stopped_early) {
+    warnings.push_back("the time was up, this is the map that there was");
+  }
+  const auto add = [&](const char* what, std::size_t number) {
+    if(number > 0) {
+      warnings.push_back(what + std::to_string(number) + " of " + std::to_string(solver.faces));
+    }
+  };
+  add("flipped triangles in the map: ", report.distortion.flipped_faces);
+  add("triangles without area in the map: ", report.distortion.degenerate_faces);
+  return warnings;
 }
 
 std::string to_json(const Run_report& report, const Program_options& options)
@@ -202,16 +227,19 @@ std::string to_table(const Run_report& report, const Program_options& options)
     table.add("method", s.method, ", ", s.iterations,
               s.iterations == 1 ? " iteration" : " iterations", " on the finest level, ",
               s.converged       ? "converged"
-              : s.stopped_early ? "stopped early"
+              : s.stopped_early ? "stopped early since the time was up"
                                 : "tolerance not reached");
   }
   table.add("levels", levels_text(report));
   table.add("pins", pins_text(report));
-  table.add("energy", s.energy, ", about ", s.energy_gap_estimate, " above the minimum");
+  table.add("energy", s.energy, gap_text(s.energy_gap_estimate));
   table.add("angles", "quasi-conformal ratio mean ", d.quasi_conformal_mean, ", 99 % below ",
             d.quasi_conformal_99, ", max ", d.quasi_conformal_max);
   table.add("areas", "scale range ", d.area_scale_range, ", stretch L2 ", d.stretch_L2);
-  table.add("flips", d.flipped_faces, " of ", s.faces, " faces");
+  table.add("flips", d.flipped_faces, " of ", s.faces, " faces",
+            d.degenerate_faces > 0
+                ? ", " + std::to_string(d.degenerate_faces) + " more have no area in the map"
+                : "");
   if(s.flip_repair) {
     const auto& repair = *s.flip_repair;
     table.add("repair", repair.flipped_before + repair.degenerate_before,

@@ -34,6 +34,9 @@ struct Run_report
 /// Peak memory of this process so far, in units of 2^20 bytes.
 double peak_memory_mb();
 
+/// Those that the report has, those of the solver, and what its numbers warn of.
+std::vector<std::string> all_warnings(const Run_report& report);
+
 std::string to_json(const Run_report& report, const Program_options& options);
 
 /// The table for people.

@@ -51,6 +51,7 @@ struct Atlas_settings
   bool is_one_disk = false;   ///< one chart for each connected component
   std::size_t pages = 1;      ///< at most
   double packing_time = 0;    ///< seconds for better packings
+  double time_limit = 0;      ///< seconds for the atlas; 0: none
   Packer packer = Packer::RASTER;
   /// Of `Conformal_chart_parameterizer`; none: `Border_first_chart_parameterizer`
   std::optional<CGAL::Surface_mesh_parameterization::Conformal_method> method;
@@ -73,6 +74,7 @@ struct Program_options
   Command command = Command::PARAMETERIZE;
   std::string input;
   bool is_strict = false;                ///< what is no oriented manifold is refused
+  std::optional<Length> weld;           ///< vertices that are no farther apart become one
   std::optional<std::size_t> component; ///< of `parameterize`: the only one to be mapped
   bool is_quiet = false;
   bool is_verbose = false;  ///< of `parameterize`: shows the levels of the solver
@@ -83,6 +85,7 @@ struct Program_options
   std::string pictures;  ///< a folder; empty: none
   std::vector<Pin> pins; ///< none, or two and more
   CGAL::Surface_mesh_parameterization::HLSCM_options library;
+  bool is_method_given = false; ///< by the user, in `library`
   bool repairs_flips = false; ///< of the map
   Engine engine = Engine::FLAT;
 

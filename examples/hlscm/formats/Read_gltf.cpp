@@ -12,10 +12,8 @@
 #include <utility>
 
 namespace hlscm {
-
+namespace gltf {
 namespace {
-
-using namespace gltf;
 
 enum Mode { POINTS, LINES, LINE_LOOP, LINE_STRIP, TRIANGLES, TRIANGLE_STRIP, TRIANGLE_FAN };
 
@@ -372,7 +370,8 @@ private:
 };
 
 } // namespace
+} // namespace gltf
 
-Read_mesh read_gltf(const Mesh_source& source) { return Gltf_reader(source).read(); }
+Read_mesh read_gltf(const Mesh_source& source) { return gltf::Gltf_reader(source).read(); }
 
 } // namespace hlscm

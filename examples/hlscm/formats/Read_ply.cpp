@@ -13,10 +13,8 @@
 #include <vector>
 
 namespace hlscm {
-
+namespace ply {
 namespace {
-
-using namespace ply;
 
 bool is_of_vertices(const Element& element)
 {
@@ -334,7 +332,8 @@ private:
 };
 
 } // namespace
+} // namespace ply
 
-Read_mesh read_ply(const Mesh_source& source) { return Ply_reader(source).read(); }
+Read_mesh read_ply(const Mesh_source& source) { return ply::Ply_reader(source).read(); }
 
 } // namespace hlscm

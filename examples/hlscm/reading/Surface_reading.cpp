@@ -3,7 +3,10 @@
 
 #include "reading/Surface_reading.h"
 
+#include <CGAL/Indexed_mesh/weld_points.h>
+
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -84,12 +87,31 @@ void cut_into_triangles(Read_mesh& file, const Surface_of_soup& surface,
 
 } // namespace
 
+Read_mesh read_and_weld(const std::string& input, const Program_options& options,
+                        Progress_bar& progress)
+{
+  Read_mesh mesh = read_mesh(input, progress);
+  if(!options.weld) {
+    return mesh;
+  }
+  const CGAL::Bbox_3 box = CGAL::Indexed_mesh::bounding_box(mesh.soup.points);
+  const double diagonal = std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(),
+                                     box.zmax() - box.zmin());
+  const double distance = options.weld->value * (options.weld->is_relative ? diagonal : 1);
+  if(std::isfinite(distance)) {
+    mesh.warnings.push_back(
+        "vertices merged with others: "
+        + std::to_string(CGAL::Indexed_mesh::weld_points(mesh.soup, distance)));
+  }
+  return mesh;
+}
+
 Input_surface read_surface(const std::string& input, const Program_options& options,
                            std::vector<Obstacle> (*obstacles)(const Diagnosis&),
                            Progress_bar& progress, std::vector<std::string>& warnings)
 {
   Input_surface result;
-  result.file = read_mesh(input, progress);
+  result.file = read_and_weld(input, options, progress);
   warnings.insert(warnings.end(), result.file.warnings.begin(), result.file.warnings.end());
   result.diagnosis = diagnose(result.file.soup, progress);
   if(options.is_strict || result.diagnosis.not_finite) {

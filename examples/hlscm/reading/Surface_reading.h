@@ -49,6 +49,10 @@ struct Input_surface
   }
 };
 
+/// Reads a mesh file and merges vertices, if the options want that, with a warning that says so.
+Read_mesh read_and_weld(const std::string& input, const Program_options& options,
+                        Progress_bar& progress);
+
 /// Reads any mesh and makes a surface of it, or throws `Program_error`: if there is no surface in it,
 /// or if the options are strict and there are obstacles. Adds the warnings of the reader.
 Input_surface read_surface(const std::string& input, const Program_options& options,

@@ -36,6 +36,21 @@ mode_t final_mode(const fs::path& target)
   return 0666 & ~mask;
 }
 
+// Where a chain of symbolic links ends, also if nothing is there yet.
+fs::path followed(fs::path target)
+{
+  constexpr int most_links = 40; // as the kernel
+  std::error_code error;
+  for(int i = 0; i < most_links && fs::is_symlink(fs::symlink_status(target, error)); ++i) {
+    const fs::path next = fs::read_symlink(target, error);
+    if(error) {
+      break;
+    }
+    target = target.parent_path() / next; // an absolute one replaces it
+  }
+  return target;
+}
+
 void check_target(const fs::path& name, const fs::path& target)
 {
   std::error_code ignored;
@@ -82,7 +97,7 @@ private:
 Output_file::Output_file(const fs::path& target) : m_name(target)
 {
   std::error_code error;
-  m_target = fs::weakly_canonical(target, error);
+  m_target = fs::weakly_canonical(followed(target), error);
   if(error || m_target.filename().empty()) {
     m_target = target;
   }
@@ -218,6 +233,7 @@ void Output_files::commit()
   }
   m_files.clear();
   m_created_folders.clear();
+  Interruption::set_in_place();
 }
 
 // Only removes names; the streams are closed by the thread that writes to them.

@@ -60,7 +60,8 @@ private:
 The class `Triangle_adjacency` has the triangle across each edge of a mesh whose edges have one or
 two triangles, of equal orientation.
 
-Linear time for bounded degrees; 12 bytes a triangle. Build it once and pass it on.
+Linear time, but for a logarithm at vertices of very many edges; 12 bytes a triangle. Build it once
+and pass it on.
 */
 class Triangle_adjacency
 {
@@ -74,7 +75,6 @@ public:
     for(const Triangle_indices& t : triangles)
       for(const Vertex_index v : t)
         n = v < n ? n : v + 1;
-    std::vector<std::uint32_t> begin(n + 1, 0), halfedge(m_opposite.size());
     const auto ends = [&triangles](Halfedge h) {
       return std::array<Vertex_index, 2>{vertex_of(triangles, h),
                                          vertex_of(triangles, next_halfedge(h))};
@@ -83,22 +83,16 @@ public:
       const auto e = ends(h);
       return e[0] < e[1] ? e[0] : e[1];
     };
+    std::vector<std::uint32_t> end(n + 1, 0);
+    std::vector<Halfedge> halfedge(m_opposite.size());
     for(Halfedge h = 0; h < m_opposite.size(); ++h)
-      ++begin[smaller(h) + 1];
+      ++end[smaller(h) + 1];
     for(std::size_t v = 0; v < n; ++v)
-      begin[v + 1] += begin[v];
-    std::vector<std::uint32_t> end(begin.begin(), begin.end() - (n > 0 ? 1 : 0));
-    for(Halfedge h = 0; h < m_opposite.size(); ++h) {
-      const Vertex_index v = smaller(h);
-      for(std::uint32_t i = begin[v]; i < end[v]; ++i) {
-        const auto e = ends(halfedge[i]), f = ends(h);
-        if(e[0] == f[1] && e[1] == f[0]) {
-          m_opposite[h] = halfedge[i];
-          m_opposite[halfedge[i]] = h;
-        }
-      }
-      halfedge[end[v]++] = h;
-    }
+      end[v + 1] += end[v];
+    for(Halfedge h = 0; h < m_opposite.size(); ++h)
+      halfedge[end[smaller(h)]++] = h;
+    for(std::size_t v = 0, begin = 0; v < n; begin = end[v++])
+      match(halfedge.data() + begin, halfedge.data() + end[v], ends);
   }
 
   /// Returns the number of halfedges, three to a triangle.
@@ -112,6 +106,31 @@ public:
   std::vector<Halfedge> take() { return std::move(m_opposite); }
 
 private:
+  // Finds those among these halfedges, which share their smaller vertex and are ascending, that have
+  // the same ends in opposite directions.
+  template <class Ends>
+  void match(Halfedge* begin, Halfedge* end, const Ends& ends)
+  {
+    constexpr std::ptrdiff_t few = 32; // more are sorted by their ends first
+    const auto larger = [&ends](Halfedge h) {
+      const auto e = ends(h);
+      return e[0] < e[1] ? e[1] : e[0];
+    };
+    const bool is_sorted = end - begin > few;
+    if(is_sorted)
+      std::stable_sort(begin, end, [&](Halfedge g, Halfedge h) { return larger(g) < larger(h); });
+    for(Halfedge* h = begin; h != end; ++h)
+      for(Halfedge* g = h; g != begin;) {
+        const auto e = ends(*--g), f = ends(*h);
+        if(is_sorted && larger(*g) != larger(*h))
+          break;
+        if(e[0] == f[1] && e[1] == f[0]) {
+          m_opposite[*g] = *h;
+          m_opposite[*h] = m_opposite[*h] == no_halfedge ? *g : m_opposite[*h];
+        }
+      }
+  }
+
   std::vector<Halfedge> m_opposite;
 };
 

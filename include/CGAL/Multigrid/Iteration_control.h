@@ -33,6 +33,10 @@ struct Energy_stop
   /// The least energy for which the tolerance is meant: where \f$ E \f$ is smaller, it counts as
   /// this.
   double least_energy = 0.;
+  /// What is left of an energy whose minimum is 0 when no step can lower it any further, because of
+  /// rounding. From the 50th iteration on, an energy below this ends the iteration: no part of 0
+  /// can be met as a tolerance.
+  double negligible_energy = 0.;
   /// Of the change of an unknown that is still to come; 0 if it does not matter. The first of the
   /// two tolerances that is met ends the iteration.
   double change_tolerance = 0.;
@@ -211,7 +215,8 @@ public:
     m_report.rate = m_gap.rate();
     m_change.add(change);
     const bool is_enough = m_report.energy_gap <= goal()
-                        || (watches_changes() && m_change.remaining() <= m_stop.change_tolerance);
+                        || (watches_changes() && m_change.remaining() <= m_stop.change_tolerance)
+                        || is_energy_negligible();
     m_report.converged = is_enough && m_report.iterations >= m_stop.minimal_iterations;
     if(!m_report.converged)
       m_report.cancelled = !observe(part());
@@ -230,6 +235,14 @@ public:
   const Iteration_report& report() const { return m_report; }
 
 private:
+  // Not before an iteration that has a minimum above 0 would have found it.
+  bool is_energy_negligible() const
+  {
+    constexpr std::size_t long_iteration = 50;
+    return m_stop.negligible_energy > 0. && m_report.energy < m_stop.negligible_energy
+        && m_report.iterations >= long_iteration;
+  }
+
   // The gap that is small enough.
   double goal() const
   {

@@ -17,12 +17,69 @@
 #include <complex>
 #include <cstddef>
 #include <cstdint>
+#include <new>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace Multigrid {
+
+namespace internal {
+
+template <class Factorization, class = void>
+struct Is_cholmod
+  : std::false_type
+{};
+template <class Factorization>
+struct Is_cholmod<Factorization, std::void_t<decltype(std::declval<Factorization&>().cholmod())>>
+  : std::true_type
+{};
+
+// Whether the last call of CHOLMOD succeeded, at which Eigen does not look: a factor for which there
+// was no memory passes for a good one. Throws `std::bad_alloc` in that case.
+template <class Factorization>
+bool is_cholmod_well(Factorization& factorization)
+{
+  if constexpr(Is_cholmod<Factorization>::value) {
+    constexpr int out_of_memory = -2, ok = 0; // CHOLMOD_OUT_OF_MEMORY, CHOLMOD_OK
+    if(factorization.cholmod().status == out_of_memory)
+      throw std::bad_alloc();
+    return factorization.cholmod().status >= ok; // above are warnings, which info() tells
+  } else
+    return true;
+}
+
+} // namespace internal
+
+/// \ingroup PkgHLSCMMultigrid
+/// Factorizes `matrix` by a sparse Cholesky class in the manner of Eigen's; returns whether that
+/// succeeded. Throws `std::bad_alloc` if there is not enough memory, also where Eigen's interface to
+/// CHOLMOD takes that for success.
+template <class Factorization, class Matrix>
+bool factorize_sparse(Factorization& factorization, const Matrix& matrix)
+{
+  if constexpr(internal::Is_cholmod<Factorization>::value) {
+    factorization.cholmod().print = 0;         // no messages on the standard output
+    factorization.cholmod().metis_memory = 2.; // METIS could end the program where memory is short
+    factorization.analyzePattern(matrix);
+    if(!internal::is_cholmod_well(factorization)) // there is no factor then
+      return false;
+    factorization.factorize(matrix);
+  } else
+    factorization.compute(matrix);
+  return internal::is_cholmod_well(factorization) && factorization.info() == Eigen::Success;
+}
+
+/// \ingroup PkgHLSCMMultigrid
+/// Solves for `x`, one column or several, by what `factorize_sparse()` has factorized; throws
+/// `std::bad_alloc` if there is not enough memory.
+template <class Factorization, class Vectors>
+void solve_sparse(Factorization& factorization, const Vectors& f, Vectors& x)
+{
+  x = factorization.solve(f);
+  internal::is_cholmod_well(factorization);
+}
 
 /*!
 \ingroup PkgHLSCMMultigrid
@@ -39,7 +96,8 @@ template <class Factorization = Eigen::SimplicialLDLT<Eigen::SparseMatrix<std::c
 class Sparse_cholesky
 {
 public:
-  /// Factorizes `matrix`; returns whether that succeeded.
+  /// Factorizes `matrix`; returns whether that succeeded. Throws `std::bad_alloc` if there is not
+  /// enough memory.
   template <class Value>
   bool factorize(const Self_adjoint_matrix<Value>& matrix);
 
@@ -130,12 +188,11 @@ bool Sparse_cholesky<Factorization>::factorize(const Self_adjoint_matrix<Value>&
   static_assert(std::is_convertible_v<typename Value_traits<Value>::Inner, Scalar>,
                 "A complex matrix needs a factorization of complex matrices");
   const auto a = internal::free_part<Scalar>(matrix, m_free);
-  m_is_factorized = true;
-  if(m_free.empty())
+  m_is_factorized = m_free.empty();
+  if(m_is_factorized)
     return true;
-  m_factorization.compute(a);
   m_right.resize(a.rows());
-  m_is_factorized = m_factorization.info() == Eigen::Success;
+  m_is_factorized = factorize_sparse(m_factorization, a);
   return m_is_factorized;
 }
 
@@ -152,7 +209,7 @@ void Sparse_cholesky<Factorization>::solve(const std::vector<V>& f, std::vector<
   for(std::size_t i = 0; i < m_free.size(); ++i)
     for(std::size_t r = 0; r < rows; ++r)
       m_right[rows * i + r] = Traits::coefficient(f[m_free[i]], int(r), 0);
-  m_left = m_factorization.solve(m_right);
+  solve_sparse(m_factorization, m_right, m_left);
   for(std::size_t i = 0; i < m_free.size(); ++i)
     x[m_free[i]] = Traits::from_coefficients(m_left.data() + rows * i);
 }

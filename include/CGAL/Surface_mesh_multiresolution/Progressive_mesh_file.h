@@ -157,6 +157,8 @@ encode_progressive_mesh(const Textured_progressive_mesh& mesh,
     file.fail(Mesh_status::BAD_MESH, "the mesh is too large to be quantized");
     return file;
   }
+  if(mesh.has_texture() && file.fail(Mesh_status::BAD_MESH, size_error(mesh.points)))
+    return file;
   internal::Progressive_mesh_encoder encoder(mesh, header);
   if(!file.fail(Mesh_status::BAD_MESH, encoder.run()))
     file.bytes = encoder.take_bytes();

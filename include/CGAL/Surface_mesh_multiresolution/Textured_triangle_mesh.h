@@ -59,14 +59,49 @@ inline bool is_smooth(const Textured_triangle_mesh& mesh, Halfedge h, Halfedge o
 }
 
 /// \ingroup PkgHLSCMLevelsOfDetail
-/// Returns a sentence on the first texture coordinate that is not a finite number, or nothing; the
-/// mesh may have a name, as in `Indexed_mesh::mesh_error()`.
+/// Returns whether a coordinate is a finite number, and so are squared distances of points with such
+/// coordinates: it is smaller than 1e153.
+inline bool is_measurable(double coordinate) { return std::abs(coordinate) < 1e153; }
+
+namespace internal {
+
+// What is wrong with a texture coordinate, or null.
+inline const char* defect_of_uv(const Textured_triangle_mesh::Point_2& uv)
+{
+  if(!std::isfinite(uv.x()) || !std::isfinite(uv.y()))
+    return " that is not a finite number";
+  return is_measurable(uv.x()) && is_measurable(uv.y())
+           ? nullptr : " so large that its square is not a finite number";
+}
+
+} // namespace internal
+
+/// \ingroup PkgHLSCMLevelsOfDetail
+/// Returns a sentence on the first texture coordinate that is not a finite number or of which
+/// `is_measurable()` does not hold, or nothing; the mesh may have a name, as in
+/// `Indexed_mesh::mesh_error()`.
 inline std::string uv_error(const std::vector<Textured_triangle_mesh::Point_2>& uv,
                             const std::string& name = {})
 {
   for(std::size_t w = 0; w < uv.size(); ++w)
     if(!std::isfinite(uv[w].x()) || !std::isfinite(uv[w].y()))
       return "texture coordinate " + std::to_string(w) + of_mesh(name) + " is not a finite number";
+    else if(internal::defect_of_uv(uv[w]) != nullptr)
+      return "texture coordinate " + std::to_string(w) + of_mesh(name)
+           + " is so large that its square is not a finite number";
+  return {};
+}
+
+/// \ingroup PkgHLSCMLevelsOfDetail
+/// Returns a sentence on the first point of which `is_measurable()` does not hold, or nothing.
+inline std::string size_error(const std::vector<Textured_triangle_mesh::Point_3>& points,
+                              const std::string& name = {})
+{
+  for(std::size_t v = 0; v < points.size(); ++v)
+    if(!is_measurable(points[v].x()) || !is_measurable(points[v].y())
+       || !is_measurable(points[v].z()))
+      return "vertex " + std::to_string(v) + of_mesh(name)
+           + " has a coordinate so large that its square is not a finite number";
   return {};
 }
 
@@ -79,13 +114,12 @@ inline std::string texture_error(const Textured_triangle_mesh& mesh, const std::
          + " has not as many triangles in the texture as on the surface";
   for(std::size_t t = 0; t < mesh.wedges.size(); ++t)
     for(const Vertex_index w : mesh.wedges[t]) {
-      const char* defect = nullptr;
-      if(w >= mesh.uv.size())
-        defect = " has a corner without texture coordinate";
-      else if(!std::isfinite(mesh.uv[w].x()) || !std::isfinite(mesh.uv[w].y()))
-        defect = " has a texture coordinate that is not a finite number";
+      const bool is_there = w < mesh.uv.size();
+      const char* defect = is_there ? internal::defect_of_uv(mesh.uv[w]) : "";
       if(defect != nullptr)
-        return "triangle " + std::to_string(t) + of_mesh(name) + defect;
+        return "triangle " + std::to_string(t) + of_mesh(name)
+             + (is_there ? " has a texture coordinate" : " has a corner without texture coordinate")
+             + defect;
     }
   return uv_error(mesh.uv, name); // those without a triangle
 }

@@ -138,6 +138,7 @@ inline Mesh_outcome deviation_error(const Wedge_mesh& mesh, const std::string& n
       result.fail(Mesh_status::BAD_MESH, name + " has a wedge of a vertex that does not exist");
   if(result.fail(Mesh_status::BAD_MESH, index_error(mesh.triangles, mesh.vertex.size(), name))
      || result.fail(Mesh_status::BAD_MESH, point_error(mesh.points, name))
+     || result.fail(Mesh_status::BAD_MESH, size_error(mesh.points, name))
      || result.fail(Mesh_status::BAD_MESH, uv_error(mesh.uv, name)))
     return result;
   const auto has_area = [&mesh](const Triangle_indices& t) {

@@ -154,21 +154,41 @@ inline void Conformal_triangle::lay_out(double a, double b, double c)
 
 namespace internal {
 
+// The mean length of the sides of so many faces, three vectors each, for which `visit_sides(use)`
+// calls `use(x, y, z)`; 1 if there are none, or all are points.
+template <class VisitSides>
+double mean_side_length(std::size_t faces, const VisitSides& visit_sides)
+{
+  const double number = 3. * double(faces);
+  double sum = 0.;
+  visit_sides([&sum](double x, double y, double z) { sum += std::sqrt(x * x + y * y + z * z); });
+  if(sum > 0. && std::isfinite(sum))
+    return sum / number;
+  double unit = 0.; // squares of lengths may not exist in the unit of the mesh
+  visit_sides([&unit](double x, double y, double z) {
+    unit = (std::max)({unit, std::abs(x), std::abs(y), std::abs(z)});
+  });
+  sum = 0.;
+  visit_sides([&sum, unit](double x, double y, double z) {
+    sum += std::hypot(x / unit, y / unit, z / unit);
+  });
+  return unit > 0. && std::isfinite(sum) ? sum / number * unit : 1.;
+}
+
 // The mean length of the sides of the faces; 1 if there are none, or all are points.
 template <class TriangleMesh>
 double mean_edge_length(const TriangleMesh& mesh)
 {
   const auto vpm = get(CGAL::vertex_point, mesh);
-  double sum = 0.;
-  for(const auto f : faces(mesh))
-    for(const auto h : halfedges_around_face(halfedge(f, mesh), mesh)) {
-      const auto& p = get(vpm, source(h, mesh));
-      const auto& q = get(vpm, target(h, mesh));
-      const double x = to_double(q[0]) - to_double(p[0]), y = to_double(q[1]) - to_double(p[1]),
-                   z = to_double(q[2]) - to_double(p[2]);
-      sum += std::sqrt(x * x + y * y + z * z);
-    }
-  return sum > 0. ? sum / (3. * double(num_faces(mesh))) : 1.;
+  return mean_side_length(num_faces(mesh), [&](const auto& use) {
+    for(const auto f : faces(mesh))
+      for(const auto h : halfedges_around_face(halfedge(f, mesh), mesh)) {
+        const auto& p = get(vpm, source(h, mesh));
+        const auto& q = get(vpm, target(h, mesh));
+        use(to_double(q[0]) - to_double(p[0]), to_double(q[1]) - to_double(p[1]),
+            to_double(q[2]) - to_double(p[2]));
+      }
+  });
 }
 
 // The face on the surface, its first corner in the origin, lengths in units of `mean_edge`: squares

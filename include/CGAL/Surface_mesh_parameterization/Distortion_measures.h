@@ -197,13 +197,13 @@ measure_distortion(const Surface_mesh_multiresolution::Textured_triangle_mesh& m
     const auto &p = mesh.points[t[from]], &q = mesh.points[t[to]];
     return Mesh::Point_3((q.x() - p.x()) / unit, (q.y() - p.y()) / unit, (q.z() - p.z()) / unit);
   };
-  double sum = 0.;
-  for(const Triangle_indices& t : mesh.triangles)
-    for(const int c : {2, 0, 1}) {
-      const Mesh::Point_3 e = side(t, c, (c + 1) % 3, 1.);
-      sum += std::sqrt(e.x() * e.x() + e.y() * e.y() + e.z() * e.z());
-    }
-  const double mean_edge = sum > 0. ? sum / (3. * double(mesh.triangles.size())) : 1.;
+  const double mean_edge = internal::mean_side_length(mesh.triangles.size(), [&](const auto& use) {
+    for(const Triangle_indices& t : mesh.triangles)
+      for(const int c : {2, 0, 1}) {
+        const Mesh::Point_3 e = side(t, c, (c + 1) % 3, 1.);
+        use(e.x(), e.y(), e.z());
+      }
+  });
   internal::Distortion_summary summary;
   for(std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Triangle_indices& v = mesh.triangles[t];

@@ -55,6 +55,11 @@ struct Flip_repair_options
   int last_rings = 256;
   /// Patches with more vertices are left as they are.
   std::size_t largest_patch = 20000;
+  /// The steps of Newton's method, times the vertices that move in them, for each hundred flipped
+  /// faces or part of a hundred: with the default about half a second on a usual machine. They
+  /// are counted, so that the result is the same on any machine. Then there is one more try with the
+  /// smallest patches; if flipped faces are left, `Flip_repair_report::stopped_early` says so.
+  double effort = 2e5;
   /// Told between patches which part of them is done, in [0, 1], in rounds of larger and larger
   /// patches; returning `false` stops: what is mended by then stays so.
   std::function<bool(double)> progress;

@@ -64,7 +64,8 @@ struct HLSCM_report
   std::vector<HLSCM_level_report> levels; ///< the levels, the coarsest first
   std::size_t iterations = 0;             ///< iterations on the finest level
   /// \f$ E \f$, Dirichlet energy minus area of the map; with `Conformal_weights::CGAL_LSCM` the sum
-  /// that CGAL minimises, in squared units of length of the mesh.
+  /// that CGAL minimises, in squared units of length of the mesh. Infinite if those are too large
+  /// for a number.
   double energy = 0.;
   double energy_gap_estimate = 0.;        ///< estimate of \f$ E - E_{\min} \f$; infinite if unknown
   std::optional<Flip_repair_report> flip_repair; ///< if `HLSCM_options::repair_flips` is set

@@ -11,6 +11,9 @@
 #include <CGAL/Surface_mesh_parameterization/internal/border_first/Border_first_flattening.h>
 #endif
 
+#include <algorithm>
+#include <cmath>
+#include <complex>
 #include <utility>
 #include <vector>
 
@@ -60,8 +63,13 @@ CGAL_HLSCM_INLINE Border_first_map border_first_map(Indexed_mesh::Indexed_triang
   if(result.fail(Mesh_status::BAD_MESH, prepared.status.message))
     return result;
   const auto z = internal::Border_first_flattening(chart).run();
+  const bool is_finite = std::all_of(z.begin(), z.end(), [](const std::complex<double>& value) {
+    return std::isfinite(value.real()) && std::isfinite(value.imag());
+  });
   if(z.empty())
     result.fail(Mesh_status::FAILED, "the matrix cannot be factorized");
+  else if(!is_finite)
+    result.fail(Mesh_status::FAILED, "the map has parameters that are not finite numbers");
   else
     result.uv = internal::points_of_values(chart.source, z, n);
   return result;

@@ -38,11 +38,19 @@ struct Chart_growth_segmenter
     growth.bound = options.bound;
     growth.max_charts = options.max_charts;
     growth.least_fill = options.least_fill;
+    const Blocked_execution::Stopwatch watch;
+    bool stopped_early = false;
+    if(options.seconds > 0.)
+      growth.is_enough = [&] {
+        return stopped_early = stopped_early || watch.seconds() >= options.seconds;
+      };
     Segmentation_options segmentation;
     segmentation.coarse_faces = options.coarse_faces;
     segmentation.no_seams = options.no_seams;
     segmentation.progress = options.progress;
-    return segment_into_charts(mesh, segmentation, growth);
+    Segmentation_result result = segment_into_charts(mesh, segmentation, growth);
+    result.stopped_early = stopped_early;
+    return result;
   }
 };
 

@@ -35,6 +35,9 @@ Transactions in Operational Research 16, 2009). All places are looked at on a ra
 cells a chart, some on a raster four times as fine, and only what does not overlap on that of texels
 is taken.
 
+For more than 1000 charts the density is found to 2 %, and they have 4 directions if their number is
+free.
+
 With a given density there is one order, the largest chart first, on the raster of texels.
 
 Time is proportional to the number of charts, of rotations and of cells of the coarse raster, which

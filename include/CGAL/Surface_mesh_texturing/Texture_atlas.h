@@ -50,6 +50,12 @@ struct Texture_atlas_options
   std::vector<std::uint8_t> no_seams;
   /// The textures, and how charts are placed in them.
   Packing_options packing;
+  /// The seconds after which the atlas is finished in the quickest way that makes it valid: no more
+  /// charts are merged, charts beyond the bound stay, those whose maps are not one-to-one are cut in
+  /// halves, and the first packing is taken. Half of it is for the search of charts at most. It may
+  /// take somewhat longer: what is linear in the size of the mesh is done in any case. 0 for no
+  /// limit. With a limit the atlas depends on the speed of the machine.
+  double seconds = 0.;
   /// Threads with `Parallel_tag`; 0 for all that the machine has. The result does not depend on it.
   unsigned int threads = 0;
   /// Told the part done in [0, 1] from time to time; returning `false` cancels.
@@ -98,6 +104,8 @@ struct Texture_atlas_report
   /// Charts of the first segmentation that failed on the fine mesh and were cut again.
   std::size_t recut_charts = 0;
   std::size_t unwanted_seams = 0; ///< edges that are seams in spite of the option `no_seams`
+  /// Whether `Texture_atlas_options::seconds` were over before the atlas was as good as it gets.
+  bool stopped_early = false;
   double seam_length = 0.;     ///< of all seams, each once, without the border of the surface
   /// Of the whole atlas, in texels to units of length: so `area_scale_range` compares charts too.
   Surface_mesh_parameterization::Distortion_measures distortion;

@@ -43,7 +43,8 @@ Cuts a surface into charts, maps each of them, and packs them into textures.
 Every chart is a disk whose map is one-to-one: charts for which that is not so on the fine mesh are
 cut again, by `grow_charts()`. If the segmenter wants that (`ChartSegmenter::Is_bounded`), so are
 those whose distortion is beyond `options.bound`. As many charts as `options.max_charts` are only
-cut where their maps are not one-to-one. The atlas does not depend on the unit of length.
+cut where their maps are not one-to-one. The atlas does not depend on the unit of length, for
+extents from 1e-150 to 1e150.
 
 \tparam ConcurrencyTag `Sequential_tag`, or `Parallel_tag` for `options.threads` threads, or
         `Default` for the threads of the caller's `Blocked_execution::Thread_scope`. The result does

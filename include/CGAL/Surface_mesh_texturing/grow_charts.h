@@ -46,6 +46,10 @@ struct Chart_growth_options
   /// How much is tried to get along with fewer charts: triangles that are mapped for each triangle
   /// of the mesh.
   double effort = 150.;
+  /// Asked from time to time; once it returns `true` the charts stay as they are then: disks, but
+  /// more than need be, and some of them may be beyond the bound. Then the result may not be the
+  /// same again.
+  std::function<bool()> is_enough;
   /// Told the part done in [0, 1] from time to time; returning `false` cancels.
   std::function<bool(double)> progress;
 };
@@ -147,6 +151,7 @@ inline Chart_growth_result grow_charts(const Indexed_triangle_mesh& mesh,
   search.least_fill = options.least_fill;
   search.patch_size = (std::max)(options.patch_size, std::size_t(1));
   search.effort = options.effort;
+  search.is_enough = options.is_enough;
   search.progress = options.progress;
   internal::Chart_search growth(surface, search);
   if(growth.run())

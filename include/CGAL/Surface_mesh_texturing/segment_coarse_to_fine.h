@@ -47,6 +47,7 @@ struct Segmentation_result
   Face_charts charts;           ///< of the mesh; all are disks
   std::size_t coarse_faces = 0; ///< triangles of the coarse mesh
   std::size_t unwanted_seams = 0; ///< edges that are seams in spite of `no_seams`
+  bool stopped_early = false; ///< whether the search for charts was ended by a limit of time
   double decimation_seconds = 0.; ///< time to make the coarse mesh
   double coarse_seconds = 0.;   ///< time to find charts there
   double refinement_seconds = 0.; ///< time to carry them to the mesh and to make seams straight

@@ -7,7 +7,7 @@
 #include <CGAL/Surface_mesh_multiresolution/Textured_progressive_mesh.h>
 #include <CGAL/Surface_mesh_texturing/IO/Textured_model.h>
 #include <CGAL/Surface_mesh_texturing/internal/writing/Byte_output.h>
-#include <CGAL/Surface_mesh_texturing/internal/writing/Glb_builder.h>
+#include <CGAL/Surface_mesh_texturing/internal/writing/Glb_placement.h>
 
 #include <algorithm>
 #include <array>
@@ -54,7 +54,11 @@ inline bool are_within_floats(const std::vector<Textured_triangle_mesh::Point_3>
 class Glb_of_model
 {
 public:
-  explicit Glb_of_model(const Textured_model& model) : m_model(model) {}
+  explicit Glb_of_model(const Textured_model& model)
+    : m_model(model), m_placement(model.mesh.triangles, [&model](Vertex_index v) -> const auto& {
+        return model.mesh.points[v];
+      })
+  {}
 
   bool write(std::ostream& os)
   {
@@ -71,7 +75,8 @@ public:
         const int indices = m_glb.add_triangles(triangles[page]);
         primitives.push_back(m_glb.primitive(m_attributes, indices, add_material(page)));
       }
-    m_glb.add_node(m_model.name, m_glb.add_mesh(m_model.name, primitives));
+    m_glb.add_node(m_model.name, m_glb.add_mesh(m_model.name, primitives),
+                   m_placement.json());
     return m_glb.write(os);
   }
 
@@ -99,7 +104,7 @@ private:
     std::vector<std::array<float, 2>> uv;
     std::vector<std::array<float, 4>> tangents;
     for(const Tangent_frame& v : vertices()) {
-      points.push_back(to_floats(mesh.points[v.vertex]));
+      points.push_back(m_placement.position(mesh.points[v.vertex]));
       normals.push_back(to_floats(all_normals[v.vertex]));
       uv.push_back(to_gltf_uv(mesh.uv[v.wedge]));
       const auto t = to_floats(v.tangent);
@@ -133,6 +138,7 @@ private:
   }
 
   const Textured_model& m_model;
+  Glb_placement m_placement;
   Glb_builder m_glb;
   std::map<std::string, int> m_attributes;
   std::map<std::size_t, int> m_textures;
@@ -169,14 +175,17 @@ public:
   {
     const int texture = color.png.empty() ? -1 : m_glb.add_texture(color.png);
     const int material = m_glb.add_material(color.name, texture, -1);
-    add_vertices();
+    const Glb_placement placement(m_levels[0], [this](Vertex_index w) -> const auto& {
+      return m_mesh.points[m_mesh.vertex[w]];
+    });
+    add_vertices(placement);
     for(const std::vector<Triangle_indices>& level : m_levels) {
       const std::string name = std::to_string(level.size()) + " triangles";
       m_meshes.push_back(m_glb.add_mesh(name, {primitive(level, material)}));
     }
     for(std::size_t i = 0; i < m_levels.size(); ++i)
       m_glb.add_node(std::to_string(m_levels[i].size()) + " triangles", m_meshes[i],
-                     i == 0 ? links() : std::string());
+                     placement.json(), i == 0 ? links() : std::string());
     if(m_levels.size() > 1)
       m_glb.use_extension("MSFT_lod");
     return m_glb.write(os);
@@ -203,14 +212,14 @@ private:
   }
 
   // Those of the finest level
-  void add_vertices()
+  void add_vertices(const Glb_placement& placement)
   {
     const std::vector<Vector_3> all_normals = fine_normals();
     std::vector<std::array<float, 3>> normals;
     std::vector<std::array<float, 2>> uv;
     const std::size_t n = number_of_wedges(m_levels[0]);
     for(std::size_t w = 0; w < n; ++w) {
-      m_points.push_back(to_floats(m_mesh.points[m_mesh.vertex[w]]));
+      m_points.push_back(placement.position(m_mesh.points[m_mesh.vertex[w]]));
       normals.push_back(to_floats(all_normals[m_mesh.vertex[w]]));
       uv.push_back(to_gltf_uv(m_mesh.uv[w]));
     }
@@ -266,7 +275,10 @@ namespace IO {
 Writes a model as glTF 2.0 in one binary file (GLB), its pictures in it: a vertex for each texture
 coordinate, or for each of `model.frames.frames` if there are tangents, and a primitive with a
 material for each page that has triangles. If the model has no normals, they are those of
-`vertex_normals()`. Numbers are rounded to floats.
+`vertex_normals()`. Numbers are rounded to floats. Where that would move points by more than a
+thousandth of the mean edge, as far from the origin, positions are relative to the centre of the
+bounding box, and the node has the translation (and, for boxes smaller than 2^-60 or larger than 2^60,
+the scale) to their place.
 
 \return `false` if `os` did not take all, or, before anything is written, if an invariant of the
 model does not hold, a number does not fit in a float, or the file would be longer than 4 GB.

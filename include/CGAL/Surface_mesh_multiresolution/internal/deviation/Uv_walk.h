@@ -106,7 +106,8 @@ inline Nearest_surface_point Uv_walk::search(const Real_vector<2>& p, Triangle_i
   };
   std::vector<Triangle_index> seen(1, start);
   std::vector<Nearest_surface_point> front(1, nearest_in(m_surface, start, p)); // a heap
-  Nearest_surface_point best;
+  Nearest_surface_point best = front[0]; // it stays if all distances are infinite
+  best.squared_distance = (std::numeric_limits<double>::infinity)();
   for(int failures = 0; !front.empty() && failures < patience && best.squared_distance > 0.;) {
     std::pop_heap(front.begin(), front.end(), farther);
     const Nearest_surface_point here = front.back();

@@ -269,7 +269,7 @@ bool Section_decoder::append_points_of(std::size_t from)
       x[c] = m_codec.value_of<format>(
         {row[c], format == Value_format::FLOAT64 ? m_numbers.low[i][c] : 0}, c);
       if(format != Value_format::QUANTIZED) // which a sound header makes finite
-        is_finite &= std::isfinite(x[c]);
+        is_finite &= m_header.has_texture ? is_measurable(x[c]) : std::isfinite(x[c]);
     }
     if(m_header.has_texture)
       m_mesh.uv[from + i] = Textured_progressive_mesh::Point_2(x[3], x[4]);

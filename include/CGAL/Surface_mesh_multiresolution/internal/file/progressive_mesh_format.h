@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_FILE_PROGRESSIVE_MESH_FORMAT_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_FILE_PROGRESSIVE_MESH_FORMAT_H
 
+#include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/file/Code_column.h>
 
 #include <array>
@@ -163,8 +164,11 @@ inline bool is_sound(const File_header& h)
     return true;
   for(int c = 0; c < 5; ++c) {
     const double step = h.step[c < 3 ? 0 : 1];
+    const double end = h.origin[c] + step * h.mask(c);
     if(h.bits(c) < 1 || h.bits(c) > 30 || !(step >= 0.) || !std::isfinite(h.origin[c])
-       || !std::isfinite(h.origin[c] + step * h.mask(c)))
+       || !std::isfinite(end))
+      return false;
+    if(h.has_texture && !(is_measurable(h.origin[c]) && is_measurable(end)))
       return false;
   }
   return true;

@@ -154,11 +154,8 @@ public:
   Values run()
   {
     assemble();
-    if(m_number_inside > 0) {
-      m_factorization.compute(m_laplacian);
-      if(m_factorization.info() != Eigen::Success)
-        return {};
-    }
+    if(m_number_inside > 0 && !Multigrid::factorize_sparse(m_factorization, m_laplacian))
+      return {};
     return extend(open_loops());
   }
 
@@ -244,7 +241,8 @@ inline Border_curve Border_first_flattening::border_curve()
     for(const Link& link : m_links)
       if(m_rank[link.other] >= 0)
         right[m_rank[link.other]] += link.weight * m_scale[link.border];
-    const Eigen::VectorXd u = m_factorization.solve(right);
+    Eigen::VectorXd u;
+    Multigrid::solve_sparse(m_factorization, right, u);
     for(std::size_t v = 0; v < m_rank.size(); ++v)
       if(m_rank[v] >= 0)
         m_scale[v] = u[m_rank[v]];
@@ -324,7 +322,8 @@ inline Border_first_flattening::Values Border_first_flattening::extend(const Bor
       f(m_rank[link.other], 0) += link.weight * z[link.border].real();
       f(m_rank[link.other], 1) += link.weight * z[link.border].imag();
     }
-  const Eigen::MatrixX2d x = m_factorization.solve(f);
+  Eigen::MatrixX2d x;
+  Multigrid::solve_sparse(m_factorization, f, x);
   for(std::size_t v = 0; v < z.size(); ++v)
     if(m_rank[v] >= 0)
       z[v] = Complex(x(m_rank[v], 0), x(m_rank[v], 1));

@@ -7,12 +7,14 @@
 #include <CGAL/Surface_mesh_parameterization/Flip_repair_options.h>
 #include <CGAL/Surface_mesh_parameterization/internal/repair/relax_flipped_faces.h>
 #include <CGAL/Surface_mesh_parameterization/internal/repair/mend_patch.h>
+#include <CGAL/Surface_mesh_parameterization/internal/repair/turns_of_border.h>
 #include <CGAL/Surface_mesh_parameterization/self_overlap.h>
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -48,6 +50,7 @@ private:
     Outcome outcome;
     double rise = 0.;         // of the energy
     std::size_t branches = 0; // vertices around which the faces now wind more than once
+    double effort = 0.;       // that it took
   };
 
   // What to do with a patch that comes out with such vertices, and might not if it were larger
@@ -69,6 +72,7 @@ private:
   const std::vector<bool>& m_is_fixed;
   const Shape_of_face& m_shape_of_face;
   Values& m_z;
+  double m_effort = 0.; // that is left
   bool m_is_stopped = false;
 };
 
@@ -215,6 +219,17 @@ inline Flip_repair::Mending Flip_repair::mend(const Flip_patch& patch, double ba
   const Patch_vertices vertices(patch, m_triangles, m_z);
   if(vertices.all.size() < vertices.number_free + 2)
     return {Outcome::TRY_LARGER};
+  const std::size_t before = number_of_branches(patch);
+  Mending result = {Outcome::TRY_LARGER};
+  // A map without flips and branches turns around once along a border that is fixed
+  const std::optional<long> turns = turns_of_border(patch, m_triangles, m_z);
+  if(turns && *turns < 1)
+    return result;
+  if(turns && *turns > 1 && before == 0 && choice == Branches::REFUSE) {
+    if(patch.vertices.size() > largest_branched)
+      result.outcome = Outcome::GIVE_UP;
+    return result;
+  }
   double unit = 1.;
   const Patch_energy energy(
     patch_triangles(patch, m_triangles, vertices.all, m_shape_of_face, unit),
@@ -226,13 +241,14 @@ inline Flip_repair::Mending Flip_repair::mend(const Flip_patch& patch, double ba
     for(std::size_t i = 0; i < vertices.number_free; ++i)
       m_z[vertices.all[i]] = values[i];
   };
-  const std::size_t before = number_of_branches(patch);
-  Mending result = {Outcome::TRY_LARGER};
+  double effort = m_effort;
   // Around a vertex whose angles have a sum of 4 pi, say, a conformal map winds twice; equal angles
   // lead to another start. From there on, no way without flips changes a winding number.
   for(const Patch_energy& start : {energy, energy.with_equal_angles()}) {
     Values z = old;
-    if(!mend_patch(energy, start, barrier, z))
+    const bool is_mended = mend_patch(energy, start, barrier, effort, z);
+    result.effort = m_effort - effort;
+    if(!is_mended)
       break;
     write(z);
     if(!bad_faces(patch.faces).empty()) { // by rounding
@@ -242,7 +258,8 @@ inline Flip_repair::Mending Flip_repair::mend(const Flip_patch& patch, double ba
     const std::size_t after = (std::max)(before, number_of_branches(patch));
     if(after == before || choice == Branches::ACCEPT)
       return {Outcome::MENDED,
-              unit * (energy.conformal_energy(z) - energy.conformal_energy(old)), after - before};
+              unit * (energy.conformal_energy(z) - energy.conformal_energy(old)), after - before,
+              result.effort};
     if(patch.vertices.size() > largest_branched)
       result.outcome = Outcome::GIVE_UP;
   }
@@ -270,12 +287,14 @@ Flip_repair::mend_patches(const std::vector<Flip_patch>& patches, Branches choic
     end = end_of_group(patches, begin);
     m_is_stopped = m_is_stopped || (options.progress
                      && !options.progress(double(begin) / double(patches.size())));
-    if(m_is_stopped)
+    if(m_is_stopped || !(m_effort > 0.))
       break;
     Blocked_execution::blocked_for(end - begin, 1, [&](std::size_t i, std::size_t) {
       if(patches[begin + i].vertices.size() <= options.largest_patch)
         mendings[begin + i] = mend(patches[begin + i], options.barrier, choice);
     });
+    for(std::size_t i = begin; i < end; ++i)
+      m_effort -= mendings[i].effort;
   }
   for(const Mending& mending : mendings)
     if(mending.outcome == Outcome::MENDED) {
@@ -292,6 +311,9 @@ inline void Flip_repair::mend_all(Faces bad, const Flip_repair_options& options,
 {
   bad.erase(std::remove_if(bad.begin(), bad.end(),
                            [this](std::uint32_t t) { return is_too_small(t); }), bad.end());
+  constexpr double group = 100.; // faces that share the effort
+  const double effort = options.effort * std::ceil(double(bad.size()) / group);
+  m_effort = effort;
   Flip_patch_finder finder(m_triangles, m_is_fixed);
   Faces growing = bad;
   std::size_t last_size = 0;
@@ -313,6 +335,8 @@ inline void Flip_repair::mend_all(Faces bad, const Flip_repair_options& options,
     growing = bad_faces(hopeful);
   }
   bad = bad_faces(bad);
+  report.stopped_early = !bad.empty() && !(m_effort > 0.);
+  m_effort = effort; // small patches need little, and are often mended
   if(!bad.empty())
     mend_patches(finder.patches_around(bad, options.first_rings), Branches::ACCEPT, options,
                  report);
@@ -330,8 +354,8 @@ inline Flip_repair_report Flip_repair::run(const Flip_repair_options& options)
     return report;
   const Values before = m_z;
   mend_all(bad, options, report);
-  report.stopped_early = m_is_stopped;
   bad = bad_faces(bad);
+  report.stopped_early = m_is_stopped || (report.stopped_early && !bad.empty());
   report.unmended_faces.assign(bad.begin(), bad.end());
   report.flipped_after = number_of_flipped(bad);
   report.degenerate_after = bad.size() - report.flipped_after;

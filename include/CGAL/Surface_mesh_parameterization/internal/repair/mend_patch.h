@@ -23,7 +23,9 @@ class Patch_minimizer
 public:
   typedef Patch_energy::Values Values;
 
-  explicit Patch_minimizer(const Patch_energy& energy) : m_energy(energy) {}
+  // Takes steps only as long as there is `effort`, from which each takes its vertices.
+  Patch_minimizer(const Patch_energy& energy, double& effort) : m_energy(energy), m_effort(effort)
+  {}
 
   // Lowers the energy of `z` until a step gains less than the part `precision` of it.
   void minimize(Values& z, const Energy_terms& terms, int steps, double precision);
@@ -32,6 +34,7 @@ private:
   double take_step(Values& z, const Energy_terms& terms, double value);
 
   const Patch_energy& m_energy;
+  double& m_effort;
   Eigen::SimplicialLDLT<Patch_energy::Matrix> m_solver;
   bool m_is_analyzed = false;
   Eigen::VectorXd m_gradient;
@@ -42,7 +45,8 @@ inline void Patch_minimizer::minimize(Values& z, const Energy_terms& terms, int 
                                       double precision)
 {
   double value = m_energy.value(z, terms);
-  for(int i = 0; i < steps; ++i) {
+  for(int i = 0; i < steps && m_effort > 0.; ++i) {
+    m_effort -= double(m_energy.number_free());
     const double before = value;
     value = take_step(z, terms, before);
     if(!(before - value > precision * before))
@@ -85,12 +89,12 @@ inline double Patch_minimizer::take_step(Values& z, const Energy_terms& terms, d
 
 // Moves the free values to where all triangles have positive areas; returns whether such a place
 // was found. The area scale must be about 1.
-inline bool untangle(const Patch_energy& energy, Patch_energy::Values& z)
+inline bool untangle(const Patch_energy& energy, double& effort, Patch_energy::Values& z)
 {
-  Patch_minimizer minimizer(energy);
+  Patch_minimizer minimizer(energy, effort);
   // A greater epsilon is no worse a start: the first minimiser is then the conformal map.
   double epsilon = (std::max)(1., -energy.least_determinant(z));
-  for(int round = 0; round < 60; ++round, epsilon *= 0.5) {
+  for(int round = 0; round < 60 && effort > 0.; ++round, epsilon *= 0.5) {
     minimizer.minimize(z, Energy_terms{0., 1., 0.1, epsilon}, 10, 1e-2);
     const double least = energy.least_determinant(z);
     if(least > 0.)
@@ -105,9 +109,10 @@ inline bool untangle(const Patch_energy& energy, Patch_energy::Values& z)
 
 // Moves the free values of a patch to where all its triangles have positive areas and its conformal
 // energy is near the least one that can be had so; returns whether it succeeded. `start` is the
-// energy that untangles, `barrier` the weight of the term that keeps areas away from 0.
+// energy that untangles, `barrier` the weight of the term that keeps areas away from 0. Takes what it
+// needs from `effort`; if that is over it fails, or the energy stays somewhat higher.
 inline bool mend_patch(const Patch_energy& energy, const Patch_energy& start, double barrier,
-                       Patch_energy::Values& z)
+                       double& effort, Patch_energy::Values& z)
 {
   const double scale = std::sqrt(energy.area_scale(z));
   if(!(scale > 0.) || !std::isfinite(scale))
@@ -115,8 +120,8 @@ inline bool mend_patch(const Patch_energy& energy, const Patch_energy& start, do
   const std::complex<double> origin = z.back();
   for(auto& value : z)
     value = (value - origin) / scale;
-  const bool is_mended = untangle(start, z);
-  Patch_minimizer minimizer(energy);
+  const bool is_mended = untangle(start, effort, z);
+  Patch_minimizer minimizer(energy, effort);
   if(is_mended)
     for(double weight = 0.1; weight > 0.5 * barrier; weight *= 0.1)
       minimizer.minimize(z, Energy_terms{1., (std::max)(weight, barrier), 0., 0.}, 30, 1e-6);

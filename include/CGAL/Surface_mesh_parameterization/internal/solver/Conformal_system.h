@@ -271,11 +271,17 @@ inline double Conformal_system::fit_to_surface(std::size_t l, Vector& z) const
   const Complex origin = z[level.position(pins[0].vertex)];
   const Complex direction = z[level.position(pins[1].vertex)] - origin;
   const double length = std::abs(direction);
-  const double unit = area > 0. ? std::sqrt(surface_area / area) / scale : 1.;
-  const Complex factor = unit * (length > 0. ? std::conj(direction) / length : Complex(1.));
-  for(Complex& value : z)
-    value = factor * (value - origin);
-  return std::norm(factor);
+  const double stretch = area > 0. ? std::sqrt(surface_area / area) : scale;
+  const double unit = area > 0. ? stretch / scale : 1.;
+  const Complex turn = length > 0. ? std::conj(direction) / length : Complex(1.);
+  const Complex factor = unit * turn;
+  if(std::isfinite(unit))
+    for(Complex& value : z)
+      value = factor * (value - origin);
+  else // lengths of the input are near the largest number
+    for(Complex& value : z)
+      value = stretch * (turn * (value - origin)) / scale;
+  return unit * unit;
 }
 
 inline bool Conformal_system::show(std::size_t l, const Vector& z, Run_control& run) const

@@ -8,6 +8,7 @@
 #include <CGAL/Multigrid/Sparse_cholesky.h>
 #include <CGAL/Surface_mesh_parameterization/internal/repair/relax_flipped_faces.h>
 #include <CGAL/Surface_mesh_parameterization/internal/solver/Conformal_system.h>
+#include <CGAL/Surface_mesh_parameterization/internal/solver/doubt_map.h>
 
 #include <cmath>
 #include <complex>
@@ -100,6 +101,10 @@ inline Multigrid::Gap_estimate estimate_for(const Multigrid::Schedule& schedule)
            ? Multigrid::Gap_estimate::STEADY : Multigrid::Gap_estimate::WARY;
 }
 
+// The energy of a map without energy, for the square of its size, as rounding makes it: on strips of
+// 100,000 triangles that can be unrolled, factorization and iteration end between 1e-15 and 2e-13.
+constexpr double rounded_energy = 3e-13;
+
 // Conjugate gradients on one level, preconditioned by a cycle over those below, with pins or, for a
 // free map, by the quotient of energy and border. Levels below the finest are only starting points:
 // two steps are enough, since their minimisers differ from the finest one anyway.
@@ -122,6 +127,8 @@ public:
     stop.least_energy = least_energy;
     stop.known_rate = is_finest ? m_rate : 0.;
     stop.estimate = estimate_for(m_schedule);
+    if(is_finest)
+      stop.negligible_energy = rounded_energy * std::pow(Multigrid::extent(z), 2);
     if(is_finest && run.options().uv_tolerance > 0.)
       stop.change_tolerance = run.options().uv_tolerance * Multigrid::extent(z);
     return minimize(system, l, stop, z, [&](double part) {
@@ -149,7 +156,7 @@ public:
       relax_flipped_faces(system, z);
     }
     run.conclude(result, system.energy_unit,
-                 "raise the number of iterations or of smoothing steps");
+                 "raise the number of iterations or use the direct method");
     return result;
   }
 
@@ -310,10 +317,20 @@ inline void place_map(const Conformal_system& system, Run_control& run, Conforma
   HLSCM_report& report = run.report();
   if(run.is_stopped())
     report.converged = false;
-  if(z.size() == system.source.size())
-    report.energy_gap_estimate *= system.fit_to_surface(system.finest(), z);
-  if(!report.cancelled && (run.status().is_ok() || report.iterations > 0)) // also if it gave up
-    report.energy = system.energy_unit * system.hierarchy.finest().energy(z);
+  const bool is_map = z.size() == system.source.size();
+  const bool is_solution = !report.cancelled && (run.status().is_ok() || report.iterations > 0);
+  double scale = 1.; // of the energy
+  if(is_map)
+    scale = system.fit_to_surface(system.finest(), z);
+  report.energy_gap_estimate *= scale;
+  if(is_solution) { // also if it gave up
+    double energy = system.hierarchy.finest().energy(z);
+    if(std::isnan(energy)) // squares of the unit of length are no numbers
+      energy = (std::numeric_limits<double>::infinity)();
+    report.energy = system.energy_unit * energy;
+    if(is_map && run.status().is_ok())
+      doubt_map(system, run, energy, z);
+  }
   run.lap(report.seconds_solve);
 }
 

@@ -5,7 +5,7 @@
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_CHART_MERGER_H
 
 #include <CGAL/Blocked_execution/blocked_for.h>
-#include <CGAL/Surface_mesh_texturing/internal/charts/Chart_state.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/Union_finder.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +13,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <queue>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -55,8 +56,9 @@ public:
   // of these need have triangles.
   Chart_state start(const Seam_graph& graph, const Indices& label, std::size_t number);
 
-  // Merges while a union of two charts, one of which `is_active`, is within the bound.
-  void merge(Chart_state& state, const std::vector<bool>& is_active, const Merge_weights& weights);
+  // Merges while a union of two charts, one of which is among the `active` ones or made of them, is
+  // within the bound.
+  void merge(Chart_state& state, const Indices& active, const Merge_weights& weights);
 
   // Merges the union of least distortion, whatever it is, until no more than `number` are left or
   // nothing can be merged.
@@ -74,10 +76,18 @@ public:
 private:
   typedef Chart_state::Pair Pair;
   typedef std::map<Pair, Chart_union> Candidates;
+  typedef std::vector<Candidates::value_type*> Some_candidates; // in their order
 
-  void add_candidates(Chart_state& state, std::uint32_t c, Candidates& candidates) const;
-  void try_all(const Chart_state& state, Candidates& candidates);
-  void try_arcs(const Chart_state& state, Candidates& candidates,
+  Some_candidates add_candidates(Chart_state& state, std::uint32_t c, Candidates& candidates);
+  static Some_candidates all_of(Candidates& candidates)
+  {
+    Some_candidates result;
+    for(auto& candidate : candidates)
+      result.push_back(&candidate);
+    return result;
+  }
+  void try_all(const Chart_state& state, const Some_candidates& candidates);
+  void try_arcs(const Chart_state& state, const Some_candidates& candidates,
                 std::vector<Chart_union*>& fresh);
   double cost(const Chart_state& state, const Pair& pair, const Chart_union& candidate,
               const Merge_weights& weights) const;
@@ -109,7 +119,7 @@ private:
       }
     return key;
   }
-  void merge_pair(Chart_state& state, const Pair& pair, Candidates& candidates) const;
+  Some_candidates merge_pair(Chart_state& state, const Pair& pair, Candidates& candidates);
   void apply(Chart_state& state, const Pair& pair, const Chart_union& candidate) const;
 
   const Growth_surface& m_surface;
@@ -121,6 +131,7 @@ private:
   std::vector<std::uint8_t> m_is_opened; // of each halfedge; all 0 between calls
   double m_area = 0.;
   std::size_t m_work = 0;
+  std::size_t m_stamp = 0; // of the last candidate
   std::unordered_map<std::uint64_t, Trial_map> m_known; // by a hash of triangles and seams
   std::function<bool()> m_goes_on;
 };
@@ -142,25 +153,30 @@ inline Chart_state Chart_merger::start(const Seam_graph& graph, const Indices& l
     ++state.charts_of_component[m_surface.component[piece.triangles[0]]];
     candidates[Pair(c, c)];
   }
-  try_all(state, candidates);
+  try_all(state, all_of(candidates));
   for(const auto& [pair, candidate] : candidates)
     state.pieces[pair.first].trial = candidate.trial;
   return state;
 }
 
-inline void Chart_merger::add_candidates(Chart_state& state, std::uint32_t c,
-                                         Candidates& candidates) const
+// Returns those that are new.
+inline Chart_merger::Some_candidates
+Chart_merger::add_candidates(Chart_state& state, std::uint32_t c, Candidates& candidates)
 {
+  Some_candidates result;
   for(const std::uint32_t d : state.neighbors(c)) {
     const Pair pair(std::minmax(c, d));
-    if(candidates.count(pair) == 0)
-      candidates.emplace(pair, m_finder.find(state, pair));
+    if(candidates.count(pair) > 0)
+      continue;
+    result.push_back(&*candidates.emplace(pair, m_finder.find(state, pair)).first);
+    result.back()->second.stamp = ++m_stamp;
   }
+  return result;
 }
 
 // Maps the unions that have not been mapped yet, with a cut to a tip if they are too much distorted
 // without; (a, a) stands for chart a alone.
-inline void Chart_merger::try_all(const Chart_state& state, Candidates& candidates)
+inline void Chart_merger::try_all(const Chart_state& state, const Some_candidates& candidates)
 {
   std::vector<Chart_union*> fresh;
   try_arcs(state, candidates, fresh);
@@ -173,12 +189,12 @@ inline void Chart_merger::try_all(const Chart_state& state, Candidates& candidat
     }
   if(has_darts)
     try_arcs(state, candidates, fresh);
-  for(auto& [pair, candidate] : candidates)
-    candidate.is_hopeless = candidate.is_hopeless || is_far_beyond_bound(candidate.trial);
+  for(Candidates::value_type* item : candidates)
+    item->second.is_hopeless = item->second.is_hopeless || is_far_beyond_bound(item->second.trial);
 }
 
 // The same without cuts; appends those that were not known to `fresh`.
-inline void Chart_merger::try_arcs(const Chart_state& state, Candidates& candidates,
+inline void Chart_merger::try_arcs(const Chart_state& state, const Some_candidates& candidates,
                                    std::vector<Chart_union*>& fresh)
 {
   struct Item
@@ -193,7 +209,8 @@ inline void Chart_merger::try_arcs(const Chart_state& state, Candidates& candida
     for(const Halfedge h : candidate.opened)
       m_is_opened[h] = m_is_opened[state.graph.opposite(h)] = value;
   };
-  for(auto& [pair, candidate] : candidates) {
+  for(Candidates::value_type* item : candidates) {
+    auto& [pair, candidate] = *item;
     if(candidate.is_known || candidate.is_hopeless)
       continue;
     candidate.is_known = true;
@@ -236,63 +253,80 @@ inline double Chart_merger::cost(const Chart_state& state, const Pair& pair,
 inline void Chart_merger::apply(Chart_state& state, const Pair& pair,
                                 const Chart_union& candidate) const
 {
-  Chart_piece& a = state.pieces[pair.first];
-  Indices all = state.union_of(pair);
-  for(const std::uint32_t t : state.pieces[pair.second].triangles)
-    state.label[t] = pair.first;
-  state.pieces[pair.second] = Chart_piece();
-  a.triangles.swap(all);
-  a.trial = candidate.trial;
+  Chart_piece both;
+  both.triangles = state.union_of(pair);
+  both.trial = candidate.trial;
+  for(const std::uint32_t t : state.replace(pair.second, Chart_piece()).triangles)
+    state.set_label(t, pair.first);
   for(const std::uint32_t h : candidate.opened)
-    state.graph.remove_seam(h);
-  state.measure(m_surface, a);
-  --state.number_of_charts;
-  --state.charts_of_component[m_surface.component[a.triangles[0]]];
+    state.set_seam(h, false);
+  state.measure(m_surface, both);
+  state.count(m_surface.component[both.triangles[0]], false);
+  state.replace(pair.first, std::move(both));
 }
 
-// Merges the pair and renews the candidates: what was hopeless with a part is so with the union.
-inline void Chart_merger::merge_pair(Chart_state& state, const Pair& pair,
-                                     Candidates& candidates) const
+// Merges the pair and renews the candidates, which are those of neighbours: what was hopeless with a
+// part is so with the union. Returns the new ones.
+inline Chart_merger::Some_candidates
+Chart_merger::merge_pair(Chart_state& state, const Pair& pair, Candidates& candidates)
 {
-  apply(state, pair, candidates[pair]);
   Indices foes;
-  for(auto it = candidates.begin(); it != candidates.end(); ) {
-    const auto [a, b] = it->first;
-    const bool has_a = a == pair.first || a == pair.second;
-    const bool has_b = b == pair.first || b == pair.second;
-    if(has_a != has_b && it->second.is_hopeless)
-      foes.push_back(has_a ? b : a);
-    it = has_a || has_b ? candidates.erase(it) : std::next(it);
-  }
-  add_candidates(state, pair.first, candidates);
+  for(const std::uint32_t part : {pair.first, pair.second})
+    for(const std::uint32_t c : state.neighbors(part)) {
+      const auto found = candidates.find(Pair(std::minmax(part, c)));
+      if(found == candidates.end() || found->first == pair)
+        continue;
+      if(found->second.is_hopeless)
+        foes.push_back(c);
+      candidates.erase(found);
+    }
+  apply(state, pair, candidates[pair]);
+  candidates.erase(pair);
+  const Some_candidates result = add_candidates(state, pair.first, candidates);
   for(const std::uint32_t c : foes)
     candidates[Pair(std::minmax(pair.first, c))].is_hopeless = true;
+  return result;
 }
 
-inline void Chart_merger::merge(Chart_state& state, const std::vector<bool>& is_active,
+inline void Chart_merger::merge(Chart_state& state, const Indices& active,
                                 const Merge_weights& weights)
 {
+  // What it costs to merge a pair; that of the least cost comes first, of equal ones the first pair
+  struct Offer
+  {
+    double cost;
+    Pair pair;
+    std::size_t stamp;
+    bool operator<(const Offer& o) const
+    {
+      return cost != o.cost ? cost > o.cost : pair > o.pair;
+    }
+  };
+  std::priority_queue<Offer> offers;
   Candidates candidates;
-  for(std::uint32_t c = 0; c < state.pieces.size(); ++c)
-    if(is_active[c])
-      add_candidates(state, c, candidates);
+  for(const std::uint32_t c : active)
+    add_candidates(state, c, candidates);
+  Some_candidates fresh = all_of(candidates);
   while(!m_goes_on || m_goes_on()) {
-    try_all(state, candidates);
-    const Pair* best = nullptr;
-    double least = (std::numeric_limits<double>::max)();
-    for(const auto& [pair, candidate] : candidates) {
-      if(!is_good(candidate.trial) || !may_merge(state, pair)
-         || has_thin_neck(state, pair, candidate))
+    try_all(state, fresh);
+    for(const Candidates::value_type* item : fresh) {
+      const auto& [pair, candidate] = *item;
+      if(!is_good(candidate.trial) || has_thin_neck(state, pair, candidate))
         continue;
       const double c = cost(state, pair, candidate, weights);
-      if(c < least) {
-        least = c;
-        best = &pair;
-      }
+      if(c < (std::numeric_limits<double>::max)())
+        offers.push({c, pair, candidate.stamp});
     }
-    if(best == nullptr)
+    const auto may_be_taken = [&](const Offer& offer) {
+      const auto found = candidates.find(offer.pair);
+      return found != candidates.end() && found->second.stamp == offer.stamp
+          && may_merge(state, offer.pair);
+    };
+    while(!offers.empty() && !may_be_taken(offers.top()))
+      offers.pop();
+    if(offers.empty())
       return;
-    merge_pair(state, Pair(*best), candidates);
+    fresh = merge_pair(state, Pair(offers.top().pair), candidates);
   }
 }
 
@@ -304,7 +338,7 @@ inline void Chart_merger::merge_down_to(Chart_state& state, std::size_t number)
   while(state.number_of_charts > number && (!m_goes_on || m_goes_on())) {
     for(auto& [pair, candidate] : candidates)
       candidate.is_hopeless = false;
-    try_all(state, candidates);
+    try_all(state, all_of(candidates));
     const Pair* best = nullptr;
     std::pair<int, double> least;
     for(const auto& [pair, candidate] : candidates) {

@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -89,6 +90,7 @@ struct Search_options
   double least_fill = 0.65;
   std::size_t patch_size = 25;
   double effort = 150.;
+  std::function<bool()> is_enough;
   std::function<bool(double)> progress;
 };
 
@@ -100,6 +102,7 @@ class Chart_search
   static constexpr std::size_t most_neighbors = 4; // one more than are taken apart with a chart
   static constexpr std::size_t small_size = 500;   // triangles; smaller meshes get more effort
   static constexpr std::size_t most_failures = 8;  // rounds without success in succession
+  static constexpr double least_gain = 1e-9;       // of the length of the seams
 
 public:
   Chart_search(const Growth_surface& surface, const Search_options& options)
@@ -108,7 +111,7 @@ public:
     , m_merger(surface, m_is_feature, options.bound, options.least_fill, options.least_charts)
     , m_most_work(options.effort * double(surface.size() + small_size))
   {
-    m_merger.set_progress([this] { return tell_progress(); });
+    m_merger.set_progress([this] { return tell_progress() && !is_enough(); });
   }
 
   // Returns false if it was cancelled.
@@ -124,19 +127,15 @@ private:
   State straightened(const std::vector<bool>& is_fixed);
   std::vector<std::uint32_t> charts_by_area() const;
   bool tell_progress();
-  bool is_better(const State& a, const State& b) const
-  {
-    return a.number_of_charts != b.number_of_charts
-             ? a.number_of_charts < b.number_of_charts
-             : a.seam_length() < (1. - 1e-9) * b.seam_length();
-  }
-  bool is_worn() const { return double(m_merger.work()) >= m_most_work; }
+  bool is_enough() const { return m_options.is_enough && m_options.is_enough(); }
+  bool is_worn() const { return double(m_merger.work()) >= m_most_work || is_enough(); }
 
   const Growth_surface& m_surface;
   const Search_options& m_options;
   const std::vector<std::uint8_t> m_is_feature;
   Chart_merger m_merger;
   double m_most_work;
+  double m_seam_length = 0.; // of the best charts
   bool m_is_cancelled = false;
   std::optional<State> m_atoms, m_best;
 };
@@ -164,7 +163,7 @@ inline Chart_search::State Chart_search::start()
     for(std::uint32_t p = 0; p < state.pieces.size(); ++p)
       if(!m_merger.is_good(state.pieces[p].trial))
         bad.push_back(p);
-    if(!growth.refine(bad))
+    if(is_enough() || !growth.refine(bad))
       return state;
   }
 }
@@ -175,7 +174,9 @@ inline bool Chart_search::run()
     return false;
   m_atoms = start();
   m_best = m_atoms;
-  m_merger.merge(*m_best, std::vector<bool>(m_best->pieces.size(), true), Merge_weights());
+  std::vector<std::uint32_t> all(m_best->pieces.size());
+  std::iota(all.begin(), all.end(), 0u);
+  m_merger.merge(*m_best, all, Merge_weights());
   improve();
   if(m_options.max_charts > 0)
     m_merger.merge_down_to(*m_best, m_options.max_charts);
@@ -202,24 +203,35 @@ inline bool Chart_search::improve_around(std::uint32_t c, std::size_t round)
   static constexpr std::array<Merge_weights, 4> weights = {{
     Merge_weights(), {1., 0.2, 0.2, 0.3, 0.5}, {0.5, 1., 0.3, 0.05, 1.},
     {0.3, 0.3, 0.2, 0.6, 0.3}}};
-  State state = *m_best;
+  State& state = *m_best;
   std::vector<std::uint32_t> charts = state.neighbors(c);
   std::stable_sort(charts.begin(), charts.end(), [&state](std::uint32_t a, std::uint32_t b) {
     return state.pieces[a].area < state.pieces[b].area;
   });
   charts.resize((std::min)(charts.size(), round % most_neighbors));
   charts.push_back(c);
-  const std::vector<bool> is_active = state.take_apart(m_surface, *m_atoms, charts);
-  m_merger.merge(state, is_active, weights[round % weights.size()]);
-  if(m_is_cancelled || !is_better(state, *m_best))
+  const std::size_t number_before = state.number_of_charts;
+  Chart_changes changes;
+  state.changes = &changes;
+  const std::vector<std::uint32_t> active = state.take_apart(m_surface, *m_atoms, charts);
+  m_merger.merge(state, active, weights[round % weights.size()]);
+  const bool is_better
+    = state.number_of_charts != number_before
+        ? state.number_of_charts < number_before
+        : state.growth_of_seams(changes) < -least_gain * m_seam_length;
+  if(m_is_cancelled || !is_better) {
+    state.undo(std::move(changes));
     return false;
-  m_best = std::move(state);
+  }
+  state.changes = nullptr;
+  m_seam_length = state.seam_length();
   return true;
 }
 
 inline void Chart_search::improve()
 {
   std::size_t failures = 0;
+  m_seam_length = m_best->seam_length();
   for(std::size_t round = 0; failures < most_failures && !is_worn() && !m_is_cancelled; ++round) {
     bool is_improved = false;
     for(const std::uint32_t c : charts_by_area()) {
@@ -257,7 +269,7 @@ inline void Chart_search::straighten()
   };
   for(std::size_t c = 0; c < is_fixed.size(); ++c)
     is_fixed[c] = !is_good(*m_best, c);
-  for(bool is_changed = true; is_changed && !m_is_cancelled; ) {
+  for(bool is_changed = true; is_changed && !m_is_cancelled && !is_enough(); ) {
     State state = straightened(is_fixed);
     is_changed = false;
     for(std::size_t c = 0; c < is_fixed.size(); ++c)

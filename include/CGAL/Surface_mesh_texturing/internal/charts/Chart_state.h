@@ -83,6 +83,17 @@ struct Chart_piece
   double area = 0.;
 };
 
+// What charts were before some changes.
+struct Chart_changes
+{
+  typedef std::uint32_t Index;
+
+  std::vector<std::pair<Index, Chart_piece>> pieces;
+  std::vector<std::pair<Index, Index>> labels; // of triangles
+  std::vector<Halfedge> seams;                 // the edges that became one, or are none any more
+  std::vector<std::pair<Index, bool>> counts;  // components, and whether they had one more
+};
+
 // Charts while they are merged: sets of triangles that form disks when cut along the seams. A chart
 // has the index of one of the patches of which it was merged.
 struct Chart_state
@@ -106,12 +117,76 @@ struct Chart_state
   Indices union_of(const Pair& pair) const;
 
   // Replaces the charts by pieces of `atoms`, of which they were merged; returns which pieces these
-  // are now.
-  std::vector<bool> take_apart(const Growth_surface& surface, const Chart_state& atoms,
-                               const Indices& charts);
+  // are now, ascending.
+  Indices take_apart(const Growth_surface& surface, const Chart_state& atoms,
+                     const Indices& charts);
 
   double seam_length() const;
+
+  // Changes that can be undone, the last ones first, if `changes` is not null.
+  Chart_piece replace(std::uint32_t c, Chart_piece piece)
+  {
+    std::swap(pieces[c], piece);
+    if(changes != nullptr)
+      changes->pieces.push_back({c, piece});
+    return piece;
+  }
+  void set_label(Triangle_index t, std::uint32_t c)
+  {
+    if(changes != nullptr)
+      changes->labels.push_back({t, label[t]});
+    label[t] = c;
+  }
+  void set_seam(Halfedge h, bool is_seam)
+  {
+    if(graph.is_seam(h) == is_seam || graph.is_border(h))
+      return;
+    is_seam ? graph.add_seam(h) : graph.remove_seam(h);
+    if(changes != nullptr)
+      changes->seams.push_back(h);
+  }
+  void count(std::uint32_t component, bool is_more)
+  {
+    is_more ? ++number_of_charts : --number_of_charts;
+    is_more ? ++charts_of_component[component] : --charts_of_component[component];
+    if(changes != nullptr)
+      changes->counts.push_back({component, !is_more});
+  }
+
+  // How much longer the seams have become.
+  double growth_of_seams(const Chart_changes& made) const;
+
+  void undo(Chart_changes&& made);
+
+  Chart_changes* changes = nullptr;
 };
+
+// A piece may have changed several times; the first entry is what it was before.
+inline double Chart_state::growth_of_seams(const Chart_changes& made) const
+{
+  std::vector<std::pair<std::uint32_t, std::size_t>> first;
+  for(std::size_t i = 0; i < made.pieces.size(); ++i)
+    first.push_back({made.pieces[i].first, i});
+  std::sort(first.begin(), first.end());
+  double sum = 0.;
+  for(std::size_t i = 0; i < first.size(); ++i)
+    if(i == 0 || first[i].first != first[i - 1].first)
+      sum += pieces[first[i].first].perimeter - made.pieces[first[i].second].second.perimeter;
+  return 0.5 * sum;
+}
+
+inline void Chart_state::undo(Chart_changes&& made)
+{
+  changes = nullptr;
+  for(std::size_t i = made.pieces.size(); i-- > 0;)
+    pieces[made.pieces[i].first] = std::move(made.pieces[i].second);
+  for(std::size_t i = made.labels.size(); i-- > 0;)
+    label[made.labels[i].first] = made.labels[i].second;
+  for(const Halfedge h : made.seams)
+    set_seam(h, !graph.is_seam(h));
+  for(const auto& [component, had_more] : made.counts)
+    count(component, had_more);
+}
 
 inline void Chart_state::measure(const Growth_surface& surface, Chart_piece& piece) const
 {
@@ -147,38 +222,36 @@ inline Chart_state::Indices Chart_state::neighbors(std::uint32_t c) const
   return result;
 }
 
-inline std::vector<bool> Chart_state::take_apart(const Growth_surface& surface,
-                                                 const Chart_state& atoms, const Indices& charts)
+inline Chart_state::Indices Chart_state::take_apart(const Growth_surface& surface,
+                                                    const Chart_state& atoms,
+                                                    const Indices& charts)
 {
-  std::vector<bool> is_apart(pieces.size(), false);
+  const auto is_apart = [&](std::uint32_t c) {
+    return std::find(charts.begin(), charts.end(), c) != charts.end();
+  };
+  Indices triangles, result;
   for(const std::uint32_t c : charts) {
-    is_apart[c] = true;
-    --number_of_charts;
-    --charts_of_component[surface.component[pieces[c].triangles[0]]];
+    count(surface.component[pieces[c].triangles[0]], false);
+    triangles.insert(triangles.end(), pieces[c].triangles.begin(), pieces[c].triangles.end());
   }
-  Indices triangles;
-  for(const std::uint32_t c : charts)
-    triangles.insert(triangles.end(), pieces[c].triangles.begin(),
-                     pieces[c].triangles.end());
-  std::vector<bool> is_atom(pieces.size(), false);
   for(const std::uint32_t t : triangles)
     for(std::uint32_t h = 3 * t; h < 3 * t + 3; ++h)
-      if(!graph.is_border(h) && is_apart[label[triangle_of(graph.opposite(h))]]
+      if(!graph.is_border(h) && is_apart(label[triangle_of(graph.opposite(h))])
          && atoms.graph.is_seam(h))
-        graph.add_seam(h);
+        set_seam(h, true);
   for(const std::uint32_t c : charts)
-    pieces[c] = Chart_piece();
+    replace(c, Chart_piece());
   for(const std::uint32_t t : triangles) {
-    label[t] = atoms.label[t];
-    is_atom[atoms.label[t]] = true;
+    set_label(t, atoms.label[t]);
+    result.push_back(atoms.label[t]);
   }
-  for(std::uint32_t c = 0; c < is_atom.size(); ++c)
-    if(is_atom[c]) {
-      pieces[c] = atoms.pieces[c];
-      ++number_of_charts;
-      ++charts_of_component[surface.component[pieces[c].triangles[0]]];
-    }
-  return is_atom;
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  for(const std::uint32_t c : result) {
+    replace(c, atoms.pieces[c]);
+    count(surface.component[pieces[c].triangles[0]], true);
+  }
+  return result;
 }
 
 inline double Chart_state::seam_length() const
@@ -187,151 +260,6 @@ inline double Chart_state::seam_length() const
   for(const Chart_piece& piece : pieces)
     sum += piece.perimeter;
   return 0.5 * sum;
-}
-
-// What would become of two charts.
-struct Chart_union
-{
-  std::vector<std::uint32_t> opened; // halfedges that would be no seams any more
-  double removed = 0.;      // their length
-  double crease = 0.;       // their length on features
-  std::size_t arc = 0;      // how many of them, the first ones, may stay as a cut to a tip
-  Trial_map trial;
-  bool is_known = false;    // the trial is
-  bool is_hopeless = false; // far beyond the bound, or a part of it is
-};
-
-// Finds the seams whose removal joins two charts to one, which is again a disk: one arc, a path of
-// seams between junctions, and seams that would end within the chart then.
-class Union_finder
-{
-  static constexpr double least_dart_defect = 0.3; // radians
-  typedef Chart_state::Indices Indices;
-  typedef Chart_state::Pair Pair;
-
-public:
-  Union_finder(const Growth_surface& surface, const std::vector<std::uint8_t>& is_feature)
-    : m_surface(surface), m_is_feature(is_feature)
-  {}
-
-  // The union along the longest arc between the charts. The state is the same again afterwards.
-  Chart_union find(Chart_state& state, const Pair& pair) const;
-
-  // Leaves a part of the arc, from an end to the vertex of largest curvature, as a cut within the
-  // union. Returns whether there is such a vertex.
-  bool make_dart(const Chart_state& state, Chart_union& candidate) const;
-
-private:
-  Indices longest_arc(const Chart_state& state, std::uint32_t a, std::uint32_t b) const;
-
-  void measure(Chart_union& candidate) const
-  {
-    candidate.removed = candidate.crease = 0.;
-    for(const std::uint32_t h : candidate.opened) {
-      candidate.removed += m_surface.length[h];
-      candidate.crease += m_is_feature[h] ? m_surface.length[h] : 0.;
-    }
-  }
-
-  const Growth_surface& m_surface;
-  const std::vector<std::uint8_t>& m_is_feature;
-};
-
-// The longest arc of the seams between charts a and b, as halfedges of a. If it is a loop, so that
-// the two charts are a sphere, half of it.
-inline Union_finder::Indices Union_finder::longest_arc(const Chart_state& state, std::uint32_t a,
-                                                       std::uint32_t b) const
-{
-  const Seam_graph& graph = state.graph;
-  const auto is_between = [&](std::uint32_t h) {
-    return graph.is_seam(h) && !graph.is_border(h)
-        && state.label[triangle_of(graph.opposite(h))] == b;
-  };
-  Indices best;
-  double longest = -1.;
-  const auto follow = [&](std::uint32_t first, double most) {
-    Indices arc;
-    double sum = 0.;
-    for(std::uint32_t h = first; ; h = graph.next_seam(h)) {
-      arc.push_back(h);
-      sum += m_surface.length[h];
-      if(graph.degree(graph.target(h)) != 2 || graph.next_seam(h) == first || sum >= most)
-        break;
-    }
-    if(sum > longest) {
-      longest = sum;
-      best.swap(arc);
-    }
-  };
-  const double unlimited = (std::numeric_limits<double>::max)();
-  std::uint32_t some = no_halfedge;
-  for(const std::uint32_t t : state.pieces[a].triangles)
-    for(std::uint32_t h = 3 * t; h < 3 * t + 3; ++h)
-      if(is_between(h)) {
-        some = some == no_halfedge ? h : some;
-        if(graph.degree(graph.source(h)) != 2)
-          follow(h, unlimited);
-      }
-  if(best.empty() && some != no_halfedge)
-    follow(some, 0.25 * (state.pieces[a].perimeter + state.pieces[b].perimeter));
-  return best;
-}
-
-inline Chart_union Union_finder::find(Chart_state& state, const Pair& pair) const
-{
-  Chart_union result;
-  result.opened = longest_arc(state, pair.first, pair.second);
-  if(result.opened.empty())
-    return result;
-  Seam_graph& graph = state.graph;
-  const std::uint32_t from = graph.source(result.opened.front());
-  const std::uint32_t to = graph.target(result.opened.back());
-  result.arc = result.opened.size();
-  for(const std::uint32_t h : result.opened)
-    graph.remove_seam(h);
-  graph.zip(from, result.opened);
-  graph.zip(to, result.opened);
-  if(graph.is_single_edge(from)) { // a sphere with a slit of one edge is none any more
-    graph.add_seam(result.opened.front());
-    result.opened.erase(result.opened.begin());
-    result.arc = 0;
-  }
-  for(const std::uint32_t h : result.opened)
-    graph.add_seam(h);
-  measure(result);
-  return result;
-}
-
-inline bool Union_finder::make_dart(const Chart_state& state, Chart_union& candidate) const
-{
-  if(candidate.arc < 2)
-    return false;
-  const Seam_graph& graph = state.graph;
-  std::size_t tip = 0;
-  double largest = least_dart_defect;
-  for(std::size_t i = 0; i + 1 < candidate.arc; ++i) {
-    const double defect = m_surface.defect[graph.target(candidate.opened[i])];
-    if(defect > largest) {
-      largest = defect;
-      tip = i + 1;
-    }
-  }
-  if(tip == 0)
-    return false;
-  const auto begin = candidate.opened.begin();
-  const auto length = [&](auto from, auto to) {
-    double sum = 0.;
-    for(; from != to; ++from)
-      sum += m_surface.length[*from];
-    return sum;
-  };
-  if(length(begin, begin + tip) > length(begin + tip, begin + candidate.arc))
-    candidate.opened.resize(tip);
-  else
-    candidate.opened = Indices(begin + tip, begin + candidate.arc);
-  candidate.arc = 0;
-  measure(candidate);
-  return true;
 }
 
 } // namespace internal

@@ -9,6 +9,7 @@
 #include <CGAL/Surface_mesh_texturing/Chart_segmenters.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/map_charts.h>
 
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -125,6 +126,7 @@ public:
   {
     if(check() && segment() && map() && pack())
       fill();
+    m_result.report.stopped_early = m_was_over;
     m_result.report.seconds_total = m_watch.seconds();
     return std::move(m_result);
   }
@@ -138,7 +140,7 @@ private:
   Chart_mapping chart_mapping(const Distortion_bound& bound) const // of any mesh
   {
     return {m_models.parameterize, bound, m_models.is_bounded, m_options.least_fill,
-            m_options.coarse_faces};
+            m_options.coarse_faces, {}, [this] { return is_over(); }};
   }
   void map_charts_within(const Distortion_bound& bound, double begin, double end);
   bool pack();
@@ -149,6 +151,15 @@ private:
   {
     m_result.fail(result);
     return std::move(result.charts);
+  }
+
+  // Whether the time is over, which who asks then takes into account. Asked from several threads.
+  bool is_over() const
+  {
+    const bool result = m_options.seconds > 0. && m_watch.seconds() >= m_options.seconds;
+    if(result)
+      m_was_over = true;
+    return result;
   }
 
   // Tells that a part of a stage, which begins and ends at these parts of the whole, is done.
@@ -169,6 +180,7 @@ private:
   Packing_result m_packing;
   Texture_atlas_result m_result;
   Blocked_execution::Stopwatch m_watch;
+  mutable std::atomic<bool> m_was_over{false};
 };
 
 inline bool Texture_atlas_builder::check()
@@ -184,6 +196,8 @@ inline bool Texture_atlas_builder::check()
                                                 + " is not a finite number from 0 on");
   if(!m_options.no_seams.empty())
     m_result.fail(foreign_seams_error(m_mesh, m_options.no_seams));
+  if(!std::isfinite(m_options.seconds) || m_options.seconds < 0.)
+    m_result.fail(Mesh_status::BAD_OPTIONS, "the limit of time is not a finite number from 0 on");
   if(m_result.is_ok() && !m_models.is_own)
     m_result.fail(Mesh_status::BAD_MESH, manifold_error(m_mesh));
   return m_result.is_ok();
@@ -216,7 +230,12 @@ inline Segmentation_result Texture_atlas_builder::find_charts(const Indexed_tria
   if(&mesh != &m_mesh)
     options.no_seams.clear();
   options.progress = [=](double part) { return proceed(begin, end, part); };
+  constexpr double share = 0.5, least_seconds = 1e-9; // of the time; 0 would be no limit
+  if(m_options.seconds > 0.)
+    options.seconds = (std::max)(least_seconds, share * m_options.seconds - m_watch.seconds());
   Segmentation_result result = m_models.segment(mesh, options);
+  if(result.stopped_early)
+    m_was_over = true;
   if(m_models.is_own || !result.is_ok())
     return result;
   // Whatever the charts say beside their seams
@@ -279,6 +298,9 @@ inline bool Texture_atlas_builder::pack()
   for(const Mapped_chart& map : m_maps)
     shapes.push_back({map.uv, map.chart.mesh.triangles});
   Packing_options packing = m_options.packing;
+  packing.is_enough = [this, is_enough = packing.is_enough] {
+    return is_over() || (is_enough && is_enough());
+  };
   packing.progress = [this](double part) { return proceed(0.8, 1., part); };
   m_packing = m_models.pack(shapes, packing);
   m_result.fail(m_packing);
@@ -318,11 +340,48 @@ inline void Texture_atlas_builder::fill()
   measure_atlas(atlas, report);
 }
 
+// The power of two that is about the extent of the mesh if that is so small or large that squares of
+// squares of lengths may not exist; else 1.
+inline double unit_of_length(const Indexed_triangle_mesh& mesh)
+{
+  constexpr int usual = 40; // powers of two
+  if(mesh.points.empty())
+    return 1.;
+  const double extent = Indexed_mesh::longest_side(Indexed_mesh::bounding_box(mesh.points));
+  if(!(extent > 0.) || !std::isfinite(extent) || std::abs(std::ilogb(extent)) <= usual)
+    return 1.;
+  return std::ldexp(1., (std::max)(std::ilogb(extent), -1022));
+}
+
+// The report in a unit of length that is `unit` times as small.
+inline void scale_lengths(double unit, Texture_atlas_report& report)
+{
+  report.seam_length *= unit;
+  report.texels_per_unit /= unit;
+  for(Chart_report& chart : report.charts) {
+    chart.border_length *= unit;
+    chart.distortion.area *= unit * unit;
+    chart.distortion.uv_area *= unit * unit;
+  }
+}
+
 CGAL_HLSCM_INLINE Texture_atlas_result build_atlas(const Indexed_triangle_mesh& mesh,
                                                    const Texture_atlas_options& options,
                                                    const Atlas_models& models)
 {
-  return Texture_atlas_builder(mesh, options, models).run();
+  const double unit = unit_of_length(mesh);
+  if(unit == 1.)
+    return Texture_atlas_builder(mesh, options, models).run();
+  Indexed_triangle_mesh scaled = mesh;
+  for(auto& p : scaled.points) // exactly
+    p = Indexed_triangle_mesh::Point_3(p.x() / unit, p.y() / unit, p.z() / unit);
+  Texture_atlas_options of_scaled = options;
+  of_scaled.packing.texels_per_unit *= unit;
+  Texture_atlas_result result = Texture_atlas_builder(scaled, of_scaled, models).run();
+  if(result.is_ok())
+    result.atlas.mesh.points = mesh.points;
+  scale_lengths(unit, result.report);
+  return result;
 }
 
 #endif // CGAL_HLSCM_DEFINITIONS

@@ -63,6 +63,15 @@ private:
   typedef std::priority_queue<Waiting, std::vector<Waiting>, std::greater<Waiting>> Queue;
 
   void spread(Queue& queue);
+
+  // Whether the triangle that was reached through this halfedge is not in the patch that the one
+  // before has come to: that is nearer to its seed now, but by so little that the sum is the same.
+  bool is_left_behind(std::uint32_t h, std::uint32_t patch) const
+  {
+    const std::uint32_t t = triangle_of(h);
+    return m_entry[t] == h && m_distance[t] > 0. && m_patch[t] != patch;
+  }
+
   void add_seed(std::uint32_t t);
   void add_far_seeds(std::size_t number, std::size_t least);
   bool move_seeds_inward();
@@ -85,7 +94,8 @@ inline void Patch_growth::spread(Queue& queue)
       continue;
     for(std::uint32_t g = 3 * t; g < 3 * t + 3; ++g) {
       const std::uint32_t across = m_surface.adjacency.opposite(g);
-      if(across == no_halfedge || !(distance + m_step[g] < m_distance[triangle_of(across)]))
+      if(across == no_halfedge || !(distance + m_step[g] < m_distance[triangle_of(across)]
+                                    || is_left_behind(across, patch)))
         continue;
       m_distance[triangle_of(across)] = distance + m_step[g];
       m_patch[triangle_of(across)] = patch;
@@ -107,32 +117,37 @@ inline void Patch_growth::add_seed(std::uint32_t t)
 }
 
 // The next seed is the triangle that is farthest from all seeds: one between any features first,
-// because their edges count as very long.
+// because their edges count as very long. Components that miss seeds come first. A seed changes
+// distances in its own component only.
 inline void Patch_growth::add_far_seeds(std::size_t number, std::size_t least)
 {
   std::vector<std::size_t> missing(m_surface.number_of_components, least);
   for(const std::uint32_t t : m_seeds)
     missing[m_surface.component[t]] -= missing[m_surface.component[t]] > 0 ? 1 : 0;
-  std::vector<double> farthest(m_surface.number_of_components);
-  std::vector<std::uint32_t> where(m_surface.number_of_components);
-  for(;;) {
-    std::fill(farthest.begin(), farthest.end(), 0.);
-    for(std::uint32_t t = 0; t < m_surface.size(); ++t)
-      if(m_distance[t] > farthest[m_surface.component[t]]) {
-        farthest[m_surface.component[t]] = m_distance[t];
-        where[m_surface.component[t]] = t;
-      }
-    std::size_t best = m_surface.number_of_components;
-    for(std::size_t c = 0; c < farthest.size(); ++c)
-      if(farthest[c] > 0. && (missing[c] > 0 || m_seeds.size() < number)
-         && (best == farthest.size()
-             || std::make_pair(missing[c] > 0, farthest[c])
-                  > std::make_pair(missing[best] > 0, farthest[best])))
-        best = c;
-    if(best == farthest.size())
+  std::vector<Seeds> triangles(m_surface.number_of_components);
+  for(std::uint32_t t = 0; t < m_surface.size(); ++t)
+    triangles[m_surface.component[t]].push_back(t);
+  // Whether seeds are missing, the distance, the component from the last, the triangle
+  typedef std::tuple<bool, double, std::uint32_t, std::uint32_t> Offer;
+  std::priority_queue<Offer> offers;
+  const auto look_at = [&](std::uint32_t c) {
+    std::uint32_t farthest = triangles[c].front();
+    for(const std::uint32_t t : triangles[c])
+      if(m_distance[t] > m_distance[farthest])
+        farthest = t;
+    if(m_distance[farthest] > 0.)
+      offers.push({missing[c] > 0, m_distance[farthest], ~c, farthest});
+  };
+  for(std::uint32_t c = 0; c < triangles.size(); ++c)
+    look_at(c);
+  while(!offers.empty()) {
+    const auto [is_missing, distance, not_c, t] = offers.top();
+    if(!is_missing && m_seeds.size() >= number)
       return;
-    missing[best] -= missing[best] > 0 ? 1 : 0;
-    add_seed(where[best]);
+    offers.pop();
+    missing[~not_c] -= is_missing ? 1 : 0;
+    add_seed(t);
+    look_at(~not_c);
   }
 }
 

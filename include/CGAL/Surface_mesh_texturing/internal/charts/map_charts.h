@@ -33,6 +33,9 @@ struct Chart_mapping
   double least_fill = 0.75;
   std::size_t coarse_faces = 4000;
   std::vector<std::uint8_t> no_seams = {}; // of the whole mesh; see Texture_atlas_options
+  std::function<bool()> is_over = {};      // whether the quickest way is to be taken from now on
+
+  bool has_time() const { return !is_over || !is_over(); }
 };
 
 // A chart with its map, in units of length of the surface, and whether it may stay as it is.
@@ -121,12 +124,14 @@ inline std::vector<bool> border_vertices(std::size_t n, const std::vector<Border
 // better be cut.
 inline std::pair<std::size_t, std::size_t> repair_flips(const Indexed_triangle_mesh& mesh,
                                                         const std::vector<Border_edge>& border,
+                                                        const Chart_mapping& mapping,
                                                         std::vector<Point_2>& uv)
 {
   namespace SMP = Surface_mesh_parameterization;
   SMP::Flip_repair_options repair;
   repair.last_rings = 32;
   repair.largest_patch = 5000;
+  repair.progress = [&mapping](double) { return mapping.has_time(); };
   SMP::repair_flipped_faces(mesh, uv, border_vertices(mesh.points.size(), border), repair);
   const auto left = count_flips(mesh.triangles, uv);
   if(left.first + left.second == 0)
@@ -156,7 +161,7 @@ inline Mapped_chart map_chart(Chart_mesh chart, const Chart_mapping& mapping)
     return result;
   result.report.distortion = measure_chart_distortion(mesh, result.uv);
   const auto is_allowed = [&mapping](const Chart_distortion& distortion) {
-    return !mapping.is_bounded || distortion.is_within(mapping.bound);
+    return !mapping.is_bounded || distortion.is_within(mapping.bound) || !mapping.has_time();
   };
   if(!scale_to_surface(result.report.distortion, result.uv)
      || !is_allowed(result.report.distortion))
@@ -164,7 +169,7 @@ inline Mapped_chart map_chart(Chart_mesh chart, const Chart_mapping& mapping)
   const auto flips = count_flips(mesh.triangles, result.uv);
   auto left = flips;
   if(flips.first + flips.second > 0) {
-    left = repair_flips(mesh, border, result.uv);
+    left = repair_flips(mesh, border, mapping, result.uv);
     result.report.distortion = measure_chart_distortion(mesh, result.uv);
   }
   result.report.repaired_flips = flips.first - (std::min)(flips.first, left.first);
@@ -244,10 +249,13 @@ inline std::vector<Chart_mesh> cut_again(const Mapped_chart& mapped,
   growth.least_charts = 2;
   growth.least_fill = mapping.least_fill;
   growth.effort = effort;
+  growth.is_enough = mapping.is_over;
   Segmentation_options segmentation;
   segmentation.coarse_faces = (std::min)(coarse_faces, mapping.coarse_faces);
   segmentation.no_seams = chart.sides(mapping.no_seams);
-  Segmentation_result cut = segment_into_charts(chart.mesh, segmentation, growth);
+  Segmentation_result cut;
+  if(mapping.has_time())
+    cut = segment_into_charts(chart.mesh, segmentation, growth);
   if(!cut.is_ok() || cut.charts.number_of_charts < 2)
     cut.charts = halve_chart(chart.mesh);
   std::vector<Chart_mesh> parts = chart_meshes(chart.mesh, cut.charts);

@@ -127,6 +127,25 @@ inline std::vector<Vector_2d> convex_hull(std::vector<Vector_2d> points)
   return hull;
 }
 
+// The sides of a hull whose directions are tried: all, but for very many the longest ones.
+inline std::vector<std::size_t> tried_sides(const std::vector<Vector_2d>& hull)
+{
+  constexpr std::size_t most = 2000;
+  std::vector<std::size_t> sides(hull.size());
+  std::iota(sides.begin(), sides.end(), std::size_t(0));
+  if(sides.size() <= most)
+    return sides;
+  const auto length = [&hull](std::size_t i) {
+    const Vector_2d &a = hull[i], &b = hull[(i + 1) % hull.size()];
+    return std::hypot(b[0] - a[0], b[1] - a[1]);
+  };
+  std::stable_sort(sides.begin(), sides.end(),
+                   [&](std::size_t i, std::size_t j) { return length(i) > length(j); });
+  sides.resize(most);
+  std::sort(sides.begin(), sides.end());
+  return sides;
+}
+
 // The rotation after which the rectangle of the smallest area around the points, one side of which
 // is a side of their hull, is parallel to the axes with its long side along x.
 inline double aligning_angle(const std::vector<Vector_2d>& points)
@@ -134,7 +153,9 @@ inline double aligning_angle(const std::vector<Vector_2d>& points)
   constexpr double clearly_smaller = 1. - 1e-9; // ties must not depend on rounding
   const std::vector<Vector_2d> hull = convex_hull(points);
   double best = -1., angle = 0.;
-  for(std::size_t i = 0; i < hull.size() && hull.size() > 1; ++i) {
+  for(const std::size_t i : tried_sides(hull)) {
+    if(hull.size() < 2)
+      break;
     const Vector_2d &a = hull[i], &b = hull[(i + 1) % hull.size()];
     const double dx = b[0] - a[0], dy = b[1] - a[1], length = std::hypot(dx, dy);
     Vector_2d lo = {0., 0.}, hi = {0., 0.};
@@ -207,6 +228,20 @@ inline std::vector<Chart_outline> chart_outlines(const std::vector<Chart_shape>&
   std::vector<Chart_outline> result;
   for(const Chart_shape& chart : charts)
     result.push_back(chart_outline(chart, unit));
+  return result;
+}
+
+// The longest edge of each chart.
+inline std::vector<double> longest_edges(const std::vector<Chart_outline>& outlines)
+{
+  std::vector<double> result;
+  for(const Chart_outline& outline : outlines) {
+    double longest = 0.;
+    for(const auto& part : outline.parts)
+      for(const Outline_edge& e : part)
+        longest = (std::max)(longest, std::hypot(e.to[0] - e.from[0], e.to[1] - e.from[1]));
+    result.push_back(longest);
+  }
   return result;
 }
 

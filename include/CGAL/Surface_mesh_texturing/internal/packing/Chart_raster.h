@@ -24,13 +24,14 @@ struct Probe
   int y, first, second, level;
 };
 
-// The probes of a mask, those first that are likely to find an obstacle: every 2^k-th row, for
-// decreasing k.
-inline std::vector<Probe> probes_of(const Texel_mask& mask)
+// The probes of the runs of a mask, those first that are likely to find an obstacle: every 2^k-th
+// row, for decreasing k.
+inline std::vector<Probe> probes_of(const std::vector<Cell_run>& runs)
 {
   std::vector<Probe> result;
+  result.reserve(runs.size());
   const auto rank = [](const Probe& p) { return p.y == 0 ? 32 : lowest_bit(Word(p.y)); };
-  for(const Cell_run& run : mask.runs()) {
+  for(const Cell_run& run : runs) {
     int level = 0;
     while(2 << level <= run.end - run.begin)
       ++level;
@@ -228,8 +229,11 @@ inline std::vector<int> rim_of(const Texel_mask& mask, int stride)
   return result;
 }
 
+// Which charts have a rim: it takes more memory than the rest of a small chart.
+enum class Rims { ALL, NONE };
+
 inline Chart_raster chart_raster(const Chart_outline& outline, double angle, double density,
-                                 const Packing_raster& raster)
+                                 const Packing_raster& raster, Rims rims)
 {
   Chart_raster result;
   const Rasterized_chart chart
@@ -239,11 +243,12 @@ inline Chart_raster chart_raster(const Chart_outline& outline, double angle, dou
   result.width = chart.mask.width();
   result.height = chart.mask.height();
   result.centre = chart.centre;
-  result.probes = probes_of(chart.mask);
+  result.probes = probes_of(chart.mask.runs());
   result.padded = dilated(chart.mask, raster.padding).runs();
   for(Cell_run& run : result.padded)
     run = {run.y - raster.padding, run.begin - raster.padding, run.end - raster.padding};
-  result.rim = rim_of(chart.mask, Page_raster::stride(raster.width));
+  if(rims == Rims::ALL)
+    result.rim = rim_of(chart.mask, Page_raster::stride(raster.width));
   return result;
 }
 
@@ -280,9 +285,9 @@ class Chart_rasters
 public:
   // `density` is in texels per unit of the outlines.
   Chart_rasters(const std::vector<Chart_outline>& outlines, int rotations, double density,
-                const Packing_raster& raster)
+                const Packing_raster& raster, Rims rims = Rims::ALL)
     : m_outlines(outlines), m_rotations(rotations), m_density(density), m_raster(raster),
-      m_charts(outlines.size() * rotations), m_is_made(m_charts.size(), 0)
+      m_rims(rims), m_charts(outlines.size() * rotations), m_is_made(m_charts.size(), 0)
   {}
 
   std::size_t size() const { return m_outlines.size(); }
@@ -327,12 +332,21 @@ public:
     return m_charts[chart * m_rotations + rotation];
   }
 
+  // Whether charts that are made have a rim.
+  bool have_rims() const { return m_rims == Rims::ALL; }
+
+  // Makes one more with a rim.
+  Chart_raster with_rim(std::size_t chart, int rotation) const
+  {
+    return chart_raster(m_outlines[chart], angle(chart, rotation), m_density, m_raster, Rims::ALL);
+  }
+
 private:
   void make_one(std::size_t i)
   {
     const std::size_t chart = i / m_rotations;
     m_charts[i] = chart_raster(m_outlines[chart], angle(chart, int(i % m_rotations)), m_density,
-                               m_raster);
+                               m_raster, m_rims);
     m_is_made[i] = 1;
   }
 
@@ -340,6 +354,7 @@ private:
   int m_rotations;
   double m_density;
   Packing_raster m_raster;
+  Rims m_rims;
   std::vector<Chart_raster> m_charts; // the rotations of the first, of the second ...
   std::vector<char> m_is_made;
 };

@@ -65,12 +65,12 @@ private:
 
 // Returns the highest level up to 0 for which `succeeds(level)`, if there is one among those
 // tried, or `lowest` - 1: success is taken to be monotone. Begins at `guess` with steps of `step`,
-// which grow until the level is between two.
+// which grow until the level is between two; ends when these are `precision` apart.
 template <class Succeeds>
-int highest_level(int lowest, int guess, int step, const Succeeds& succeeds)
+int highest_level(int lowest, int guess, int step, const Succeeds& succeeds, int precision = 1)
 {
   int low = lowest - 1, high = 1; // success, failure
-  for(int level = guess; high - low > 1;) {
+  for(int level = guess; high - low > (low < lowest ? 1 : precision);) {
     if(succeeds(level))
       low = level;
     else

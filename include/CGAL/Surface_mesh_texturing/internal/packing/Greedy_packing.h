@@ -77,12 +77,17 @@ private:
              Raster_place& place)
   {
     bool fits = false;
+    std::vector<Chart_raster> with_rims; // if there is need of rims that have not been made
+    for(int r = 0; r < charts.rotations() && criterion == Place_criterion::SNUG
+                   && !charts.have_rims(); ++r)
+      with_rims.push_back(charts.with_rim(chart, r));
     for(int r = 0; r < charts.rotations(); ++r)
       fits = fits || charts.made(chart, r).width > 0;
     for(std::size_t p = 0; fits && is_allowed(p) && !place.is_found(); ++p) {
       Place_search search(criterion);
       for(int r = 0; r < charts.rotations(); ++r)
-        search.search(charts.made(chart, r), page(p), std::uint32_t(p), r);
+        search.search(with_rims.empty() ? charts.made(chart, r) : with_rims[r], page(p),
+                      std::uint32_t(p), r);
       place = search.best();
     }
   }

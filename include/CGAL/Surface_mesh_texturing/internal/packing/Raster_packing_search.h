@@ -19,6 +19,19 @@ namespace CGAL {
 namespace Surface_mesh_texturing {
 namespace internal {
 
+// Less than the cells that charts take on a raster, each with its share of the padding: for every
+// chart the cells along the longest of its edges.
+inline double least_cells(const std::vector<double>& longest_edges, double density,
+                          const Packing_raster& raster)
+{
+  constexpr double rounding = 1. - 1e-9;
+  const double padding = raster.padding, cells = rounding * density / raster.cell / std::sqrt(2.);
+  double sum = 0.;
+  for(const double length : longest_edges) // a side of the box around the edge is so long at least
+    sum += ((std::max)(1., cells * length) + padding) * (padding + 1.);
+  return sum;
+}
+
 // The search for the packing with the highest density, or for one with a given density.
 class Raster_packing_search
 {
@@ -27,9 +40,10 @@ public:
   Raster_packing_search(const std::vector<Chart_outline>& outlines, double unit,
                         const Packing_options& options)
     : m_outlines(outlines), m_unit(unit), m_options(options), m_exact(exact_raster(options)),
-      m_rotations(options.rotations > 0 ? options.rotations : 8),
+      m_rotations(options.rotations > 0 ? options.rotations : is_dust() ? 4 : 8),
       m_coarse(coarser_raster(m_exact, coarse_cells())),
-      m_ladder(outlines, m_exact, (std::max)(std::size_t(1), options.max_pages))
+      m_ladder(outlines, m_exact, (std::max)(std::size_t(1), options.max_pages)),
+      m_longest_edges(longest_edges(outlines))
   {}
 
   Packing_result run()
@@ -89,16 +103,39 @@ private:
   Packing_result packing_result(const Raster_packing& packing, const Chart_rasters& charts,
                                 double density) const;
 
+  // So many charts are mostly single triangles: a little more density is not worth minutes.
+  bool is_dust() const { return m_outlines.size() > 1000; }
+  int precision() const { return is_dust() ? 8 : 1; } // in levels
+
+  // So many charts take much memory, and a look at each takes time.
+  bool are_many() const { return m_outlines.size() > 512; }
+  Rims rims() const { return are_many() ? Rims::NONE : Rims::ALL; }
+
+  // Whether charts are clearly too large at a level: then there is no need to try.
+  bool is_beyond_pages(const Packing_raster& raster, int level) const
+  {
+    const double page = double(raster.width + raster.padding) * (raster.height + raster.padding);
+    return least_cells(m_longest_edges, m_ladder.density(level), raster)
+         > page * double((std::max)(std::size_t(1), m_options.max_pages));
+  }
+
   // The charts on the coarse raster.
   Chart_rasters& coarse_charts(int level)
   {
     std::unique_ptr<Chart_rasters>& charts = m_coarse_charts[level];
     if(!charts) {
-      charts.reset(new Chart_rasters(m_outlines, m_rotations, m_ladder.density(level),
-                                     m_coarse));
+      charts.reset(new Chart_rasters(m_outlines, m_rotations, m_ladder.density(level), m_coarse,
+                                     rims()));
       charts->make_all();
     }
     return *charts;
+  }
+
+  // Charts of a level that no plan has; few are kept, for another look.
+  void forget_charts(int level)
+  {
+    if(are_many())
+      m_coarse_charts.erase(level);
   }
 
   Raster_packing pack_coarse(const Packing_keys& keys, int level)
@@ -116,6 +153,8 @@ private:
     return !m_is_cancelled;
   }
 
+  bool is_enough() const { return m_options.is_enough && m_options.is_enough(); }
+
   // Counts the positions of some orders.
   void count_work(const Packing_raster& raster, std::size_t orders)
   {
@@ -130,6 +169,7 @@ private:
   int m_rotations; // of the orders
   Packing_raster m_coarse;
   Density_ladder m_ladder;
+  std::vector<double> m_longest_edges; // of each chart
   std::map<int, std::unique_ptr<Chart_rasters>> m_coarse_charts; // by level
 
   Raster_packing m_best; // on the exact raster
@@ -145,17 +185,22 @@ inline Raster_packing_search::Plan Raster_packing_search::first_plan()
   Plan plan;
   plan.keys = keys_by_area(m_outlines);
   plan.level = highest_level(m_ladder.lowest(), -62, 16, [&](int level) {
-    if(!report())
+    if(!report() || (plan.packing.is_complete && is_enough()))
+      return false;
+    count_work(m_coarse, 1);
+    if(is_beyond_pages(m_coarse, level))
       return false;
     coarse_charts(level);
-    count_work(m_coarse, 1);
     Raster_packing packing = pack_coarse(plan.keys, level);
     const bool is_complete = packing.is_complete;
     if(is_complete)
       plan.packing = std::move(packing);
+    if(is_complete)
+      m_coarse_charts.erase(m_coarse_charts.begin(), m_coarse_charts.lower_bound(level));
+    else
+      forget_charts(level);
     return is_complete;
-  });
-  m_coarse_charts.erase(m_coarse_charts.begin(), m_coarse_charts.lower_bound(plan.level));
+  }, precision());
   return plan;
 }
 
@@ -169,16 +214,20 @@ inline bool Raster_packing_search::improve(Plan& plan)
   ++m_rounds;
   bool is_better = false;
   for(int level = plan.level + 1; level <= 0 && report(); ++level) {
-    coarse_charts(level);
     count_work(m_coarse, plans.size());
+    if(is_beyond_pages(m_coarse, level))
+      break;
+    coarse_charts(level);
     Blocked_execution::blocked_for(plans.size(), 1, [&](std::size_t begin, std::size_t end) {
       for(std::size_t i = begin; i < end; ++i)
         plans[i].packing = pack_coarse(plans[i].keys, level);
     });
     const auto fails = [](const Plan& p) { return !p.packing.is_complete; };
     plans.erase(std::remove_if(plans.begin(), plans.end(), fails), plans.end());
-    if(plans.empty())
+    if(plans.empty()) {
+      forget_charts(level);
       break;
+    }
     is_better = true;
     plan = plans[0];
     plan.level = level;
@@ -190,11 +239,13 @@ inline bool Raster_packing_search::improve(Plan& plan)
 inline void Raster_packing_search::refine(const Plan& plan)
 {
   const auto succeeds = [&](int level) {
-    if(!report())
+    if(!report() || (m_best.is_complete && is_enough()))
+      return false;
+    count_work(m_coarse, 2); // few positions are compared, but it takes this time
+    if(is_beyond_pages(m_exact, level))
       return false;
     std::unique_ptr<Chart_rasters> charts(
       new Chart_rasters(m_outlines, m_rotations, m_ladder.density(level), m_exact));
-    count_work(m_coarse, 2); // few positions are compared, but it takes this time
     Raster_packing packing = Greedy_packing(m_exact, m_options.max_pages)
                                .refine(*charts, plan.packing, *m_coarse_charts.at(plan.level));
     const bool is_complete = packing.is_complete;
@@ -208,7 +259,7 @@ inline void Raster_packing_search::refine(const Plan& plan)
   if(m_best.is_complete)
     highest_level(m_best_level + 1, m_best_level + 1, 1, succeeds);
   else
-    highest_level(m_ladder.lowest(), plan.level, 4, succeeds);
+    highest_level(m_ladder.lowest(), plan.level, 4, succeeds, precision());
 }
 
 // The places of the best packing, for `factor` times as many directions.
@@ -246,7 +297,7 @@ inline void Raster_packing_search::raise_density()
     m_best_charts->make_where([&](std::size_t i, int r) { return better[i].rotation == r; });
   };
   Density_raising(base, m_ladder)
-    .run(m_best_level, best_places(factor), [&] { return m_work < work && report(); }, take);
+    .run(m_best_level, best_places(factor), [&] { return m_work < work && report() && !is_enough(); }, take);
 }
 
 // The first part of the search takes up to 8 rounds; all plans on the way are refined, since the
@@ -270,7 +321,7 @@ inline void Raster_packing_search::maximize()
     return is_better;
   };
   const auto may_go_on = [&](double work) {
-    return m_work < work && plans.back().level < 0 && !m_is_cancelled;
+    return m_work < work && plans.back().level < 0 && !m_is_cancelled && !is_enough();
   };
   while(m_rounds < first_rounds && may_go_on(first_work))
     improve_last();
@@ -293,7 +344,7 @@ inline Packing_result Raster_packing_search::with_density(double density)
     result.cancel();
     return result;
   }
-  Chart_rasters charts(m_outlines, m_rotations, density, m_exact);
+  Chart_rasters charts(m_outlines, m_rotations, density, m_exact, rims());
   charts.make_all();
   const std::vector<std::uint32_t> order = order_of(keys_by_area(m_outlines));
   const Raster_packing packing

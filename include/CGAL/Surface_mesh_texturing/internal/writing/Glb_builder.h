@@ -154,11 +154,13 @@ public:
     return int(m_meshes.size()) - 1;
   }
 
-  // Adds a node that shows a mesh; the first one is the scene. `more` are further members.
-  void add_node(const std::string& name, int mesh, const std::string& more = std::string())
+  // Adds a node that shows a mesh; the first one is the scene. `more` are further members, each
+  // before a comma, and `placement` those of its place, each after one.
+  void add_node(const std::string& name, int mesh, const std::string& placement,
+                const std::string& more = std::string())
   {
     m_nodes.push_back('{' + more + "\"mesh\":" + std::to_string(mesh) + ",\"name\":"
-                      + json_text(name) + '}');
+                      + json_text(name) + placement + '}');
   }
 
   void use_extension(const std::string& name) { m_extensions.push_back(json_text(name)); }
