@@ -449,6 +449,10 @@ TEST(Gltf_reading, names_what_it_cannot_read)
          file.json["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = {{"buffer", 0}};
        }),
        "compressed by meshopt"},
+      {changed([](Gltf& file) {
+         file.json["meshes"] = {{"a", 1}};
+       }),
+       "of glTF 1.0"},
       {changed([](Gltf& file) { file.json["asset"]["version"] = "1.0"; }), "of glTF 1.0"},
       {changed([](Gltf& file) { file.json["accessors"][0]["count"] = 5; }),
        "accessor 0 reaches up to byte 60 of a buffer view of 48 bytes"},

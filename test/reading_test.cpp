@@ -43,6 +43,15 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text;
 }
 
+std::string utf16(const std::string& text, bool has_high_first)
+{
+  std::string bytes = has_high_first ? "\xfe\xff" : "\xff\xfe";
+  for(const char c : text) {
+    put(bytes, std::uint16_t(static_cast<unsigned char>(c)), has_high_first);
+  }
+  return bytes;
+}
+
 std::vector<Variant> obj_variants()
 {
   const std::string& c = clean_obj;
@@ -55,6 +64,9 @@ std::vector<Variant> obj_variants()
       {"mixed ends of lines", "m.obj", replaced(replaced(c, "\nf", "\rf"), "0\nv", "0\r\nv")},
       {"odd white space", "m.obj", " \t" + replaced(replaced(c, " ", "\t \v"), "\n", " \f\n\n  ")},
       {"comments", "m.obj", "# first\n" + replaced(c, "\n", "# v 7 7 7\n#f 1 2 3\n\n") + "#"},
+      {"UTF-16", "m.obj", utf16(c, false)},
+      {"UTF-16, high bytes first", "m.obj", utf16("# \xe4\n" + c, true)},
+      {"UTF-16 on the standard input", "-", utf16(c, false)},
       {"continued lines", "m.obj", replaced(c, " ", " \\\n ")},
       {"continued lines with CR LF", "m.obj", replaced(replaced(c, " ", " \\\n"), "\n", "\r\n")},
       {"continued lines with CR", "m.obj", replaced(replaced(c, " ", "\\\n"), "\n", "\r")},
@@ -163,6 +175,8 @@ std::vector<Variant> ply_variants()
       {"text with a byte order mark", "m.ply", bom + ply("ascii", text, text_faces)},
       {"text on the standard input", "-", ply("ascii", text, text_faces)},
       {"text, faces first", "m.ply", replaced(faces_first, little, "ascii") + text_faces + text},
+      {"unknown lines of the header", "m.ply",
+       replaced(ply("ascii", text, text_faces), "comment x\n", "Created by a program\n")},
       {"binary", "m.ply", header + points + faces(false)},
       {"binary on the standard input", "-", header + points + faces(false)},
       {"binary, packed", "m.ply.gz", packed(header + points + faces(false))},
@@ -246,7 +260,7 @@ TEST(Reading, takes_any_variant_of_stl)
 
 TEST(Reading, warns_of_what_is_left_out)
 {
-  const std::string binary_ply = ply_variants()[6].bytes;
+  const std::string binary_ply = ply_variants()[7].bytes;
   const std::vector<std::tuple<std::string, std::string, std::string>> files{
       {"m.obj", clean_obj + "l 1 2\nl 2 3\n", "(l) are left out: 2"},
       {"m.obj", clean_obj + "p 1\n", "(p) are left out: 1"},
@@ -282,7 +296,7 @@ TEST(Reading, names_the_place_of_what_it_cannot_read)
   const std::string pack = packed(clean_obj);
   std::string damaged = pack;
   damaged[damaged.size() - 6] ^= 1; // of the checksum
-  std::string short_ply = ply_variants()[6].bytes, far_ply = short_ply;
+  std::string short_ply = ply_variants()[7].bytes, far_ply = short_ply;
   short_ply.pop_back();
   far_ply[far_ply.size() - 4] = 9;
   const std::vector<std::tuple<std::string, std::string, std::string>> files{

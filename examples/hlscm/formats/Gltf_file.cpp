@@ -93,9 +93,9 @@ File::File(const Mesh_source& source) : m_source(source), m_size(source.size())
   }
   const Json* asset = member(m_json, "asset");
   const std::string version = asset != nullptr ? text(*asset, "version") : std::string();
-  if(!version.empty() && version[0] < '2') {
-    m_source.fail("it is of glTF " + version.substr(0, 8)
-                  + ", which is out of date: export the mesh as glTF 2.0");
+  const Json* meshes = member(m_json, "meshes"); // an object, rather than an array, until glTF 2
+  if((!version.empty() && version[0] < '2') || (meshes != nullptr && meshes->is_object())) {
+    m_source.fail("it is of glTF 1.0, which is out of date: export the mesh as glTF 2.0");
   }
   m_buffers.resize(count("buffers"));
 }

@@ -76,6 +76,24 @@ std::size_t byte_order_mark(const char* begin, const char* end, Mesh_format form
                                                                                  : 0;
 }
 
+std::optional<std::string> text_of_utf16(const char* begin, const char* end)
+{
+  const std::string_view bytes(begin, std::size_t(end - begin));
+  const bool has_low_first = begins_with(bytes, "\xff\xfe");
+  if(!has_low_first && !begins_with(bytes, "\xfe\xff")) {
+    return std::nullopt;
+  }
+  std::string text;
+  text.reserve(bytes.size() / 2);
+  for(std::size_t i = 2; i + 1 < bytes.size(); i += 2) {
+    const unsigned low = std::uint8_t(bytes[has_low_first ? i : i + 1]);
+    const unsigned high = std::uint8_t(bytes[has_low_first ? i + 1 : i]);
+    // What is not ASCII is in names and comments; there a question mark will do.
+    text += high == 0 && low < 128 ? char(low) : '?';
+  }
+  return text;
+}
+
 Read_mesh read_format(const Mesh_source& source, Mesh_format format)
 {
   switch(format) {

@@ -24,6 +24,10 @@ std::optional<Mesh_format> format_of_content(const char* begin, const char* end)
 /// The size of the UTF-8 byte order mark at the begin of a file: 0 if there is none.
 std::size_t byte_order_mark(const char* begin, const char* end, Mesh_format format);
 
+/// The ASCII text of a UTF-16 text, which begins with a byte order mark, other characters as
+/// question marks; nothing if there is no such mark.
+std::optional<std::string> text_of_utf16(const char* begin, const char* end);
+
 /// Calls the reader of a format.
 Read_mesh read_format(const Mesh_source& source, Mesh_format format);
 

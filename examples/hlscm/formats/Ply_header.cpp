@@ -64,7 +64,9 @@ std::optional<Property> read_property(Text_scanner& scanner)
   return type && !name.empty() ? std::optional(Property{name, *type, list_size}) : std::nullopt;
 }
 
-// Whether the header line makes sense.
+constexpr std::size_t most_warnings = 8; // lines of text, rather than of a header
+
+// Whether the header line makes sense, or is one of few that do not.
 bool read_header_line(std::string_view keyword, Text_scanner& scanner, Header& header)
 {
   if(keyword == "format") {
@@ -85,7 +87,11 @@ bool read_header_line(std::string_view keyword, Text_scanner& scanner, Header& h
     }
     return property.has_value();
   }
-  return keyword == "comment" || keyword == "obj_info";
+  if(keyword != "comment" && keyword != "obj_info") {
+    header.warnings.push_back("line " + std::to_string(scanner.line_number())
+                              + " of the header is not understood and left out");
+  }
+  return keyword != "property" && header.warnings.size() < most_warnings;
 }
 
 // The header ends as its first line does: with one character, or with a carriage return and a line
@@ -112,7 +118,7 @@ Header read_header(const Mesh_source& source)
     source.fail("it does not begin with the word ply, the file is damaged or of another format: "
                 "export it again");
   }
-  Header header{Encoding::TEXT, {}, nullptr};
+  Header header{Encoding::TEXT, {}, nullptr, {}};
   while(scanner.next_content_line('\0')) {
     const std::string_view keyword = scanner.word();
     if(keyword == "end_header") {

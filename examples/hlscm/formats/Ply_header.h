@@ -42,6 +42,7 @@ struct Header
   Encoding encoding;
   std::vector<Element> elements;
   const char* end;
+  std::vector<std::string> warnings; ///< of lines that are left out
 };
 
 /// Reads the header, or complains.

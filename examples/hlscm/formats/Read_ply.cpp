@@ -62,6 +62,8 @@ public:
       }
     }
     take_uv();
+    m_mesh.warnings.insert(m_mesh.warnings.end(), m_header.warnings.begin(),
+                           m_header.warnings.end());
     warn_of_end();
     return std::move(m_mesh);
   }

@@ -85,10 +85,12 @@ char* File_bytes::room_for(std::size_t more)
 
 bool is_stream(const std::string& file_name)
 {
+  if(file_name == "-" || file_name.rfind("/dev/", 0) == 0) { // "/dev/stdin" may be a file
+    return true;
+  }
   std::error_code error;
   const fs::file_status status = fs::status(file_name, error);
-  return file_name == "-"
-         || (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status));
+  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
 }
 
 std::string name_in_messages(const std::string& file_name)

@@ -46,6 +46,12 @@ Read_mesh read_unpacked(const Mesh_source& source, std::optional<Mesh_format> fo
   if(source.begin == source.end) {
     source.fail("the file is empty, export the mesh again");
   }
+  const auto ascii =
+      format != Mesh_format::STL ? text_of_utf16(source.begin, source.end) : std::nullopt;
+  if(ascii && !ascii->empty()) {
+    const char* begin = ascii->data();
+    return read_unpacked({source.file_name, begin, begin + ascii->size(), source.progress}, format);
+  }
   if(!format) {
     format = format_of_content(source.begin, source.end);
   }
