@@ -356,6 +356,47 @@ TEST_F(Atlas, takes_small_and_broken_up_surfaces)
   }
 }
 
+TEST_F(Atlas, is_valid_when_its_time_is_up)
+{
+  const Soup surface = wavy_torus(40);
+  const std::string in = write("in.off", off(surface)), warning = "the time was up";
+  const Outcome early = call("atlas", in, "early", {"--time-limit", "1e-9", "--texture", "512"});
+  EXPECT_EQ(early.exit_code, 0) << early.err;
+  EXPECT_NE(early.err.find(warning), std::string::npos) << early.err;
+  const Json report = Json::parse(read_file(folder / "early/report.json"), nullptr, false);
+  EXPECT_EQ(report["flips"], 0);
+  EXPECT_EQ(report["stopped_early"], true);
+  EXPECT_EQ(error_in_texture(read_model(folder / "early/atlas.obj"), 512), "");
+  const Outcome late = call("atlas", in, "late", {"--time-limit", "1e6", "--texture", "512"});
+  EXPECT_EQ(late.err.find(warning), std::string::npos) << late.err;
+  ASSERT_TRUE(call_well("atlas", in, "usual", {"--texture", "512"}).is_object());
+  EXPECT_EQ(read_file(folder / "late/atlas.obj"), read_file(folder / "usual/atlas.obj"));
+  const Outcome light = call("bake", in, "light",
+                             {"--time-limit", "1e-9", "--texture", "256", "--faces", "800"});
+  EXPECT_EQ(light.exit_code, 0) << light.err;
+  EXPECT_NE(light.err.find(warning), std::string::npos) << light.err;
+  EXPECT_EQ(call("atlas", in, "none", {"--time-limit", "0"}).exit_code, 2);
+}
+
+// One part is too small for a texture beside the other
+TEST_F(Atlas, tells_of_triangles_without_area_in_the_texture)
+{
+  Soup soup = grid(6, hilly);
+  const Soup small = moved(grid(6, hilly), 1e-30, 0);
+  const std::size_t first = soup.points.size();
+  soup.points.insert(soup.points.end(), small.points.begin(), small.points.end());
+  for(auto face : small.faces) {
+    for(std::size_t& v : face) {
+      v += first;
+    }
+    soup.faces.push_back(face);
+  }
+  const Outcome outcome = call("atlas", write("in.off", off(soup)), "out", {"--texture", "128"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("triangles without area in the texture: "), std::string::npos)
+      << outcome.err;
+}
+
 TEST_F(Atlas, leaves_isolated_vertices_out)
 {
   Soup soup = cube();

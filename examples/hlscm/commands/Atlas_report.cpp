@@ -40,6 +40,7 @@ Json to_json(const SMT::Texture_atlas_report& atlas)
           {"utilisation", number(atlas.utilisation)},
           {"seam_length", number(atlas.seam_length)},
           {"recut_charts", atlas.recut_charts},
+          {"stopped_early", atlas.stopped_early},
           {"flips", d.flipped_faces},
           {"degenerate_faces", d.degenerate_faces},
           {"distortion",

@@ -60,7 +60,8 @@ struct Packing_options
   unsigned int mip_levels = 0;  ///< the coarsest level of the texture that respects the padding
   /// Directions tried for each chart, evenly spaced over the full turn from that in which its
   /// smallest enclosing rectangle is parallel to the axes; 0: 8 (4 for more than 1000 charts), and
-  /// 48 while the density of 2 to 64 charts is raised, see `Raster_packer`. Charts are never mirrored.
+  /// 48 while the density of 2 to 64 charts is raised, see `Raster_packer`. Charts are never
+  /// mirrored.
   int rotations = 0;
   /// The number of pages that must do; 0: as many as needed, for a given `texels_per_unit`.
   std::size_t max_pages = 1;

@@ -277,8 +277,8 @@ coordinate, or for each of `model.frames.frames` if there are tangents, and a pr
 material for each page that has triangles. If the model has no normals, they are those of
 `vertex_normals()`. Numbers are rounded to floats. Where that would move points by more than a
 thousandth of the mean edge, as far from the origin, positions are relative to the centre of the
-bounding box, and the node has the translation (and, for boxes smaller than 2^-60 or larger than 2^60,
-the scale) to their place.
+bounding box, and the node has the translation (and, for boxes smaller than 2^-60 or larger than
+2^60, the scale) to their place.
 
 \return `false` if `os` did not take all, or, before anything is written, if an invariant of the
 model does not hold, a number does not fit in a float, or the file would be longer than 4 GB.

@@ -109,8 +109,8 @@ inline bool untangle(const Patch_energy& energy, double& effort, Patch_energy::V
 
 // Moves the free values of a patch to where all its triangles have positive areas and its conformal
 // energy is near the least one that can be had so; returns whether it succeeded. `start` is the
-// energy that untangles, `barrier` the weight of the term that keeps areas away from 0. Takes what it
-// needs from `effort`; if that is over it fails, or the energy stays somewhat higher.
+// energy that untangles, `barrier` the weight of the term that keeps areas away from 0. Takes what
+// it needs from `effort`; if that is over it fails, or the energy stays somewhat higher.
 inline bool mend_patch(const Patch_energy& energy, const Patch_energy& start, double barrier,
                        double& effort, Patch_energy::Values& z)
 {
