@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "commands/Levels_report.h"
+#include "commands/Repairs.h"
 
 #include <nlohmann/json.hpp>
 
