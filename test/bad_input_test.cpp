@@ -110,9 +110,10 @@ struct Mesh_door
     const SMP::Error_code error
       = parameterizer.parameterize(mesh, chosen_halfedge(mesh, input.border), uvmap);
     EXPECT_EQ(error == SMP::OK, parameterizer.report().message.empty());
-    if(error != SMP::OK)
+    if(error != SMP::OK) {
       for(const std::complex<double>& z : parameters(mesh, uvmap))
         EXPECT_EQ(z, std::complex<double>(untouched, untouched)) << "written in spite of an error";
+    }
     return parameterizer.report().message;
   }
 };
