@@ -93,7 +93,7 @@ std::vector<Bad_file> bad_files()
        "ply\nformat ascii 1.0\nelement vertex 3\nproperty int x\nproperty int y\nproperty int z\n"
        "element face 1\nproperty list uchar int vertex_index\nend_header\n"
        "0 0 0\n1 0 0\n0 1 0\n3 0 1 -2\n",
-       {"face 0", "vertex -1"}},
+       {"face 0", "vertex -2"}},
       {"points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", {"no face"}},
       {"nan.off", nan_vertex, {"vertex 2", "not finite", "repair"}},
       {"nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n", {"vertex 1", "not finite"}},
