@@ -31,7 +31,8 @@ TEST_F(Atlas, has_the_options_that_help_lists)
        "--method", "spectral", "--threads", "1", "--ply", "--pictures", path("pictures")},
       {"--texture", "64", "--charts", "uv", "--packer", "raster", "--packing-time", "0.001",
        "--method", "border-first", "--report", path("other.json")},
-      {"--texture", "64", "--one-disk", "--method", "cascadic", "--quiet"}};
+      {"--texture", "64", "--one-disk", "--method", "cascadic", "--quiet", "--strict", "--weld", "0",
+       "--time-limit", "1000"}};
   const std::vector<Texts> of_bake{
       {"--faces", "50", "--samples", "3", "--space", "object", "--bits", "16", "--displacement"},
       {"--error", "1%", "--space", "tangent", "--bits", "8", "--colors", path("first/checker.png")},
@@ -117,7 +118,7 @@ TEST_F(Atlas, loses_no_file_when_it_fails)
   write("out/atlas.obj", "was here before");
   write("out/mine", "and so was this");
   const Outcome failed = call("bake", write("bad.off", off(band(7, true))), "out",
-                              {"--faces", "3"});
+                              {"--faces", "3", "--strict"});
   EXPECT_EQ(failed.exit_code, 1);
   EXPECT_EQ(read_file(folder / "out/atlas.obj"), "was here before");
   EXPECT_EQ(names(), (std::set<std::string>{"bad.off", "out", "out/atlas.obj", "out/mine"}));

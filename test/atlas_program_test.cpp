@@ -397,7 +397,7 @@ TEST_F(Atlas, tells_of_triangles_without_area_in_the_texture)
       << outcome.err;
 }
 
-TEST_F(Atlas, leaves_isolated_vertices_out)
+TEST_F(Atlas, takes_vertices_of_no_face_along)
 {
   Soup soup = cube();
   soup.points.insert(soup.points.begin() + 3, {9, 9, 9});
@@ -408,10 +408,10 @@ TEST_F(Atlas, leaves_isolated_vertices_out)
   }
   const Outcome outcome = call("atlas", write("in.off", off(soup)), "out");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_NE(outcome.err.find("vertices of no face are left out: 1"), std::string::npos);
+  EXPECT_NE(outcome.err.find("1 vertex is in no face: it is left out (3)"), std::string::npos);
   const Obj_model model = read_model(folder / "out/atlas.obj");
-  EXPECT_TRUE(model.soup.surface.points == cube().points);
-  EXPECT_TRUE(model.soup.surface.faces == cube().faces);
+  EXPECT_TRUE(model.soup.surface.points == soup.points);
+  EXPECT_TRUE(model.soup.surface.faces == soup.faces);
 }
 
 } // namespace program_test

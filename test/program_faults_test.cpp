@@ -363,7 +363,7 @@ Soup helix(std::size_t n)
 
 TEST_F(Faults, direct_method_helps_where_the_default_one_fails)
 {
-  const std::string in = write("in.off", off(helix(5000)));
+  const std::string in = write("in.off", off(helix(20000)));
   const Outcome asked = parameterize(in, "out.obj", {"--method", "hlscm", "--iterations", "40"});
   EXPECT_EQ(asked.exit_code, 1);
   EXPECT_EQ(error_in_message(asked.err, in, {"not met after", "--method direct"}), "");
