@@ -163,10 +163,11 @@ inline bool is_sound(const File_header& h)
   if(!h.is_quantized())
     return true;
   for(int c = 0; c < 5; ++c) {
+    if(h.bits(c) < 1 || h.bits(c) > 30)
+      return false;
     const double step = h.step[c < 3 ? 0 : 1];
     const double end = h.origin[c] + step * h.mask(c);
-    if(h.bits(c) < 1 || h.bits(c) > 30 || !(step >= 0.) || !std::isfinite(h.origin[c])
-       || !std::isfinite(end))
+    if(!(step >= 0.) || !std::isfinite(h.origin[c]) || !std::isfinite(end))
       return false;
     if(h.has_texture && !(is_measurable(h.origin[c]) && is_measurable(end)))
       return false;
