@@ -351,10 +351,10 @@ TEST(Texture_atlas, is_found_on_a_grid_that_is_nearly_a_line)
 TEST(Texture_atlas, is_valid_when_the_time_is_over)
 {
   const std::vector<Named_mesh> meshes
-    = {{"torus", with_noise(torus(60, 30), 0.02, seed)},
-       {"sphere and torus", joined(sphere(4), torus(30, 15))},
-       {"grid", with_hills(irregular_grid(40, 40, seed), 15., seed)},
-       {"triangles", single_triangles(1500, seed)}};
+    = {{"torus", with_noise(torus(30, 15), 0.02, seed)},
+       {"sphere and torus", joined(sphere(3), torus(16, 8))},
+       {"grid", with_hills(irregular_grid(20, 20, seed), 8., seed)},
+       {"triangles", single_triangles(300, seed)}};
   for(const auto& [name, mesh] : meshes) {
     SMT::Texture_atlas_options options = small_texture();
     options.packing.width = options.packing.height = 512;
