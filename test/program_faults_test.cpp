@@ -345,9 +345,7 @@ TEST_F(Faults, damaged_pictures_are_refused)
 // A strip that winds around a helix.
 Soup helix(std::size_t n)
 {
-  Soup soup = grid(n, flat);
-  soup.points.clear();
-  soup.faces.clear();
+  Soup soup;
   for(std::size_t i = 0; i < n; ++i) {
     for(const double y : {0., 1.}) {
       const double x = 200 * double(i) / double(n - 1), r = 1 + 0.1 * y;
