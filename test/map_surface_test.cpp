@@ -106,6 +106,30 @@ TEST(Map_surface, closed_surfaces_and_handles_are_cut)
   }
 }
 
+// On a coarser mesh first; faces of four corners stay whole.
+TEST(Map_surface, a_large_closed_surface_is_cut)
+{
+  Polygon_soup soup; // a torus of 45,000 quadrangles
+  const Vertex_index n = 300, m = 150;
+  for(Vertex_index i = 0; i < n; ++i)
+    for(Vertex_index j = 0; j < m; ++j) {
+      const double a = 6.283185307179586 * i / n, b = 6.283185307179586 * j / m;
+      const double r = 1. + 0.1 * std::sin(7. * a) * std::cos(5. * b);
+      add_point(soup, (3. + r * std::cos(b)) * std::cos(a), (3. + r * std::cos(b)) * std::sin(a),
+                r * std::sin(b));
+      const Vertex_index i1 = (i + 1) % n, j1 = (j + 1) % m;
+      add_face(soup, {i * m + j, i1 * m + j, i1 * m + j1, i * m + j1});
+    }
+  const Surface_of_soup surface = surface_of_soup(soup);
+  Surface_map_options options;
+  options.no_seams = surface.diagonals;
+  const Surface_map map = map_surface(surface.mesh, options);
+  ASSERT_EQ(map_error(surface.mesh, map), "");
+  EXPECT_TRUE(map.components[0].is_cut);
+  EXPECT_TRUE(cut_faces(soup, surface, map.mesh.wedges).empty());
+  EXPECT_EQ(measure_distortion(map.mesh).flipped_faces, 0u);
+}
+
 TEST(Map_surface, components_lie_side_by_side_at_equal_density)
 {
   Polygon_soup soup = to_soup(with_hills(irregular_grid(12, 9, 3), 2., 4));
