@@ -97,6 +97,9 @@ bool is_vague(const SMP::HLSCM_report& report, const SMP::HLSCM_options& options
       && !(report.energy_gap_estimate <= options.tolerance * std::abs(report.energy));
 }
 
+// Also where rounding errors lead out of it.
+double into_square(double x) { return std::clamp(x, 0., 1.); }
+
 std::string not_converged(std::size_t iterations)
 {
   return "the tolerance was not met after " + std::to_string(iterations)
@@ -172,17 +175,6 @@ Solved_chart solve_chart(const Program_options& options, SMP::HLSCM_options libr
   return {report, parameterizer.progressive_mesh()};
 }
 
-namespace {
-
-// Into the square also where rounding errors lead out of it.
-Vector_2 into_square(const Similarity& to_square, double u, double v)
-{
-  const Vector_2 p = to_square(u, v);
-  return {std::clamp(p[0], 0., 1.), std::clamp(p[1], 0., 1.)};
-}
-
-} // namespace
-
 Similarity fit_to_unit_square(std::vector<Kernel::Point_2>& uv)
 {
   CGAL::Bbox_2 box;
@@ -194,27 +186,18 @@ Similarity fit_to_unit_square(std::vector<Kernel::Point_2>& uv)
   to_square.scale = size > 0 ? 1 / size : 1;
   to_square.shift = {-to_square.scale * box.xmin(), -to_square.scale * box.ymin()};
   for(Kernel::Point_2& point : uv) {
-    const Vector_2 p = into_square(to_square, point.x(), point.y());
-    point = Kernel::Point_2(p[0], p[1]);
+    const Vector_2 p = to_square(point.x(), point.y());
+    point = Kernel::Point_2(into_square(p[0]), into_square(p[1]));
   }
   return to_square;
 }
 
 void move_report(const Similarity& similarity, SMP::HLSCM_report& report)
 {
+  SMP::move_report(report, similarity.scale, similarity.shift[0], similarity.shift[1]);
   for(SMP::HLSCM_pin& pin : report.pins) {
-    const Vector_2 p = into_square(similarity, pin.u, pin.v);
-    pin.u = p[0];
-    pin.v = p[1];
-  }
-  const double area_scale = similarity.scale * similarity.scale;
-  if(std::isfinite(report.energy)) { // else it is too large for a number in the unit of the mesh
-    report.energy *= area_scale;
-    report.energy_gap_estimate *= area_scale;
-  }
-  if(report.flip_repair) {
-    report.flip_repair->energy_before *= area_scale;
-    report.flip_repair->energy_after *= area_scale;
+    pin.u = into_square(pin.u);
+    pin.v = into_square(pin.v);
   }
 }
 

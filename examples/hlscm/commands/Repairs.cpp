@@ -11,6 +11,15 @@ using CGAL::Indexed_mesh::Soup_finding;
 using CGAL::Indexed_mesh::Soup_repairs;
 using Json = nlohmann::ordered_json;
 
+Json to_json(const Soup_finding& finding, std::size_t elements)
+{
+  Json json = {{"count", finding.count}, {"first", Json::array()}};
+  for(std::size_t i = 0; finding && i < elements; ++i) {
+    json["first"].push_back(finding.first[i]);
+  }
+  return json;
+}
+
 Json to_json(const Soup_repairs& repairs)
 {
   struct Row
@@ -31,10 +40,7 @@ Json to_json(const Soup_repairs& repairs)
   Json json = Json::object();
   for(const Row& row : rows) {
     if(row.finding) {
-      json[row.key] = {{"count", row.finding.count}, {"first", Json::array()}};
-      for(std::size_t i = 0; i < row.elements; ++i) {
-        json[row.key]["first"].push_back(row.finding.first[i]);
-      }
+      json[row.key] = to_json(row.finding, row.elements);
     }
   }
   return json;

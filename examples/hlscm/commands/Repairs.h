@@ -8,10 +8,15 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
 namespace hlscm {
+
+/// A finding: how often, and as many indices of the first case as say where it is.
+nlohmann::ordered_json to_json(const CGAL::Indexed_mesh::Soup_finding& finding,
+                               std::size_t elements);
 
 /// What was done to a mesh before it was mapped: for each kind the number and the first elements.
 nlohmann::ordered_json to_json(const CGAL::Indexed_mesh::Soup_repairs& repairs);

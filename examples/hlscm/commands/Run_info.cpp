@@ -58,7 +58,7 @@ Plan plan_for(const Polygon_soup& soup, const Diagnosis& d)
     plan.refusal = surface_obstacles(d).front().what;
     return plan;
   }
-  const auto surface = CGAL::Indexed_mesh::surface_of_soup(soup);
+  const auto surface = surface_of(soup, d);
   plan.refusal = surface.error;
   plan.repairs = surface.repairs;
   const auto& triangles = surface.mesh.triangles;
@@ -145,10 +145,7 @@ void print_json(const std::string& file, const Diagnosis& d, const Plan& plan,
                {"orientable", d.is_orientable},
                {"manifold", d.is_manifold()}};
   for(const Row& row : findings(d)) {
-    json[row.key] = {{"count", row.finding.count}, {"first", Json::array()}};
-    for(std::size_t i = 0; row.finding && i < row.elements; ++i) {
-      json[row.key]["first"].push_back(row.finding.first[i]);
-    }
+    json[row.key] = to_json(row.finding, row.elements);
   }
   const std::vector<Obstacle> reasons = obstacles(d);
   json["warnings"] = warnings;

@@ -106,6 +106,11 @@ Read_mesh read_and_weld(const std::string& input, const Program_options& options
   return mesh;
 }
 
+Surface_of_soup surface_of(const Polygon_soup& soup, const Diagnosis& diagnosis)
+{
+  return diagnosis.is_surface() ? copy_surface(soup) : CGAL::Indexed_mesh::surface_of_soup(soup);
+}
+
 Input_surface read_surface(const std::string& input, const Program_options& options,
                            std::vector<Obstacle> (*obstacles)(const Diagnosis&),
                            Progress_bar& progress, std::vector<std::string>& warnings)
@@ -117,9 +122,7 @@ Input_surface read_surface(const std::string& input, const Program_options& opti
   if(options.is_strict || result.diagnosis.not_finite) {
     refuse_obstacles(input, obstacles(result.diagnosis));
   }
-  result.surface = result.diagnosis.is_surface()
-                       ? copy_surface(result.file.soup)
-                       : CGAL::Indexed_mesh::surface_of_soup(result.file.soup);
+  result.surface = surface_of(result.file.soup, result.diagnosis);
   if(!result.surface.is_ok()) {
     throw Program_error(input, result.surface.error
                                    + ", give a mesh with a surface instead of points, lines or a "

@@ -7,6 +7,7 @@
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/Flip_repair_options.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <iomanip>
@@ -74,6 +75,26 @@ struct HLSCM_report
   double seconds_solve = 0.;              ///< time of the iterations, and of the repair of flips
   double seconds_total = 0.;              ///< time of all
 };
+
+/// \ingroup PkgHLSCMParameterizer
+/// Says of a map what is so once each of its points \f$ p \f$ is at `scale` \f$ p + (x, y) \f$: pins,
+/// and energies, but for such as are no finite number in the unit of the mesh.
+inline void move_report(HLSCM_report& report, double scale, double x, double y)
+{
+  const double area_scale = scale * scale;
+  for(HLSCM_pin& pin : report.pins) {
+    pin.u = scale * pin.u + x;
+    pin.v = scale * pin.v + y;
+  }
+  if(std::isfinite(report.energy)) {
+    report.energy *= area_scale;
+    report.energy_gap_estimate *= area_scale;
+  }
+  if(report.flip_repair) {
+    report.flip_repair->energy_before *= area_scale;
+    report.flip_repair->energy_after *= area_scale;
+  }
+}
 
 /// \ingroup PkgHLSCMParameterizer
 /// The collapses with which a chart was parameterized, in an order of its vertices of its own.

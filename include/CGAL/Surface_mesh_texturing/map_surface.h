@@ -259,23 +259,8 @@ private:
       all.push_back({m_parts[c].mesh, m_uv[c], m_is_pinned[c]});
     lay_side_by_side(all);
     for(std::size_t c = 0; c < m_parts.size(); ++c)
-      move_report(all[c], m_result.components[c].report);
-  }
-
-  static void move_report(const Laid_component& laid,
-                          Surface_mesh_parameterization::HLSCM_report& report)
-  {
-    const double area_scale = laid.scale * laid.scale;
-    for(Pin& pin : report.pins) {
-      pin.u = laid.scale * pin.u + laid.x;
-      pin.v = laid.scale * pin.v + laid.y;
-    }
-    report.energy *= area_scale;
-    report.energy_gap_estimate *= area_scale;
-    if(report.flip_repair) {
-      report.flip_repair->energy_before *= area_scale;
-      report.flip_repair->energy_after *= area_scale;
-    }
+      Surface_mesh_parameterization::move_report(m_result.components[c].report, all[c].scale,
+                                                 all[c].x, all[c].y);
   }
 
   void write()
