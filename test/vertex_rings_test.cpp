@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -202,6 +203,9 @@ TEST(Vertex_rings, defects_are_named)
   EXPECT_EQ(defect_of(5, {{1, 2, 0}, {3, 4, 0}}), Defect(Ring_defect::SEVERAL_FANS, 0));
   EXPECT_EQ(defect_of(4, {{0, 1, 2}, {0, 1, 3}}), Defect(Ring_defect::REPEATED_HALFEDGE, 0));
   EXPECT_EQ(defect_of(4, {{2, 0, 1}, {3, 0, 1}}).first, Ring_defect::REPEATED_HALFEDGE);
+  // Each end of an edge of four triangles has one fan around the other end
+  EXPECT_EQ(defect_of(6, {{3, 5, 4}, {2, 3, 4}, {2, 4, 0}, {2, 0, 1}, {2, 1, 4}, {2, 4, 5}}),
+            Defect(Ring_defect::REPEATED_HALFEDGE, 2));
   // The same at a hub with more triangles than a line holds
   std::vector<Triangle_indices> wheel = fan(40).triangles;
   EXPECT_EQ(defect_of(41, wheel).first, Ring_defect::NONE);
@@ -212,6 +216,68 @@ TEST(Vertex_rings, defects_are_named)
   wheel.erase(wheel.begin() + 10);
   wheel.back() = wheel[20];
   EXPECT_EQ(defect_of(41, wheel), Defect(Ring_defect::REPEATED_HALFEDGE, 0));
+}
+
+// Any few triangles of six vertices, no two of which have the same ones.
+std::vector<Triangle_indices> any_triangles(Random& random, std::size_t number)
+{
+  std::vector<Triangle_indices> all;
+  for(Vertex_index a = 0; a < 6; ++a)
+    for(Vertex_index b = a + 1; b < 6; ++b)
+      for(Vertex_index c = b + 1; c < 6; ++c)
+        all.push_back({a, b, c});
+  std::vector<Triangle_indices> result;
+  for(; result.size() < number; all.pop_back()) {
+    std::swap(all[uniform_index(random, all.size())], all.back());
+    result.push_back(all.back());
+    if(random() % 2 == 0)
+      std::swap(result.back()[1], result.back()[2]);
+  }
+  return result;
+}
+
+// Whether the triangles at v are one fan: from each neighbour one of them at most leads on, to another
+// one, and that way goes by all.
+bool is_one_fan(const std::vector<Triangle_indices>& triangles, Vertex_index v)
+{
+  std::map<Vertex_index, Vertex_index> next, previous;
+  std::size_t number = 0;
+  for(const Triangle_indices& t : triangles)
+    for(int c = 0; c < 3; ++c)
+      if(t[c] == v) {
+        next[t[(c + 1) % 3]] = t[(c + 2) % 3];
+        previous[t[(c + 2) % 3]] = t[(c + 1) % 3];
+        ++number;
+      }
+  if(number == 0 || next.size() < number || previous.size() < number)
+    return false;
+  Vertex_index begin = next.begin()->first;
+  for(std::size_t i = 0; i < number && previous.count(begin) > 0; ++i)
+    begin = previous[begin];
+  std::size_t length = 0;
+  Vertex_index a = begin;
+  do {
+    a = next[a];
+    ++length;
+  } while(a != begin && next.count(a) > 0);
+  return length == number;
+}
+
+TEST(Vertex_rings, the_first_vertex_without_one_fan_is_found)
+{
+  Random random(seed);
+  std::size_t manifolds = 0;
+  for(int i = 0; i < 100000; ++i) {
+    const std::vector<Triangle_indices> triangles = any_triangles(random, 1 + random() % 8);
+    const Vertex_rings rings(
+      Indexed_triangle_mesh{std::vector<Point_3>(6, Point_3(0, 0, 0)), triangles});
+    Vertex_index v = 0;
+    while(v < 6 && is_one_fan(triangles, v))
+      ++v;
+    ASSERT_EQ(rings.defective_vertex(), v < 6 ? v : CGAL::Indexed_mesh::no_vertex) << "case " << i;
+    manifolds += v == 6;
+  }
+  EXPECT_GE(manifolds, 100u);
 }
 
 } // namespace vertex_rings_test

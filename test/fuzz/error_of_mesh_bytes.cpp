@@ -8,7 +8,8 @@
 #include <reading/Mesh_reading.h>
 #include <common/Program_error.h>
 
-#include <CGAL/Indexed_mesh/mesh_error.h>
+#include <support/soup_properties.h>
+
 #include <CGAL/Indexed_mesh/surface_of_soup.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Surface_mesh_parameterization/Distortion_measures.h>
@@ -16,6 +17,8 @@
 
 #include <cmath>
 #include <optional>
+#include <string>
+#include <string_view>
 
 namespace SMP = CGAL::Surface_mesh_parameterization;
 
@@ -96,7 +99,9 @@ std::optional<Read_mesh> read(const std::string& file_name, std::string_view byt
   }
 }
 
-std::string error_in_format(const std::string& file_name, std::string_view bytes)
+} // namespace
+
+std::string error_of_mesh_bytes(const std::string& file_name, std::string_view bytes)
 {
   Progress_bar progress(false);
   std::string message;
@@ -114,23 +119,10 @@ std::string error_in_format(const std::string& file_name, std::string_view bytes
   if(!surface.is_ok()) {
     return surface.error.empty() ? "no surface, without a sentence" : "";
   }
-  const std::string error = CGAL::Indexed_mesh::manifold_error(surface.mesh);
+  const std::string error = test_support::surface_of_soup_error(mesh->soup, surface);
   if(!error.empty()) {
-    return "the surface of the soup is none: " + error;
+    return "the surface of the soup: " + error;
   }
   const bool is_small = surface.mesh.triangles.size() <= most_faces_mapped;
   return obstacles(diagnosis).empty() && is_small ? error_of_map(surface.mesh) : "";
-}
-
-} // namespace
-
-std::string error_of_mesh_bytes(std::string_view bytes)
-{
-  for(const std::string name : {"mesh.off", "mesh.obj", "mesh.ply", "mesh.stl", "mesh.gltf", "-"}) {
-    const std::string error = error_in_format(name, bytes);
-    if(!error.empty()) {
-      return name + ": " + error;
-    }
-  }
-  return "";
 }

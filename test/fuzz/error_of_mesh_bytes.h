@@ -7,10 +7,10 @@
 #include <string>
 #include <string_view>
 
-/// Does with the bytes of a mesh file what the program `hlscm` does, in each of its formats: reads,
-/// examines and, if the mesh is a small chart, maps it. Returns what came out wrong: neither a
-/// finite map with a report that fits, nor a sentence that says why there is none. Empty if all is
-/// well; what sanitizers and assertions find ends the process.
-std::string error_of_mesh_bytes(std::string_view bytes);
+/// Does with the bytes of a mesh file of a name what the program `hlscm` does: reads, examines, makes
+/// a surface and, if the mesh is a small chart, maps it. Returns what came out wrong: neither a finite
+/// map with a report that fits, nor a sentence that says why there is none. Empty if all is well;
+/// what sanitizers and assertions find ends the process.
+std::string error_of_mesh_bytes(const std::string& file_name, std::string_view bytes);
 
 #endif // HLSCM_TEST_FUZZ_ERROR_OF_MESH_BYTES_H

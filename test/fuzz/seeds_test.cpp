@@ -1,62 +1,97 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Runs each seed of the fuzzers once; the folders of the seeds are HLSCM_FUZZ_SEEDS, of mesh files,
-// and HLSCM_PROGRESSIVE_MESH_SEEDS. Among them are the inputs on which something failed once.
+// Runs each seed of the fuzzers once; their folders are in HLSCM_FUZZ_SEEDS. Among them are the inputs
+// on which something failed once.
 
 #include "error_of_mesh_bytes.h"
 #include "error_of_progressive_mesh_bytes.h"
+#include "error_of_soup_bytes.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <string>
+#include <vector>
 
 namespace seeds_test {
 
 namespace fs = std::filesystem;
 
-std::string bytes_of(const fs::path& file)
+const std::vector<std::string> formats = {"gltf", "obj", "off", "ply", "stl"};
+
+struct Seed
 {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  fs::path path;
+  std::string bytes;
+};
+
+std::vector<Seed> seeds_of(const std::vector<std::string>& folders)
+{
+  std::vector<Seed> seeds;
+  for(const std::string& folder : folders) {
+    for(const fs::directory_entry& entry : fs::directory_iterator(fs::path(HLSCM_FUZZ_SEEDS) / folder)) {
+      std::ifstream in(entry.path(), std::ios::binary);
+      seeds.push_back({entry.path(), {std::istreambuf_iterator<char>(in), {}}});
+    }
+  }
+  return seeds;
+}
+
+// Takes the bytes for each format.
+void expect_map_or_reason(const std::string& bytes)
+{
+  for(const std::string& format : formats) {
+    EXPECT_EQ(error_of_mesh_bytes("mesh." + format, bytes), "") << format;
+  }
+  EXPECT_EQ(error_of_mesh_bytes("-", bytes), "");
 }
 
 TEST(Seeds, are_mapped_or_refused_with_a_reason)
 {
-  std::size_t seeds = 0;
-  for(const fs::directory_entry& seed : fs::directory_iterator(HLSCM_FUZZ_SEEDS)) {
-    EXPECT_EQ(error_of_mesh_bytes(bytes_of(seed.path())), "") << seed.path();
-    ++seeds;
+  const std::vector<Seed> seeds = seeds_of(formats);
+  EXPECT_GE(seeds.size(), 55u);
+  for(const Seed& seed : seeds) {
+    SCOPED_TRACE(seed.path);
+    expect_map_or_reason(seed.bytes);
   }
-  EXPECT_GE(seeds, 20u);
 }
 
 TEST(Seeds, do_not_have_to_end)
 {
-  for(const fs::directory_entry& seed : fs::directory_iterator(HLSCM_FUZZ_SEEDS)) {
-    const std::string bytes = bytes_of(seed.path());
-    for(std::size_t size = 0; size < bytes.size(); size += 1 + bytes.size() / 50) {
+  for(const Seed& seed : seeds_of(formats)) {
+    for(std::size_t size = 0; size < seed.bytes.size(); size += 1 + seed.bytes.size() / 50) {
+      SCOPED_TRACE(seed.path.string() + ", " + std::to_string(size) + " bytes");
       // a copy of its own, so that a sanitizer sees what is read behind the end
-      const std::string beginning = bytes.substr(0, size);
-      EXPECT_EQ(error_of_mesh_bytes(beginning), "") << seed.path() << ", " << size << " bytes";
+      expect_map_or_reason(seed.bytes.substr(0, size));
+    }
+  }
+}
+
+TEST(Soup_seeds, become_surfaces)
+{
+  const std::vector<Seed> seeds = seeds_of({"soup"});
+  EXPECT_GE(seeds.size(), 5u);
+  for(const Seed& seed : seeds) {
+    for(std::size_t size = 0; size <= seed.bytes.size(); ++size) {
+      EXPECT_EQ(test_support::error_of_soup_bytes(seed.bytes.substr(0, size)), "")
+          << seed.path << ", " << size << " bytes";
     }
   }
 }
 
 TEST(Progressive_mesh_seeds, do_not_have_to_end)
 {
-  std::size_t seeds = 0;
-  for(const fs::directory_entry& seed : fs::directory_iterator(HLSCM_PROGRESSIVE_MESH_SEEDS)) {
-    const std::string bytes = bytes_of(seed.path());
-    EXPECT_EQ(test_support::error_of_progressive_mesh_bytes(bytes), "") << seed.path();
-    for(std::size_t size = 0; size < bytes.size(); ++size)
-      EXPECT_EQ(test_support::error_of_progressive_mesh_bytes(bytes.substr(0, size)), "")
-          << seed.path() << ", " << size << " bytes";
-    ++seeds;
+  const std::vector<Seed> seeds = seeds_of({"pm"});
+  EXPECT_GE(seeds.size(), 12u);
+  for(const Seed& seed : seeds) {
+    for(std::size_t size = 0; size <= seed.bytes.size(); ++size) {
+      EXPECT_EQ(test_support::error_of_progressive_mesh_bytes(seed.bytes.substr(0, size)), "")
+          << seed.path << ", " << size << " bytes";
+    }
   }
-  EXPECT_GE(seeds, 12u);
 }
 
 } // namespace seeds_test

@@ -40,10 +40,12 @@ inline bool link_small_fan(Vertex_index v, const Ring_wedge* wedges, std::uint32
     return false;
   std::uint32_t start = 0, number_of_starts = 0;
   for(std::uint32_t i = 0; i < count; ++i) {
-    bool has_predecessor = false;
+    std::uint32_t predecessors = 0;
     for(std::uint32_t j = 0; j < count; ++j)
-      has_predecessor |= wedges[j][1] == wedges[i][0];
-    if(!has_predecessor) {
+      predecessors += wedges[j][1] == wedges[i][0];
+    if(predecessors > 1) // a repeated halfedge: the walk below would run in a circle
+      return false;
+    if(predecessors == 0) {
       start = i;
       ++number_of_starts;
     }
