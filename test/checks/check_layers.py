@@ -27,6 +27,7 @@ LAYERS = [
     "Indexed_mesh",
     "Surface_mesh_multiresolution",
     "Multigrid",
+    "Surface_mesh_multigrid",
     "Surface_mesh_parameterization",
     "Surface_mesh_texturing",
 ]

@@ -28,6 +28,8 @@ Iteration_report conjugate_gradients(const Iteration_parts<V>& parts, std::vecto
   Iteration_control control(stop, energy);
   double curvature = 0.;
   while(control.goes_on()) {
+    if(control.watches_residual() && control.take_residual(std::sqrt(squared_norm(r))))
+      break;
     parts.precondition(r, z);
     if(curvature > 0.) // make the direction H-orthogonal to the last one
       add_scaled(Scalar(-inner_product(q, z) / curvature), p, z);

@@ -40,6 +40,9 @@ struct Energy_stop
   /// Of the change of an unknown that is still to come; 0 if it does not matter. The first of the
   /// two tolerances that is met ends the iteration.
   double change_tolerance = 0.;
+  /// Norm of the residual that ends the iteration at once, whatever the energy; 0 if it does not
+  /// matter.
+  double residual_tolerance = 0.;
   double known_rate = 0.;          ///< see `Energy_gap_estimator`
   Gap_estimate estimate = Gap_estimate::STEADY; ///< how careful the estimate is
   std::size_t minimal_iterations = 0;  ///< at least so many
@@ -202,6 +205,19 @@ public:
   /// Returns whether `step()` wants to know the largest change of an unknown.
   bool watches_changes() const { return m_stop.change_tolerance > 0.; }
 
+  /// Returns whether `take_residual()` wants to know the norm of the residual.
+  bool watches_residual() const { return m_stop.residual_tolerance > 0.; }
+
+  /// Takes note of the norm of the residual before a step; returns whether it is small enough.
+  bool take_residual(double norm)
+  {
+    m_first_residual = (std::max)(m_first_residual, norm);
+    m_residual = norm;
+    m_report.converged = norm <= m_stop.residual_tolerance;
+    m_is_over = m_is_over || m_report.converged;
+    return m_report.converged;
+  }
+
   /// Takes note of a step that lowered the energy by `decrease` to `energy` and changed no unknown
   /// by more than `change`. `observe(part)` is told how far the iteration has come, in [0, 1];
   /// returning false stops it.
@@ -252,6 +268,9 @@ private:
   // The part that is done: on a logarithmic scale from the first estimate to the tolerance.
   double part()
   {
+    if(watches_residual())
+      return (std::max)(0., std::log(m_first_residual / m_residual)
+                              / std::log(m_first_residual / m_stop.residual_tolerance));
     if(!(m_first_gap < (std::numeric_limits<double>::infinity)()))
       m_first_gap = m_report.energy_gap;
     if(!(goal() > 0. && goal() < m_first_gap && m_report.energy_gap < m_first_gap))
@@ -264,6 +283,7 @@ private:
   Energy_stop m_stop;
   Energy_gap_estimator m_gap, m_change;
   Iteration_report m_report;
+  double m_first_residual = 0., m_residual = 0.;
   double m_first_gap = (std::numeric_limits<double>::infinity)();
   bool m_is_over = false;
 };

@@ -92,6 +92,20 @@ public:
   /// Linear time at worst.
   Vertex_index heaviest_source(Vertex_index fine) const;
 
+  /// Returns whether all sources of stencils are kept vertices, as by `Prolongation_rule::WALK`.
+  bool is_direct() const { return m_is_direct; }
+
+  /// Calls `use(i, w)` for each fine vertex `i` that gets `w` times the value of the coarse vertex
+  /// `j`: the entries of column `j` of \f$ P \f$, first that of the vertex itself. Precondition:
+  /// `is_direct()`.
+  template <class Use>
+  void for_each_fine_vertex(Vertex_index j, const Use& use) const
+  {
+    use(m_kept[j], 1.f);
+    for(std::uint32_t t = m_begin[j]; t < m_begin[j + 1]; ++t)
+      use(m_terms[t].vertex, m_terms[t].weight);
+  }
+
   /// Sets `fine` to \f$ P \f$ times `coarse`, vectors of real or complex numbers or of small
   /// vectors of Eigen.
   template <class Vector>

@@ -7,6 +7,7 @@
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Blocked_execution/memory.h>
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
+#include <CGAL/Surface_mesh_multigrid/Flat_triangle.h>
 
 #include <CGAL/boost/graph/iterator.h>
 #include <CGAL/boost/graph/properties.h>
@@ -45,112 +46,36 @@ that is the Dirichlet energy minus the signed area of the image, or
 \f$ \frac12 \f$ from corner j to j+1 and \f$ -\frac12 \f$ back. The energy of Ray and Lévy 2003,
 section 3.1, is twice this one.
 
-A triangle without area (height below 1e-9 of the longest edge) gets edge lengths that are longer by
-1e-6 of the mean edge: intrinsic mollification (Sharp and Crane 2020), which keeps the energy
-non-negative.
+A triangle without area is mollified, which keeps the energy non-negative.
 */
 class Conformal_triangle
+  : public Surface_mesh_multigrid::Flat_triangle
 {
 public:
-  typedef std::complex<double> Complex; ///< a value, or a vector in the plane of the triangle
-  /// The point type.
-  typedef Indexed_mesh::Indexed_triangle_mesh::Point_3 Point_3;
-
-  /// By how much the edges of a triangle without area are longer, in mean edges.
-  static constexpr double mollification = 1e-6;
-
-  /// Constructs the triangle.
-  ///
-  /// \param mean_edge the mean edge length of the mesh, the measure of mollification
-  Conformal_triangle(const Point_3& p0, const Point_3& p1, const Point_3& p2,
-                     double mean_edge = 1.);
-
-  /// Returns the area, after mollification.
-  double area() const { return m_area; }
-
-  /// Returns whether the triangle had no area of its own.
-  bool is_mollified() const { return m_is_mollified; }
-
-  /// Returns the cotangent at corner `j`.
-  double cotangent(int j) const
-  {
-    const Complex &a = m_edge[(j + 1) % 3], &b = m_edge[(j + 2) % 3];
-    return -(a.real() * b.real() + a.imag() * b.imag()) / (2. * m_area);
-  }
+  using Flat_triangle::Flat_triangle;
 
   /// Returns \f$ \sum_j W_j z_j / (2A) \f$, which is \f$ -2i\, \partial z / \partial \bar w \f$ in
   /// the plane \f$ w \f$ of the triangle.
   Complex antiholomorphic_derivative(const std::array<Complex, 3>& z) const
   {
     // Differences first: a translation of the image must not cost digits.
-    return (m_edge[1] * (z[1] - z[0]) + m_edge[2] * (z[2] - z[0])) / (2. * m_area);
+    return (edge(1) * (z[1] - z[0]) + edge(2) * (z[2] - z[0])) / (2. * area());
   }
 
   /// Returns \f$ \sum_j \overline{W_j} z_j / (2A) \f$, the same for
   /// \f$ \partial z / \partial w \f$, up to sign.
   Complex holomorphic_derivative(const std::array<Complex, 3>& z) const
   {
-    return (std::conj(m_edge[1]) * (z[1] - z[0]) + std::conj(m_edge[2]) * (z[2] - z[0]))
-         / (2. * m_area);
+    return (std::conj(edge(1)) * (z[1] - z[0]) + std::conj(edge(2)) * (z[2] - z[0]))
+         / (2. * area());
   }
 
   /// Returns \f$ E_T \f$.
   double energy(const std::array<Complex, 3>& z) const
   {
-    return 0.5 * m_area * std::norm(antiholomorphic_derivative(z));
+    return 0.5 * area() * std::norm(antiholomorphic_derivative(z));
   }
-
-private:
-  void lay_out(double a, double b, double c);
-
-  std::array<Complex, 3> m_edge; // W_j
-  double m_area;
-  bool m_is_mollified = false;
 };
-
-inline Conformal_triangle::Conformal_triangle(const Point_3& p0, const Point_3& p1,
-                                              const Point_3& p2, double mean_edge)
-{
-  const std::array<std::array<double, 3>, 3> e = {{
-    {p2.x() - p1.x(), p2.y() - p1.y(), p2.z() - p1.z()},
-    {p0.x() - p2.x(), p0.y() - p2.y(), p0.z() - p2.z()},
-    {p1.x() - p0.x(), p1.y() - p0.y(), p1.z() - p0.z()}}};
-  const auto dot = [](const std::array<double, 3>& a, const std::array<double, 3>& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-  };
-  const std::array<double, 3> n = {e[1][1] * e[2][2] - e[1][2] * e[2][1],
-                                   e[1][2] * e[2][0] - e[1][0] * e[2][2],
-                                   e[1][0] * e[2][1] - e[1][1] * e[2][0]};
-  const double ll[3] = {dot(e[0], e[0]), dot(e[1], e[1]), dot(e[2], e[2])};
-  const double longest = (std::max)({ll[0], ll[1], ll[2]});
-  const double twice_area = std::sqrt(dot(n, n));
-  if(!(twice_area > 1e-9 * longest)) {
-    const double extra = mollification * mean_edge;
-    m_is_mollified = true;
-    lay_out(std::sqrt(ll[0]) + extra, std::sqrt(ll[1]) + extra, std::sqrt(ll[2]) + extra);
-    return;
-  }
-  // The plane's axes: along W_2 = P_1 - P_0, and to its left
-  const double length = std::sqrt(ll[2]);
-  m_area = 0.5 * twice_area;
-  m_edge[2] = Complex(length, 0.);
-  m_edge[1] = Complex(dot(e[1], e[2]) / length, -twice_area / length);
-  m_edge[0] = -(m_edge[1] + m_edge[2]);
-}
-
-// Lays a triangle with the given lengths of W_0, W_1, W_2 out in the plane. Heron's formula in the
-// form of Kahan, stable for needles; the triangle inequality holds by the mollification.
-inline void Conformal_triangle::lay_out(double a, double b, double c)
-{
-  double l[3] = {a, b, c};
-  std::sort(l, l + 3);
-  const double product = (l[2] + (l[1] + l[0])) * (l[0] - (l[2] - l[1]))
-                       * (l[0] + (l[2] - l[1])) * (l[2] + (l[1] - l[0]));
-  m_area = 0.25 * std::sqrt((std::max)(product, 0.));
-  m_edge[2] = Complex(c, 0.);
-  m_edge[1] = Complex((a * a - b * b - c * c) / (2. * c), -2. * m_area / c);
-  m_edge[0] = -(m_edge[1] + m_edge[2]);
-}
 
 namespace internal {
 
