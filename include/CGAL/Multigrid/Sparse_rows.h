@@ -30,20 +30,42 @@ class Sparse_rows
 public:
   typedef typename Value_traits<Double>::Diagonal Diagonal; ///< an entry on the diagonal
 
-  /// A row while it is being computed.
-  struct Row
+  /// A row while it is being computed, at the end of those before it.
+  class Row
   {
+  public:
     Diagonal diagonal = Value_traits<Diagonal>::zero(); ///< the diagonal entry
-    std::vector<std::uint32_t> column; ///< the columns of the entries beside it
-    std::vector<Double> value;         ///< these entries
 
-    /// Makes it a row of zeros.
-    void clear()
+    /// Constructs a row of zeros.
+    Row(std::vector<std::uint32_t>& columns, std::vector<Double>& values)
+      : m_columns(columns), m_values(values), m_begin(columns.size())
+    {}
+    /// Returns the number of entries beside the diagonal.
+    std::uint32_t length() const { return std::uint32_t(m_columns.size() - m_begin); }
+    /// Returns the column of entry `k`.
+    std::uint32_t column(std::uint32_t k) const { return m_columns[m_begin + k]; }
+    /// Returns entry `k`.
+    Double& value(std::uint32_t k) { return m_values[m_begin + k]; }
+    /// Appends an entry of a column that the row does not have.
+    void append(std::uint32_t column, const Double& value)
     {
-      diagonal = Value_traits<Diagonal>::zero();
-      column.clear();
-      value.clear();
+      m_columns.push_back(column);
+      m_values.push_back(value);
     }
+    /// Adds to the entry of a column, which need not be there. Linear in the number of entries.
+    void add(std::uint32_t column, const Double& value)
+    {
+      const auto at = std::find(m_columns.begin() + m_begin, m_columns.end(), column);
+      if(at != m_columns.end())
+        m_values[at - m_columns.begin()] += value;
+      else
+        append(column, value);
+    }
+
+  private:
+    std::vector<std::uint32_t>& m_columns;
+    std::vector<Double>& m_values;
+    std::size_t m_begin;
   };
 
   Sparse_rows() {}
@@ -60,14 +82,13 @@ public:
     Blocked_execution::blocked_for(n, block_size, [&](std::size_t begin, std::size_t end) {
       const std::size_t b = begin / block_size;
       auto fill = prepare();
-      Row row;
+      columns[b].reserve(expected_length * (end - begin));
+      values[b].reserve(expected_length * (end - begin));
       for(std::size_t i = begin; i < end; ++i) {
-        row.clear();
+        Row row(columns[b], values[b]);
         fill(std::uint32_t(i), row);
         m_diagonal[i] = row.diagonal;
-        lengths[b].push_back(std::uint32_t(row.column.size()));
-        columns[b].insert(columns[b].end(), row.column.begin(), row.column.end());
-        values[b].insert(values[b].end(), row.value.begin(), row.value.end());
+        lengths[b].push_back(row.length());
       }
     });
     m_length = Blocked_execution::joined(lengths);
@@ -131,7 +152,7 @@ public:
   }
 
 private:
-  static constexpr std::size_t block_size = 8192;
+  static constexpr std::size_t block_size = 8192, expected_length = 16;
 
   std::vector<Diagonal> m_diagonal;
   std::vector<std::uint32_t> m_begin, m_length, m_column;

@@ -4,24 +4,20 @@
 #ifndef CGAL_SURFACE_MESH_MULTIGRID_SURFACE_MULTIGRID_SOLVER_H
 #define CGAL_SURFACE_MESH_MULTIGRID_SURFACE_MULTIGRID_SOLVER_H
 
-#include <CGAL/Multigrid/Block_values.h>
 #include <CGAL/Multigrid/Conjugate_gradient.h>
-#include <CGAL/Multigrid/Multigrid_levels.h>
-#include <CGAL/Multigrid/Sparse_cholesky.h>
 #include <CGAL/Surface_mesh_multigrid/Element_matrix.h>
 #include <CGAL/Surface_mesh_multigrid/Surface_hierarchy.h>
-#include <CGAL/Surface_mesh_multigrid/internal/galerkin_rows.h>
+#include <CGAL/Surface_mesh_multigrid/Surface_multigrid_options.h>
+#include <CGAL/Surface_mesh_multigrid/internal/Surface_system.h>
 #include <CGAL/Surface_mesh_multigrid/internal/surface_rows.h>
 
 #include <CGAL/Default.h>
 
-#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
 
 #include <chrono>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <functional>
 #include <memory>
 #include <ostream>
 #include <string>
@@ -30,45 +26,6 @@
 
 namespace CGAL {
 namespace Surface_mesh_multigrid {
-
-/// \ingroup PkgHLSCMSurfaceMultigrid
-/// The options of `Surface_multigrid_solver`.
-struct Surface_multigrid_options
-{
-  double tolerance = 1e-6; ///< of the norm of the residual to that of the right-hand side
-  std::size_t maximal_iterations = 100; ///< at most so many
-  /// The cycle that preconditions each iteration.
-  Multigrid::Schedule schedule = Multigrid::Schedule::v_cycle(3, 3);
-  /// How many threads there may be if the solver has a parallel tag; 0 stands for all.
-  unsigned int threads = 0;
-  /// Told the part done in [0, 1] from time to time; returning false stops it.
-  std::function<bool(double)> progress;
-};
-
-/// \ingroup PkgHLSCMSurfaceMultigrid
-/// What came of a matrix or of a solution.
-struct Surface_multigrid_report
-  : Indexed_mesh::Mesh_outcome
-{
-  std::size_t iterations = 0;     ///< steps of the conjugate gradient method
-  double relative_residual = 0.;  ///< the norm of the residual to that of the right-hand side
-  /// The part of the right-hand side that no solution can have, to its norm: where constants are in
-  /// the kernel of the matrix, the mean over each component is left out.
-  double unsolvable_part = 0.;
-  double seconds = 0.;            ///< of wall-clock time
-};
-
-namespace internal {
-
-// The single precision of a value.
-template <class Value>
-struct Single { typedef float type; };
-template <class Real>
-struct Single<std::complex<Real>> { typedef std::complex<float> type; };
-template <class Real, int N>
-struct Single<Eigen::Matrix<Real, N, N>> { typedef Eigen::Matrix<float, N, N> type; };
-
-} // namespace internal
 
 /*!
 \ingroup PkgHLSCMSurfaceMultigrid
@@ -153,7 +110,6 @@ public:
   {
     return set_rows(is_fixed, [&](Report& report) {
       constexpr int rows = Multigrid::Value_traits<Value>::rows;
-      typedef Indexed_mesh::Mesh_status Mesh_status;
       if(report.fail(Mesh_status::BAD_OPTIONS, internal::matrix_error<rows>(size(), matrix)))
         return Rows();
       return internal::copy_rows<Double>(*m_surface, matrix);
@@ -186,42 +142,35 @@ public:
   Report solve_all(const Bs& b, Xs& x);
 
   /// Returns the bytes that it takes beside the hierarchy.
-  std::size_t memory() const
-  {
-    std::size_t result = m_matrix.memory();
-    for(const auto& h : m_matrices)
-      result += h.memory();
-    return result;
-  }
+  std::size_t memory() const { return m_system.memory(); }
 
   /// Prints the matrices of the levels as a table, the finest first.
   friend std::ostream& operator<<(std::ostream& out, const Surface_multigrid_solver& solver)
   {
-    return solver.m_levels == nullptr ? out << Levels() : out << *solver.m_levels;
+    return solver.m_system.has_matrix() ? out << solver.m_system.levels() : out;
   }
 
 private:
-  typedef Multigrid::Value_traits<Value> Traits;
-  typedef typename Traits::Double Double;
-  typedef typename internal::Single<Value>::type Single;
-  typedef typename Traits::Inner Inner;
-  typedef Multigrid::Sparse_rows<Double> Rows;
+  typedef internal::Surface_system<Value> System;
+  typedef typename System::Double Double;
+  typedef typename System::Rows Rows;
   typedef Multigrid::Value_traits<Vector_value> Vector_traits;
-  typedef Multigrid::Sparse_cholesky<Eigen::SimplicialLLT<Eigen::SparseMatrix<Inner>>> Coarsest;
-  typedef Multigrid::Multigrid_levels<Surface_hierarchy::Prolongation, Coarsest, Single> Levels;
+  typedef Indexed_mesh::Mesh_status Mesh_status;
   typedef std::chrono::steady_clock Clock;
 
   std::size_t size() const { return m_surface->number_of_vertices(); }
+  // Says that an array has not one entry a vertex.
+  std::string size_error(const std::string& name, std::size_t entries) const
+  {
+    return entries == size() ? std::string()
+                             : name + " has " + std::to_string(entries) + " entries for "
+                                 + std::to_string(size()) + " vertices";
+  }
   template <class Make_rows>
   Report set_rows(const std::vector<bool>& is_fixed, const Make_rows& make_rows);
-  std::string rows_error(const Rows& rows) const;
-  void find_kernel(const Rows& rows);
-  void build_levels(Rows rows, Report& report);
-  bool factorize(Rows& coarsest);
-  template <class B, class X>
-  std::string vectors_error(const B& b, const X& x) const;
-  double remove_mean(Vector& f) const;
-  void residual(const Vector& f, const Vector& x, Vector& r) const;
+  template <class Values>
+  std::string values_error(const std::string& name, const Values& values) const;
+  void iterate(const Vector& f, double norm, Vector& u, Report& report);
   static double seconds_since(Clock::time_point start)
   {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -230,11 +179,7 @@ private:
   std::shared_ptr<const Surface_hierarchy> m_surface;
   Options m_options;
   std::vector<Surface_hierarchy::Point_3> m_moved; // in the order of the level
-  std::vector<bool> m_is_fixed;                    // the same
-  std::vector<bool> m_has_kernel;                  // components on which constants are
-  Multigrid::Self_adjoint_matrix<Value> m_matrix;  // rows of fixed unknowns are zero
-  std::vector<Multigrid::Self_adjoint_matrix<Single>> m_matrices;
-  std::unique_ptr<Levels> m_levels;
+  System m_system;
 };
 
 template <class Value, class Tag>
@@ -244,12 +189,8 @@ set_points(const std::vector<Surface_hierarchy::Point_3>& points)
   Report report;
   if(report.fail(*m_surface))
     return report;
-  if(points.size() != size()) {
-    report.fail(Indexed_mesh::Mesh_status::BAD_OPTIONS,
-                std::to_string(points.size()) + " points for " + std::to_string(size()) + " vertices");
-    return report;
-  }
-  if(report.fail(Indexed_mesh::Mesh_status::BAD_OPTIONS, Indexed_mesh::point_error(points)))
+  if(report.fail(Mesh_status::BAD_OPTIONS, size_error("the array of points", points.size()))
+     || report.fail(Mesh_status::BAD_OPTIONS, Indexed_mesh::point_error(points)))
     return report;
   m_moved.resize(size());
   for(std::size_t v = 0; v < size(); ++v)
@@ -257,210 +198,60 @@ set_points(const std::vector<Surface_hierarchy::Point_3>& points)
   return report;
 }
 
-// What is wrong with the rows, as a sentence: entries that are no numbers, and diagonal entries that
-// no positive semi-definite matrix without a row of zeros has.
-template <class Value, class Tag>
-std::string Surface_multigrid_solver<Value, Tag>::rows_error(const Rows& rows) const
-{
-  typedef Multigrid::Value_traits<typename Rows::Diagonal> Diagonal_traits;
-  for(std::uint32_t i = 0; i < rows.size(); ++i) {
-    double size = double(Diagonal_traits::squared_norm(rows.diagonal()[i]));
-    for(std::uint32_t k = 0; k < rows.length(i); ++k)
-      size += double(Multigrid::Value_traits<Double>::squared_norm(rows.values(i)[k]));
-    const std::string vertex = std::to_string(m_surface->source()[i]);
-    if(!std::isfinite(size))
-      return "the row of vertex " + vertex + " has an entry that is not a finite number";
-    if(!m_is_fixed[i] && !Diagonal_traits::is_positive(rows.diagonal()[i]))
-      return "the diagonal entry of vertex " + vertex
-           + " is not positive: the matrix is not positive definite";
-  }
-  return {};
-}
-
-// The components without fixed unknowns all rows of which have the sum 0, up to rounding.
-template <class Value, class Tag>
-void Surface_multigrid_solver<Value, Tag>::find_kernel(const Rows& rows)
-{
-  constexpr double rounding = 1e-22; // of squares
-  m_has_kernel.assign(m_surface->number_of_components(), true);
-  for(std::uint32_t i = 0; i < rows.size(); ++i) {
-    Double sum = Multigrid::Value_traits<Double>::zero();
-    sum += rows.diagonal()[i];
-    double size = double(Multigrid::Value_traits<Double>::squared_norm(sum));
-    for(std::uint32_t k = 0; k < rows.length(i); ++k) {
-      sum += rows.values(i)[k];
-      size += double(Multigrid::Value_traits<Double>::squared_norm(rows.values(i)[k]));
-    }
-    if(m_is_fixed[i] || Multigrid::Value_traits<Double>::squared_norm(sum) > rounding * size)
-      m_has_kernel[m_surface->component()[i]] = false;
-  }
-}
-
 template <class Value, class Tag>
 template <class Make_rows>
 Surface_multigrid_report Surface_multigrid_solver<Value, Tag>::
 set_rows(const std::vector<bool>& is_fixed, const Make_rows& make_rows)
 {
-  typedef Indexed_mesh::Mesh_status Mesh_status;
   const Blocked_execution::Tagged_threads<Tag> threads(m_options.threads);
   const auto start = Clock::now();
   Report report;
-  m_matrix = Multigrid::Self_adjoint_matrix<Value>();
-  if(report.fail(*m_surface))
+  m_system = System();
+  if(report.fail(*m_surface)
+     || (!is_fixed.empty()
+         && report.fail(Mesh_status::BAD_OPTIONS, size_error("is_fixed", is_fixed.size()))))
     return report;
-  if(!is_fixed.empty() && is_fixed.size() != size()) {
-    report.fail(Mesh_status::BAD_OPTIONS, "is_fixed has " + std::to_string(is_fixed.size())
-                                            + " entries for " + std::to_string(size()) + " vertices");
-    return report;
-  }
-  m_is_fixed.assign(size(), false);
+  std::vector<bool> is_fixed_here(size(), false);
   for(std::size_t v = 0; v < size() && !is_fixed.empty(); ++v)
-    m_is_fixed[v] = is_fixed[m_surface->source()[v]];
+    is_fixed_here[v] = is_fixed[m_surface->source()[v]];
   Rows rows = make_rows(report);
-  if(report.is_ok() && !report.fail(Mesh_status::BAD_OPTIONS, rows_error(rows))) {
-    find_kernel(rows);
-    rows.clear_rows([this](std::uint32_t i) { return m_is_fixed[i]; });
-    m_matrix = rows.template matrix<Value>();
-    build_levels(std::move(rows), report);
-  }
+  if(report.is_ok())
+    report.fail(Mesh_status::BAD_OPTIONS,
+                m_system.set(*m_surface, std::move(rows), std::move(is_fixed_here)));
   report.seconds = seconds_since(start);
   return report;
 }
 
-// The matrices of the levels, the finest first, and the cycle over them.
+// What is wrong with an array of values, as a sentence.
 template <class Value, class Tag>
-void Surface_multigrid_solver<Value, Tag>::build_levels(Rows rows, Report& report)
+template <class Values>
+std::string Surface_multigrid_solver<Value, Tag>::values_error(const std::string& name,
+                                                               const Values& values) const
 {
-  const std::size_t count = m_surface->number_of_levels();
-  m_matrices.clear();
-  m_matrices.resize(count);
-  m_matrices.back().assign(m_matrix);
-  for(std::size_t l = count - 1; l-- > 0;) {
-    rows = internal::galerkin_rows(rows, m_surface->from_coarser(l + 1));
-    m_matrices[l] = rows.template matrix<Single>();
-  }
-  m_levels = std::make_unique<Levels>();
-  for(std::size_t l = 0; l < count; ++l)
-    m_levels->add_level(m_matrices[l], l == 0 ? nullptr : &m_surface->from_coarser(l));
-  if(!factorize(rows)) {
-    m_matrix = Multigrid::Self_adjoint_matrix<Value>();
-    report.fail(Indexed_mesh::Mesh_status::FAILED, "the matrix is not positive semi-definite");
-  }
+  for(std::size_t v = 0; v < std::size_t(values.size()); ++v)
+    if(!std::isfinite(double(Vector_traits::squared_norm(Vector_value(values[v])))))
+      return name + " has an entry at vertex " + std::to_string(v) + " that is not a finite number";
+  return size_error(name, values.size());
 }
 
-// The diagonal of the coarsest matrix is shifted: by less than what single precision tells apart if
-// there is a kernel, by much less otherwise, for kernels that are not constants.
+// Lowers the residual to the tolerance, which is relative to `norm`.
 template <class Value, class Tag>
-bool Surface_multigrid_solver<Value, Tag>::factorize(Rows& coarsest)
+void Surface_multigrid_solver<Value, Tag>::iterate(const Vector& f, double norm, Vector& u,
+                                                   Report& report)
 {
-  bool has_kernel = false;
-  for(const bool is_in_kernel : m_has_kernel)
-    has_kernel = has_kernel || is_in_kernel;
-  for(const double shift : {has_kernel ? 1e-7 : 1e-10, 1e-6}) {
-    coarsest.shift_diagonal(shift);
-    if(m_levels->coarsest_solver().factorize(coarsest.template matrix<Double>()))
-      return true;
-  }
-  return false;
-}
-
-template <class Value, class Tag>
-template <class B, class X>
-std::string Surface_multigrid_solver<Value, Tag>::vectors_error(const B& b, const X& x) const
-{
-  if(m_matrix.size() == 0)
-    return "there is no matrix, or not a good one";
-  if(std::size_t(b.size()) != size() || std::size_t(x.size()) != size())
-    return "the right-hand side has " + std::to_string(b.size()) + " entries and the solution "
-         + std::to_string(x.size()) + " for " + std::to_string(size()) + " vertices";
-  for(std::size_t v = 0; v < size(); ++v) {
-    const double size_of_b = double(Vector_traits::squared_norm(b[v])),
-                 size_of_x = double(Vector_traits::squared_norm(x[v]));
-    if(!std::isfinite(size_of_b) || !std::isfinite(size_of_x))
-      return "the " + std::string(std::isfinite(size_of_b) ? "solution" : "right-hand side")
-           + " has an entry at vertex " + std::to_string(v) + " that is not a finite number";
-  }
-  return {};
-}
-
-// Removes the means over the components that have constants in the kernel; returns the norm of what
-// was removed.
-template <class Value, class Tag>
-double Surface_multigrid_solver<Value, Tag>::remove_mean(Vector& f) const
-{
-  const auto& component = m_surface->component();
-  std::vector<Vector_value> sum(m_has_kernel.size(), Vector_traits::zero());
-  std::vector<std::size_t> number(sum.size(), 0);
-  for(std::size_t i = 0; i < f.size(); ++i) {
-    sum[component[i]] += f[i];
-    ++number[component[i]];
-  }
-  double removed = 0.;
-  for(std::size_t c = 0; c < sum.size(); ++c) {
-    sum[c] = sum[c] * (typename Traits::Real(m_has_kernel[c] ? 1. : 0.)
-                       / typename Traits::Real(number[c]));
-    removed += double(number[c]) * double(Vector_traits::squared_norm(sum[c]));
-  }
-  for(std::size_t i = 0; i < f.size(); ++i)
-    f[i] -= sum[component[i]];
-  return std::sqrt(removed);
-}
-
-// f - A x, 0 at fixed unknowns.
-template <class Value, class Tag>
-void Surface_multigrid_solver<Value, Tag>::residual(const Vector& f, const Vector& x,
-                                                    Vector& r) const
-{
-  r.resize(x.size());
-  m_matrix.multiply(x, r);
-  Multigrid::for_each_index(r.size(), [&](std::size_t i) { r[i] = f[i] - r[i]; });
-}
-
-template <class Value, class Tag>
-template <class B, class X>
-Surface_multigrid_report Surface_multigrid_solver<Value, Tag>::solve(const B& b, X& x)
-{
-  typedef Indexed_mesh::Mesh_status Mesh_status;
-  const Blocked_execution::Tagged_threads<Tag> threads(m_options.threads);
-  const auto start = Clock::now();
-  Report report;
-  if(report.fail(*m_surface) || report.fail(Mesh_status::BAD_OPTIONS, vectors_error(b, x)))
-    return report;
-  const auto& source = m_surface->source();
-  const Vector_value zero = Vector_traits::zero();
-  Vector f(size()), u(size()), given(size()), r;
-  Multigrid::for_each_index(size(), [&](std::size_t i) {
-    f[i] = m_is_fixed[i] ? zero : Vector_value(b[source[i]]);
-    u[i] = x[source[i]];
-    given[i] = m_is_fixed[i] ? u[i] : zero;
-  });
-  const double norm_of_b = std::sqrt(Multigrid::squared_norm(f));
-  report.unsolvable_part = norm_of_b > 0. ? remove_mean(f) / norm_of_b : 0.;
-  residual(f, given, r);
-  const double norm = std::sqrt(Multigrid::squared_norm(r));
   Multigrid::Energy_stop stop;
   stop.tolerance = 0.;
   stop.residual_tolerance = m_options.tolerance * norm;
   stop.maximal_iterations = m_options.maximal_iterations;
   bool goes_on = true;
-  if(norm > 0.) {
-    const auto iterations = Multigrid::minimize_energy(
-      m_matrix, f, u,
-      [&](const Vector& defect, Vector& z) {
-        m_levels->precondition(m_options.schedule, m_surface->number_of_levels() - 1, defect, z);
-        if(report.unsolvable_part > 0.)
-          remove_mean(z);
-      },
-      stop, [&](double part) {
-        return goes_on = !m_options.progress || m_options.progress(part);
-      });
-    report.iterations = iterations.iterations;
-    residual(f, u, r);
-    report.relative_residual = std::sqrt(Multigrid::squared_norm(r)) / norm;
-  } else
-    u = given;
-  Multigrid::for_each_index(size(), [&](std::size_t i) { x[source[i]] = u[i]; });
-  constexpr double rounding = 1.1; // the residual of the iteration is not that of x
+  const auto observe
+    = [&](double part) { return goes_on = !m_options.progress || m_options.progress(part); };
+  const auto precondition
+    = [this](const Vector& r, Vector& z) { m_system.precondition(m_options.schedule, r, z); };
+  report.iterations
+    = Multigrid::minimize_energy(m_system.matrix(), f, u, precondition, stop, observe).iterations;
+  report.relative_residual = m_system.norm_of_residual(f, u) / norm;
+  constexpr double rounding = 1.1; // the iteration updates its residual, it does not compute it
   if(!goes_on)
     report.cancel();
   else if(!(report.relative_residual <= rounding * m_options.tolerance))
@@ -469,6 +260,38 @@ Surface_multigrid_report Surface_multigrid_solver<Value, Tag>::solve(const B& b,
                   + " of the right-hand side after " + std::to_string(report.iterations)
                   + " iterations; the matrix may not be positive semi-definite, or the tolerance is "
                     "beyond rounding");
+}
+
+template <class Value, class Tag>
+template <class B, class X>
+Surface_multigrid_report Surface_multigrid_solver<Value, Tag>::solve(const B& b, X& x)
+{
+  const Blocked_execution::Tagged_threads<Tag> threads(m_options.threads);
+  const auto start = Clock::now();
+  Report report;
+  if(report.fail(*m_surface)
+     || report.fail(Mesh_status::BAD_OPTIONS,
+                    m_system.has_matrix() ? "" : "there is no matrix, or not a good one")
+     || report.fail(Mesh_status::BAD_OPTIONS, values_error("the right-hand side", b))
+     || report.fail(Mesh_status::BAD_OPTIONS, values_error("the solution", x)))
+    return report;
+  const auto& source = m_surface->source();
+  const Vector_value zero = Vector_traits::zero();
+  Vector f(size()), u(size()), given(size());
+  Multigrid::for_each_index(size(), [&](std::size_t i) {
+    f[i] = m_system.is_fixed(i) ? zero : Vector_value(b[source[i]]);
+    u[i] = Vector_value(x[source[i]]);
+    given[i] = m_system.is_fixed(i) ? u[i] : zero;
+  });
+  const double norm_of_b = std::sqrt(Multigrid::squared_norm(f));
+  report.unsolvable_part = norm_of_b > 0. ? m_system.remove_mean(f) / norm_of_b : 0.;
+  const double norm = m_system.norm_of_residual(f, given);
+  constexpr double rounding = 1e-15;
+  if(norm > rounding * norm_of_b)
+    iterate(f, norm, u, report);
+  else
+    u = given;
+  Multigrid::for_each_index(size(), [&](std::size_t i) { x[source[i]] = u[i]; });
   report.seconds = seconds_since(start);
   return report;
 }
@@ -479,7 +302,7 @@ Surface_multigrid_report Surface_multigrid_solver<Value, Tag>::solve_all(const B
 {
   Report worst;
   if(b.size() != x.size()) {
-    worst.fail(Indexed_mesh::Mesh_status::BAD_OPTIONS,
+    worst.fail(Mesh_status::BAD_OPTIONS,
                std::to_string(b.size()) + " right-hand sides for " + std::to_string(x.size())
                  + " solutions");
     return worst;

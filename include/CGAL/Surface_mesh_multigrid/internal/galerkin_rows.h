@@ -8,6 +8,7 @@
 #include <CGAL/Surface_mesh_multiresolution/Prolongation.h>
 
 #include <array>
+#include <complex>
 #include <cstdint>
 #include <vector>
 
@@ -46,59 +47,89 @@ public:
   }
 
   const Row& operator[](std::uint32_t i) const { return m_rows[i]; }
+  bool is_fixed(std::uint32_t i) const
+  {
+    const auto& w = m_rows[i].weight;
+    return w[0] + w[1] + w[2] == 0.f;
+  }
 
 private:
   std::vector<Row> m_rows;
 };
 
-// The coarse matrix P^H A P, row by row. An unknown that only fixed ones get values from has a row of
-// zeros.
+// One row of P^H A P at a time, without branches that depend on the pattern: sums are formed in an
+// array of all columns, and a column is listed when it is met first.
+template <class Double>
+class Galerkin_row
+{
+public:
+  typedef Multigrid::Sparse_rows<Double> Rows;
+
+  Galerkin_row(const Rows& fine, const Surface_mesh_multiresolution::Prolongation& p,
+               const Transfer_rows& transfer)
+    : m_fine(fine), m_prolongation(p), m_transfer(transfer)
+    , m_sum(p.kept().size(), Multigrid::Value_traits<Double>::zero()), m_seen(m_sum.size(), none)
+  {}
+
+  void operator()(std::uint32_t I, typename Rows::Row& row)
+  {
+    m_seen[I] = I; // the diagonal is not listed
+    m_count = 0;
+    m_prolongation.for_each_fine_vertex(I, [&](std::uint32_t i, float w) {
+      if(m_transfer.is_fixed(i))
+        return;
+      const std::uint32_t length = m_fine.length(i);
+      if(m_column.size() < m_count + 3 * (length + 1))
+        m_column.resize(2 * (m_count + 3 * (length + 1)));
+      add(I, w, i, m_fine.diagonal()[i]);
+      for(std::uint32_t k = 0; k < length; ++k)
+        add(I, w, m_fine.columns(i)[k], m_fine.values(i)[k]);
+    });
+    if constexpr(Multigrid::Value_traits<Double>::is_complex)
+      row.diagonal = std::real(m_sum[I]);
+    else
+      row.diagonal = m_sum[I];
+    m_sum[I] = Multigrid::Value_traits<Double>::zero();
+    for(std::uint32_t k = 0; k < m_count; ++k) {
+      row.append(m_column[k], m_sum[m_column[k]]);
+      m_sum[m_column[k]] = Multigrid::Value_traits<Double>::zero();
+    }
+  }
+
+private:
+  static constexpr std::uint32_t none = std::uint32_t(-1);
+
+  // Adds w times an entry of column j of the fine matrix times row j of P.
+  template <class Entry>
+  void add(std::uint32_t I, double w, std::uint32_t j, const Entry& entry)
+  {
+    const Transfer_rows::Row& r = m_transfer[j];
+    for(int c = 0; c < 3; ++c) {
+      const std::uint32_t J = r.source[c];
+      m_sum[J] += (w * double(r.weight[c])) * entry;
+      m_column[m_count] = J;
+      m_count += m_seen[J] != I ? 1 : 0;
+      m_seen[J] = I;
+    }
+  }
+
+  const Rows& m_fine;
+  const Surface_mesh_multiresolution::Prolongation& m_prolongation;
+  const Transfer_rows& m_transfer;
+  std::vector<Double> m_sum;         // by column
+  std::vector<std::uint32_t> m_seen; // by column, the row in which it was met last
+  std::vector<std::uint32_t> m_column;
+  std::uint32_t m_count = 0;
+};
+
+// The coarse matrix P^H A P. An unknown that only fixed ones get values from has a row of zeros.
 template <class Double>
 Multigrid::Sparse_rows<Double> galerkin_rows(const Multigrid::Sparse_rows<Double>& fine,
                                              const Surface_mesh_multiresolution::Prolongation& p)
 {
-  typedef typename Multigrid::Sparse_rows<Double>::Diagonal Diagonal;
-  constexpr std::uint32_t none = std::uint32_t(-1);
   const Transfer_rows transfer(p, fine);
-  const std::size_t n = p.kept().size();
-  return Multigrid::Sparse_rows<Double>(n, [&] {
-    return [&, place = std::vector<std::uint32_t>(n, none)](std::uint32_t I, auto& row) mutable {
-      const auto add = [&](std::uint32_t J, const Double& value) {
-        if(place[J] == none) {
-          place[J] = std::uint32_t(row.column.size());
-          row.column.push_back(J);
-          row.value.push_back(value);
-        } else
-          row.value[place[J]] += value;
-      };
-      // Adds the product of an entry of the fine matrix with row j of P.
-      const auto add_entry = [&](double w, std::uint32_t j, const auto& entry) {
-        const Transfer_rows::Row& r = transfer[j];
-        for(int c = 0; c < 3; ++c) {
-          const double weight = w * double(r.weight[c]);
-          if(weight == 0.)
-            continue;
-          if(r.source[c] != I)
-            add(r.source[c], Double(weight * entry));
-          else if constexpr(Multigrid::Value_traits<Double>::is_complex)
-            row.diagonal += weight * std::real(entry);
-          else
-            row.diagonal += Diagonal(weight * entry);
-        }
-      };
-      p.for_each_fine_vertex(I, [&](std::uint32_t i, float w) {
-        if(transfer[i].weight[0] + transfer[i].weight[1] + transfer[i].weight[2] == 0.f)
-          return; // fixed
-        add_entry(w, i, fine.diagonal()[i]);
-        const std::uint32_t* column = fine.columns(i);
-        const Double* value = fine.values(i);
-        for(std::uint32_t k = 0; k < fine.length(i); ++k)
-          add_entry(w, column[k], value[k]);
-      });
-      for(const std::uint32_t J : row.column)
-        place[J] = none;
-    };
-  });
+  return Multigrid::Sparse_rows<Double>(
+    p.kept().size(), [&] { return Galerkin_row<Double>(fine, p, transfer); });
 }
 
 } // namespace internal

@@ -19,19 +19,6 @@ namespace CGAL {
 namespace Surface_mesh_multigrid {
 namespace internal {
 
-// Adds `value` to the entry of a column.
-template <class Row, class Double>
-void add_to_row(Row& row, std::uint32_t column, const Double& value)
-{
-  const auto at = std::find(row.column.begin(), row.column.end(), column);
-  if(at != row.column.end())
-    row.value[at - row.column.begin()] += value;
-  else {
-    row.column.push_back(column);
-    row.value.push_back(value);
-  }
-}
-
 // The sum of the element matrices of all triangles.
 template <class Double, class Element>
 Multigrid::Sparse_rows<Double>
@@ -53,8 +40,8 @@ assemble_rows(const Surface_hierarchy& surface, const std::vector<Surface_hierar
       for(const std::uint32_t* corner = at.begin(v); corner != at.end(v); ++corner) {
         const std::uint32_t t = *corner / 3, c = *corner % 3, next = (c + 1) % 3, last = (c + 2) % 3;
         row.diagonal += elements[t].diagonal[c];
-        add_to_row(row, triangles[t][next], elements[t].beside[last]);
-        add_to_row(row, triangles[t][last], Double(Traits::adjoint(elements[t].beside[next])));
+        row.add(triangles[t][next], elements[t].beside[last]);
+        row.add(triangles[t][last], Double(Traits::adjoint(elements[t].beside[next])));
       }
     };
   });
@@ -85,14 +72,14 @@ Multigrid::Sparse_rows<Double> copy_rows(const Surface_hierarchy& surface, const
             if(column == v)
               row.diagonal = std::real(value);
             else
-              add_to_row(row, column, value);
+              row.add(column, value);
           } else {
             Double block = Traits::zero();
             block(r, c) = e.value();
             if(column == v)
               row.diagonal += block;
             else
-              add_to_row(row, column, block);
+              row.add(column, block);
           }
         }
     };

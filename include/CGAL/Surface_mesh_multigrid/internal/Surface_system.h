@@ -1,0 +1,218 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_MULTIGRID_INTERNAL_SURFACE_SYSTEM_H
+#define CGAL_SURFACE_MESH_MULTIGRID_INTERNAL_SURFACE_SYSTEM_H
+
+#include <CGAL/Multigrid/Block_values.h>
+#include <CGAL/Multigrid/Multigrid_levels.h>
+#include <CGAL/Multigrid/Sparse_cholesky.h>
+#include <CGAL/Multigrid/Sparse_rows.h>
+#include <CGAL/Surface_mesh_multigrid/Surface_hierarchy.h>
+#include <CGAL/Surface_mesh_multigrid/internal/galerkin_rows.h>
+
+#include <Eigen/SparseCholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_multigrid {
+namespace internal {
+
+// The single precision of a value.
+template <class Value>
+struct Single { typedef float type; };
+template <class Real>
+struct Single<std::complex<Real>> { typedef std::complex<float> type; };
+template <class Real, int N>
+struct Single<Eigen::Matrix<Real, N, N>> { typedef Eigen::Matrix<float, N, N> type; };
+
+// A matrix on the vertices of a surface with fixed unknowns, and its products with the prolongations
+// on the coarser levels. Vectors are in the order of the hierarchy.
+template <class Value>
+class Surface_system
+{
+public:
+  typedef Multigrid::Value_traits<Value> Traits;
+  typedef typename Traits::Double Double;
+  typedef Multigrid::Sparse_rows<Double> Rows;
+  typedef Multigrid::Value_vector<Value> Vector;
+  typedef typename Single<Value>::type Level_value;
+  typedef Multigrid::Sparse_cholesky<
+            Eigen::SimplicialLLT<Eigen::SparseMatrix<typename Traits::Inner>>> Coarsest;
+  typedef Multigrid::Multigrid_levels<Surface_hierarchy::Prolongation, Coarsest, Level_value> Levels;
+
+  // Takes the matrix; returns a sentence on what is wrong with it, or nothing.
+  std::string set(const Surface_hierarchy& surface, Rows rows, std::vector<bool> is_fixed);
+
+  bool has_matrix() const { return m_levels != nullptr; }
+  const Multigrid::Self_adjoint_matrix<Value>& matrix() const { return m_matrix; }
+  const Levels& levels() const { return *m_levels; }
+  bool is_fixed(std::size_t i) const { return m_is_fixed[i]; }
+
+  // One cycle.
+  void precondition(const Multigrid::Schedule& schedule, const Vector& r, Vector& z)
+  {
+    m_levels->precondition(schedule, m_matrices.size() - 1, r, z);
+    remove_mean(z);
+  }
+
+  // Removes the means over the components that have constants in the kernel; returns the norm of
+  // what was removed.
+  double remove_mean(Vector& f) const;
+
+  // The norm of f - A x, without fixed unknowns.
+  double norm_of_residual(const Vector& f, const Vector& x) const
+  {
+    Vector r(x.size());
+    m_matrix.multiply(x, r);
+    Multigrid::for_each_index(r.size(), [&](std::size_t i) { r[i] = f[i] - r[i]; });
+    return std::sqrt(Multigrid::squared_norm(r));
+  }
+
+  std::size_t memory() const
+  {
+    std::size_t result = m_matrix.memory();
+    for(const auto& h : m_matrices)
+      result += h.memory();
+    return result;
+  }
+
+private:
+  typedef Multigrid::Value_traits<typename Multigrid::Value_traits<Value>::Vector_value> Vector_traits;
+
+  std::string rows_error(const Surface_hierarchy& surface, const Rows& rows) const;
+  void find_kernel(const Surface_hierarchy& surface, const Rows& rows);
+  bool has_kernel() const
+  {
+    return std::find(m_has_kernel.begin(), m_has_kernel.end(), true) != m_has_kernel.end();
+  }
+  bool factorize(Rows& coarsest);
+
+  std::vector<bool> m_is_fixed;
+  std::vector<bool> m_has_kernel;                  // components on which constants are
+  const std::vector<std::uint32_t>* m_component = nullptr;
+  Multigrid::Self_adjoint_matrix<Value> m_matrix;  // rows of fixed unknowns are zero
+  std::vector<Multigrid::Self_adjoint_matrix<Level_value>> m_matrices;
+  std::unique_ptr<Levels> m_levels;
+};
+
+template <class Value>
+std::string Surface_system<Value>::set(const Surface_hierarchy& surface, Rows rows,
+                                       std::vector<bool> is_fixed)
+{
+  m_levels.reset();
+  m_is_fixed = std::move(is_fixed);
+  m_component = &surface.component();
+  const std::string error = rows_error(surface, rows);
+  if(!error.empty())
+    return error;
+  find_kernel(surface, rows);
+  rows.clear_rows([this](std::uint32_t i) { return m_is_fixed[i]; });
+  m_matrix = rows.template matrix<Value>();
+  const std::size_t count = surface.number_of_levels();
+  m_matrices.clear();
+  m_matrices.resize(count);
+  m_matrices.back().assign(m_matrix);
+  for(std::size_t l = count - 1; l-- > 0;) {
+    rows = galerkin_rows(rows, surface.from_coarser(l + 1));
+    m_matrices[l] = rows.template matrix<Level_value>();
+  }
+  m_levels = std::make_unique<Levels>();
+  for(std::size_t l = 0; l < count; ++l)
+    m_levels->add_level(m_matrices[l], l == 0 ? nullptr : &surface.from_coarser(l));
+  if(factorize(rows))
+    return {};
+  m_levels.reset();
+  return "the matrix is not positive semi-definite";
+}
+
+// What is wrong with the rows, as a sentence: entries that are no numbers, and diagonal entries that
+// no positive semi-definite matrix without a row of zeros has.
+template <class Value>
+std::string Surface_system<Value>::rows_error(const Surface_hierarchy& surface, const Rows& rows) const
+{
+  typedef Multigrid::Value_traits<typename Rows::Diagonal> Diagonal_traits;
+  for(std::uint32_t i = 0; i < rows.size(); ++i) {
+    double size = double(Diagonal_traits::squared_norm(rows.diagonal()[i]));
+    for(std::uint32_t k = 0; k < rows.length(i); ++k)
+      size += double(Multigrid::Value_traits<Double>::squared_norm(rows.values(i)[k]));
+    const std::string vertex = std::to_string(surface.source()[i]);
+    if(!std::isfinite(size))
+      return "the row of vertex " + vertex + " has an entry that is not a finite number";
+    if(!m_is_fixed[i] && !Diagonal_traits::is_positive(rows.diagonal()[i]))
+      return "the diagonal entry of vertex " + vertex
+           + " is not positive: the matrix is not positive definite";
+  }
+  return {};
+}
+
+// The components without fixed unknowns all rows of which have the sum 0, up to rounding.
+template <class Value>
+void Surface_system<Value>::find_kernel(const Surface_hierarchy& surface, const Rows& rows)
+{
+  constexpr double rounding = 1e-22; // of squares
+  m_has_kernel.assign(surface.number_of_components(), true);
+  for(std::uint32_t i = 0; i < rows.size(); ++i) {
+    Double sum = Multigrid::Value_traits<Double>::zero();
+    sum += rows.diagonal()[i];
+    double size = double(Multigrid::Value_traits<Double>::squared_norm(sum));
+    for(std::uint32_t k = 0; k < rows.length(i); ++k) {
+      sum += rows.values(i)[k];
+      size += double(Multigrid::Value_traits<Double>::squared_norm(rows.values(i)[k]));
+    }
+    if(m_is_fixed[i] || Multigrid::Value_traits<Double>::squared_norm(sum) > rounding * size)
+      m_has_kernel[surface.component()[i]] = false;
+  }
+}
+
+// The diagonal of the coarsest matrix is shifted: by less than what single precision tells apart if
+// there is a kernel, by much less otherwise, for kernels that are not constants.
+template <class Value>
+bool Surface_system<Value>::factorize(Rows& coarsest)
+{
+  for(const double shift : {has_kernel() ? 1e-7 : 1e-10, 1e-6}) {
+    coarsest.shift_diagonal(shift);
+    if(m_levels->coarsest_solver().factorize(coarsest.template matrix<Double>()))
+      return true;
+  }
+  return false;
+}
+
+template <class Value>
+double Surface_system<Value>::remove_mean(Vector& f) const
+{
+  typedef typename Vector::value_type Vector_value;
+  if(!has_kernel())
+    return 0.;
+  const std::vector<std::uint32_t>& component = *m_component;
+  std::vector<Vector_value> sum(m_has_kernel.size(), Vector_traits::zero());
+  std::vector<std::size_t> number(sum.size(), 0);
+  for(std::size_t i = 0; i < f.size(); ++i) {
+    sum[component[i]] += f[i];
+    ++number[component[i]];
+  }
+  double removed = 0.;
+  for(std::size_t c = 0; c < sum.size(); ++c) {
+    sum[c] = sum[c] * (typename Traits::Real(m_has_kernel[c] ? 1. : 0.)
+                       / typename Traits::Real(number[c]));
+    removed += double(number[c]) * double(Vector_traits::squared_norm(sum[c]));
+  }
+  for(std::size_t i = 0; i < f.size(); ++i)
+    f[i] -= sum[component[i]];
+  return std::sqrt(removed);
+}
+
+} // namespace internal
+} // namespace Surface_mesh_multigrid
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_MULTIGRID_INTERNAL_SURFACE_SYSTEM_H
