@@ -7,6 +7,7 @@
 
 set(source ${CMAKE_CURRENT_BINARY_DIR}/HLSCM_compiled.cpp)
 file(CONFIGURE OUTPUT ${source} @ONLY CONTENT "#define CGAL_HLSCM_SOURCE
+#include <CGAL/Surface_mesh_multigrid/Surface_multigrid_solver.h>
 #include <CGAL/Surface_mesh_multiresolution/build_textured_progressive_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/Hierarchical_conformal_map.h>

@@ -5,13 +5,17 @@
 #define CGAL_SURFACE_MESH_MULTIGRID_SURFACE_HIERARCHY_H
 
 #include <CGAL/Blocked_execution/Level_table.h>
-#include <CGAL/Blocked_execution/sort_and_select.h>
-#include <CGAL/Indexed_mesh/Triangle_adjacency.h>
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Indexed_mesh/mesh_arrays.h>
 #include <CGAL/Indexed_mesh/prepare_mesh.h>
 #include <CGAL/Surface_mesh_multigrid/Flat_triangle.h>
+#include <CGAL/Surface_mesh_multiresolution/Prolongation.h>
+#ifdef CGAL_HLSCM_DEFINITIONS
+#include <CGAL/Blocked_execution/sort_and_select.h>
+#include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
 #include <CGAL/Surface_mesh_multiresolution/Mesh_hierarchy.h>
+#endif
 
 #include <CGAL/boost/graph/helpers.h>
 
@@ -204,7 +208,9 @@ private:
   double m_mean_edge = 1.;
 };
 
-inline std::string
+#ifdef CGAL_HLSCM_DEFINITIONS
+
+CGAL_HLSCM_INLINE std::string
 Surface_hierarchy::options_error(const Mesh& mesh, const Surface_hierarchy_options& options) const
 {
   if(!(options.ratio > 1.))
@@ -215,7 +221,7 @@ Surface_hierarchy::options_error(const Mesh& mesh, const Surface_hierarchy_optio
   return {};
 }
 
-inline void Surface_hierarchy::build(const Mesh& mesh, const Surface_hierarchy_options& options)
+CGAL_HLSCM_INLINE void Surface_hierarchy::build(const Mesh& mesh, const Surface_hierarchy_options& options)
 {
   using Indexed_mesh::Mesh_status;
   if(fail(Mesh_status::BAD_MESH, Indexed_mesh::surface_error(mesh))
@@ -233,7 +239,7 @@ inline void Surface_hierarchy::build(const Mesh& mesh, const Surface_hierarchy_o
   find_components();
 }
 
-inline void Surface_hierarchy::build_levels(Indexed_mesh::Prepared_mesh prepared,
+CGAL_HLSCM_INLINE void Surface_hierarchy::build_levels(Indexed_mesh::Prepared_mesh prepared,
                                             const Surface_hierarchy_options& options)
 {
   namespace SMM = Surface_mesh_multiresolution;
@@ -262,7 +268,7 @@ inline void Surface_hierarchy::build_levels(Indexed_mesh::Prepared_mesh prepared
 
 // Takes points and triangles of the user in the order of the level, sorted by their smallest
 // vertices.
-inline void Surface_hierarchy::take_surface(const Mesh& mesh)
+CGAL_HLSCM_INLINE void Surface_hierarchy::take_surface(const Mesh& mesh)
 {
   const std::size_t n = m_source.size();
   std::vector<Vertex_index> rank(n);
@@ -293,7 +299,7 @@ inline void Surface_hierarchy::take_surface(const Mesh& mesh)
   });
 }
 
-inline void Surface_hierarchy::find_components()
+CGAL_HLSCM_INLINE void Surface_hierarchy::find_components()
 {
   Indexed_mesh::Disjoint_sets sets(m_source.size());
   for(const Triangle_indices& t : m_triangles) {
@@ -306,6 +312,8 @@ inline void Surface_hierarchy::find_components()
     m_component[v] = first == v ? std::uint32_t(m_components++) : m_component[first];
   }
 }
+
+#endif // CGAL_HLSCM_DEFINITIONS
 
 } // namespace Surface_mesh_multigrid
 } // namespace CGAL

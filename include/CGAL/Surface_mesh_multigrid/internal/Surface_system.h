@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_MULTIGRID_INTERNAL_SURFACE_SYSTEM_H
 #define CGAL_SURFACE_MESH_MULTIGRID_INTERNAL_SURFACE_SYSTEM_H
 
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Multigrid/Block_values.h>
 #include <CGAL/Multigrid/Multigrid_levels.h>
 #include <CGAL/Multigrid/Sparse_cholesky.h>
@@ -210,6 +211,16 @@ double Surface_system<Value>::remove_mean(Vector& f) const
     f[i] -= sum[component[i]];
   return std::sqrt(removed);
 }
+
+#ifdef CGAL_HLSCM_COMPILED
+#ifdef CGAL_HLSCM_SOURCE
+template class Surface_system<double>;
+template class Surface_system<std::complex<double>>;
+#else
+extern template class Surface_system<double>;
+extern template class Surface_system<std::complex<double>>;
+#endif
+#endif
 
 } // namespace internal
 } // namespace Surface_mesh_multigrid

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_MULTIGRID_INTERNAL_SURFACE_ROWS_H
 #define CGAL_SURFACE_MESH_MULTIGRID_INTERNAL_SURFACE_ROWS_H
 
+#include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 #include <CGAL/Multigrid/Sparse_rows.h>
 #include <CGAL/Surface_mesh_multigrid/Element_matrix.h>
 
