@@ -3,7 +3,7 @@
 
 #include "formats/Gltf_accessor.h"
 
-#include "formats/little_endian.h"
+#include "formats/byte_order.h"
 
 #include <algorithm>
 #include <limits>

@@ -3,7 +3,7 @@
 
 #include "formats/Gltf_file.h"
 
-#include "formats/little_endian.h"
+#include "formats/byte_order.h"
 
 #include <array>
 #include <cmath>

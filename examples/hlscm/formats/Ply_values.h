@@ -7,39 +7,45 @@
 #include "formats/Mesh_source.h"
 #include "formats/Ply_header.h"
 #include "formats/Text_scanner.h"
-#include "formats/little_endian.h"
+#include "formats/byte_order.h"
 
-#include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <string>
 
 namespace hlscm {
 namespace ply {
 
-/// The value of a type whose bytes are there, the lowest first. All types fit into a double.
-inline double decode(Type type, const char* bytes)
+/// The number that bytes are in a binary encoding. All types fit into a double.
+template <typename T>
+double decode(Encoding encoding, const char* bytes)
+{
+  return double(encoding == Encoding::BIG_ENDIAN_BINARY ? big_endian<T>(bytes)
+                                                        : little_endian<T>(bytes));
+}
+
+/// The value of a type whose bytes are there.
+inline double decode(Type type, Encoding encoding, const char* bytes)
 {
   switch(type) {
   case Type::INT8:
-    return little_endian<std::int8_t>(bytes);
+    return decode<std::int8_t>(encoding, bytes);
   case Type::UINT8:
-    return little_endian<std::uint8_t>(bytes);
+    return decode<std::uint8_t>(encoding, bytes);
   case Type::INT16:
-    return little_endian<std::int16_t>(bytes);
+    return decode<std::int16_t>(encoding, bytes);
   case Type::UINT16:
-    return little_endian<std::uint16_t>(bytes);
+    return decode<std::uint16_t>(encoding, bytes);
   case Type::INT32:
-    return little_endian<std::int32_t>(bytes);
+    return decode<std::int32_t>(encoding, bytes);
   case Type::UINT32:
-    return little_endian<std::uint32_t>(bytes);
+    return decode<std::uint32_t>(encoding, bytes);
   case Type::FLOAT32:
-    return double(little_endian<float>(bytes));
+    return decode<float>(encoding, bytes);
   case Type::FLOAT64:
     break;
   }
-  return little_endian<double>(bytes);
+  return decode<double>(encoding, bytes);
 }
 
 /// Reads the values one after the other, whatever the encoding.
@@ -76,13 +82,9 @@ public:
       m_position = m_source.end;
       return std::nullopt;
     }
-    char bytes[8];
-    std::memcpy(bytes, m_position, size);
-    if(m_encoding == Encoding::BIG_ENDIAN_BINARY) {
-      std::reverse(bytes, bytes + size);
-    }
+    const char* const bytes = m_position;
     m_position += size;
-    return decode(type, bytes);
+    return decode(type, m_encoding, bytes);
   }
 
   /// Whether the bytes are those that the machine has in memory.

@@ -136,7 +136,8 @@ private:
     for(std::size_t v = 0; v < element.count; ++v, m_reader.skip(size)) {
       m_source.advance(m_reader.position(), v);
       for(std::size_t i = 0; i < number; ++i) {
-        values[i] = decode(wanted[i].first, m_reader.position() + wanted[i].second);
+        values[i] = decode(wanted[i].first, Encoding::LITTLE_ENDIAN_BINARY,
+                           m_reader.position() + wanted[i].second);
       }
       add_vertex(values, of_use.has_uv);
     }

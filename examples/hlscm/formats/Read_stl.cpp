@@ -4,7 +4,7 @@
 #include "formats/Mesh_source.h"
 #include "formats/Stl_kind.h"
 #include "formats/Text_scanner.h"
-#include "formats/little_endian.h"
+#include "formats/byte_order.h"
 
 #include <CGAL/Indexed_mesh/weld_points.h>
 

@@ -5,7 +5,7 @@
 #define HLSCM_PROGRAM_STL_KIND_H
 
 #include "formats/Text_scanner.h"
-#include "formats/little_endian.h"
+#include "formats/byte_order.h"
 
 #include <cctype>
 #include <cstddef>

@@ -1,9 +1,10 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef HLSCM_PROGRAM_LITTLE_ENDIAN_H
-#define HLSCM_PROGRAM_LITTLE_ENDIAN_H
+#ifndef HLSCM_PROGRAM_BYTE_ORDER_H
+#define HLSCM_PROGRAM_BYTE_ORDER_H
 
+#include <algorithm>
 #include <cstring>
 
 namespace hlscm {
@@ -17,6 +18,15 @@ T little_endian(const char* bytes)
   return value;
 }
 
+/// The number that bytes are, of any alignment, the highest first.
+template <typename T>
+T big_endian(const char* bytes)
+{
+  char reversed[sizeof(T)];
+  std::reverse_copy(bytes, bytes + sizeof(T), reversed);
+  return little_endian<T>(reversed);
+}
+
 } // namespace hlscm
 
-#endif // HLSCM_PROGRAM_LITTLE_ENDIAN_H
+#endif // HLSCM_PROGRAM_BYTE_ORDER_H
