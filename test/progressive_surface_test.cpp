@@ -181,7 +181,8 @@ TEST(Progressive_surface_file, is_smaller_than_with_a_texture_of_zeros)
 {
   const SMM::Progressive_surface surface = decimated(irregular_grid(60, 60, seed));
   SMM::Textured_progressive_mesh textured = SMM::coarse_first(surface);
-  textured.uv.resize(textured.vertex.size());
+  const SMM::Textured_progressive_mesh::Point_2 zero(0., 0.); // resize() would leave them undefined
+  textured.uv.assign(textured.vertex.size(), zero);
   const std::string with = SMM::encode_progressive_mesh(textured).bytes,
                     without = file_of(surface, Precision::QUANTIZED);
   EXPECT_LT(without.size() + textured.number_of_collapses() / 5, with.size()); // two bits a split
