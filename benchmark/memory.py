@@ -17,6 +17,17 @@ MOST_BYTES_A_FACE = 400  # at a million faces
 GRIDS = {"terrain_100k": "224x224", "terrain_250k": "354x354", "terrain_1000k": "708x708"}
 MASSIF_CHART = "terrain_100k"
 
+# Beside `parameterize` with its default method, at a million faces; {out} is a folder or a file
+METHODS = ("spectral", "cascadic", "direct", "lscm")
+COMMANDS = {
+    **{f"parameterize --method {method}": ["-o", "{out}.obj"] for method in METHODS},
+    "atlas": ["-o", "{out}"],
+    "bake": ["-o", "{out}", "--faces", "100000", "--texture", "2048"],
+    "levels": ["-o", "{out}"],
+    "info": [],
+}
+SECONDS = "20"  # for the method lscm, which holds all its memory from the first iteration on
+
 # The functions of the stages that allocate, an inner one before the one that calls it
 OWNERS = [
     ("reading", r"read_mesh|diagnose"),
@@ -30,14 +41,28 @@ OWNERS = [
 ]
 
 
-def parameterize(program, chart, prefix=()):
-    """Runs the program and returns its peak resident memory in bytes."""
-    command = [*prefix, program, "parameterize", chart, "-o", chart.with_suffix(".obj"), "--quiet"]
-    process = subprocess.Popen([str(word) for word in command])
+def peak_of(command):
+    """Runs a command and returns its peak resident memory in bytes."""
+    process = subprocess.Popen([str(word) for word in command], stdout=subprocess.DEVNULL)
     _, status, usage = os.wait4(process.pid, 0)
     if status != 0:
         sys.exit(f"failed: {' '.join(map(str, command))}")
     return usage.ru_maxrss * 1024
+
+
+def parameterize(program, chart, prefix=()):
+    return peak_of([*prefix, program, "parameterize", chart, "-o", chart.with_suffix(".obj"), "--quiet"])
+
+
+def commands_on(program, chart):
+    """Yields each of COMMANDS and its peak on a chart."""
+    for command, options in COMMANDS.items():
+        words = [program, *command.split()]
+        words[2:2] = [chart]
+        words += [option.format(out=chart.with_suffix("")) for option in options]
+        words += ["--quiet"] if options else []
+        words += ["--time-limit", SECONDS] if "lscm" in words else []
+        yield command, peak_of(words)
 
 
 def number_of_faces(chart):
@@ -80,6 +105,8 @@ def main():
         rows.append([name, faces, "resident", "all", peak])
     if rows[-1][4] > MOST_BYTES_A_FACE * rows[-1][1]:
         sys.exit(f"more than {MOST_BYTES_A_FACE} bytes a face: {rows[-1]}")
+    for command, peak in commands_on(build / "bin/hlscm", chart):
+        rows.append([name, faces, "resident", command, peak])
 
     massif_file = folder / "massif.out"
     massif = ["valgrind", "--quiet", "--tool=massif", "--depth=40", "--threshold=0.1",

@@ -2,8 +2,8 @@
 # Copyright (c) 2026  The HLSCM for CGAL authors.
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# Measures the peak memory of `hlscm parameterize` on terrains of up to a million faces, and what
-# holds it on the smallest one; writes CSV, a megabyte being 1e6 bytes. Fails above 400 bytes a face.
+# Measures the peak memory of `hlscm parameterize` on terrains of up to a million faces, what holds it on
+# the smallest one, and the peaks of the other methods and commands on the largest; writes CSV, a megabyte being 1e6 bytes. Fails above 400 bytes a face.
 #
 # Usage: benchmark/memory.sh [OUT.csv]      by default benchmark/results/memory.csv
 

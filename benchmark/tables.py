@@ -284,9 +284,29 @@ def compile_time():
     return table(["compiled, -O2", "CPU s", "to CGAL's", "MB"], lines)
 
 
+def reading():
+    """Seconds to read a million faces, beside CGAL's readers and Assimp."""
+    formats = {}
+    for row in read("reading.csv"):
+        formats.setdefault(row["format"], {})[row["reader"]] = row
+    return table(["format", "MB", "hlscm", "CGAL", "Assimp"],
+                 [[name.upper(), f"{float(rows['hlscm']['bytes']) / 1e6:.0f}"]
+                  + [number(rows[reader], "seconds_cpu") if reader in rows else ""
+                     for reader in ("hlscm", "cgal", "assimp")] for name, rows in formats.items()])
+
+
+def memory_of_commands():
+    """Bytes a face of each command at a million faces."""
+    rows = [row for row in read("memory.csv") if row["chart"] == "terrain_1000k"]
+    titles = {"all": "parameterize"}
+    return table(["command", "MB", "bytes a face"],
+                 [[f"`{titles.get(row['part'], row['part'])}`", f"{float(row['peak_memory_mb']):.0f}",
+                   row["bytes_per_face"]] for row in rows])
+
+
 TABLES = {table.__name__: table for table in (
     million_faces, ratios, scaling, growth, stages, stages_two_threads, atlases,
-    atlases_beside_paper, atlases_short, live, levels, compile_time)}
+    atlases_beside_paper, atlases_short, live, levels, compile_time, reading, memory_of_commands)}
 BEGIN, END = "<!-- table ", "<!-- end of table -->"
 
 

@@ -371,11 +371,40 @@ TEST_F(Atlas, is_valid_when_its_time_is_up)
   EXPECT_EQ(late.err.find(warning), std::string::npos) << late.err;
   ASSERT_TRUE(call_well("atlas", in, "usual", {"--texture", "512"}).is_object());
   EXPECT_EQ(read_file(folder / "late/atlas.obj"), read_file(folder / "usual/atlas.obj"));
-  const Outcome light = call("bake", in, "light",
-                             {"--time-limit", "1e-9", "--texture", "256", "--faces", "800"});
-  EXPECT_EQ(light.exit_code, 0) << light.err;
-  EXPECT_NE(light.err.find(warning), std::string::npos) << light.err;
   EXPECT_EQ(call("atlas", in, "none", {"--time-limit", "0"}).exit_code, 2);
+}
+
+TEST_F(Atlas, is_baked_in_time_or_not_at_all)
+{
+  const std::string in = write("in.off", off(wavy_torus(40)));
+  const Texts options = {"--faces", "800", "--texture", "256"};
+  const auto with_limit = [&](const std::string& limit) {
+    Texts all = options;
+    all.insert(all.end(), {"--time-limit", limit});
+    return all;
+  };
+  const Outcome early = call("bake", in, "early", with_limit("1e-9"));
+  EXPECT_EQ(early.exit_code, 1);
+  EXPECT_EQ(error_in_message(early.err, in, {"the time was up", "--time-limit"}), "");
+  EXPECT_FALSE(fs::exists(folder / "early"));
+  ASSERT_TRUE(call_well("bake", in, "late", with_limit("1e6")).is_object());
+  ASSERT_TRUE(call_well("bake", in, "usual", options).is_object());
+  EXPECT_EQ(read_file(folder / "late/normal.png"), read_file(folder / "usual/normal.png"));
+}
+
+TEST_F(Atlas, stops_within_a_second)
+{
+  const std::string in = write("in.off", off(grid(300, hilly)));
+  for(const double limit : {0.5, 1.5, 4.}) {
+    const Outcome outcome = call("bake", in, "light",
+                                 {"--faces", "5000", "--texture", "4096", "--samples", "12",
+                                  "--time-limit", std::to_string(limit)});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_EQ(error_in_message(outcome.err, in, {"the time was up"}), "");
+    EXPECT_LT(outcome.seconds, limit + 1);
+    EXPECT_GT(outcome.seconds, limit);
+    EXPECT_EQ(names(), std::set<std::string>{"in.off"});
+  }
 }
 
 // One part is too small for a texture beside the other

@@ -106,6 +106,54 @@ TEST(Map_surface, closed_surfaces_and_handles_are_cut)
   }
 }
 
+// A torus, with a limb that is pulled out of it.
+Indexed_triangle_mesh torus_with_limb(Vertex_index n, Vertex_index m, double length)
+{
+  constexpr double radius = 0.35;
+  Indexed_triangle_mesh mesh = torus(n, m);
+  for(Point_3& p : mesh.points) {
+    const double r = std::hypot(p.y(), p.z()); // from the x axis
+    if(p.x() > 1. && r < radius)
+      p = Point_3(p.x() + length * (1. - r / radius), p.y(), p.z());
+  }
+  return mesh;
+}
+
+double length_of_seams(const Surface_map& map)
+{
+  double sum = 0.;
+  for(std::size_t t = 0; t < map.mesh.triangles.size(); ++t)
+    for(int c = 0; c < 3; ++c)
+      if(map.charts.is_seam(t, c))
+        sum += std::sqrt(squared_distance(map.mesh.points[map.mesh.triangles[t][c]],
+                                          map.mesh.points[map.mesh.triangles[t][(c + 1) % 3]]));
+  return sum / 2.;
+}
+
+// What two loops cut well needs no more; limbs do.
+TEST(Map_surface, handles_are_cut_to_extremities_only_where_that_helps)
+{
+  Surface_map_options always;
+  always.stretch_without_extremities = 0.;
+  Surface_map_options never;
+  never.cut.extremities = 0;
+  for(const Vertex_index n : {60, 290}) { // the latter has more than 80,000 triangles
+    SCOPED_TRACE(n);
+    const Indexed_triangle_mesh mesh = torus_with_limb(n, n / 2, 0.);
+    const Surface_map map = map_surface(mesh), with = map_surface(mesh, always);
+    ASSERT_EQ(map_error(mesh, map), "");
+    ASSERT_EQ(map_error(mesh, with), "");
+    EXPECT_LT(length_of_seams(map), 0.6 * length_of_seams(with));
+    EXPECT_LT(measure_distortion(map.mesh).stretch_L2, 1.25);
+  }
+  const Indexed_triangle_mesh mesh = torus_with_limb(60, 30, 3.);
+  const Surface_map map = map_surface(mesh);
+  ASSERT_EQ(map_error(mesh, map), "");
+  EXPECT_EQ(map.mesh.uv, map_surface(mesh, always).mesh.uv);
+  EXPECT_GT(measure_distortion(map_surface(mesh, never).mesh).stretch_L2,
+            1.25 * measure_distortion(map.mesh).stretch_L2);
+}
+
 // On a coarser mesh first; faces of four corners stay whole.
 TEST(Map_surface, a_large_closed_surface_is_cut)
 {

@@ -88,6 +88,14 @@ TEST(Soup, clean_surfaces_stay_as_they_are)
     EXPECT_EQ(s.mesh.points, named.mesh.points);
     EXPECT_EQ(s.mesh.triangles, named.mesh.triangles);
     EXPECT_TRUE(diagnose_soup(soup).is_surface());
+    const Surface_of_soup copy = surface_of_soup(soup, diagnose_soup(soup));
+    EXPECT_EQ(surface_of_soup_error(soup, copy), "");
+    EXPECT_EQ(copy.mesh.points, s.mesh.points);
+    EXPECT_EQ(copy.mesh.triangles, s.mesh.triangles);
+    EXPECT_EQ(copy.corners, s.corners);
+    EXPECT_EQ(copy.vertex, s.vertex);
+    EXPECT_EQ(copy.face, s.face);
+    EXPECT_EQ(copy.diagonals, s.diagonals);
   }
 }
 
@@ -101,6 +109,7 @@ TEST(Soup, any_soup_becomes_an_oriented_manifold)
     ASSERT_TRUE(s.is_ok()) << s.error;
     ASSERT_EQ(surface_of_soup_error(soup, s), "");
     ASSERT_EQ(second_repair_error(s), "");
+    ASSERT_EQ(surface_of_soup(soup, diagnose_soup(soup)).mesh.triangles, s.mesh.triangles);
   }
 }
 
@@ -322,11 +331,18 @@ TEST(Soup, every_corner_gets_a_texture_coordinate)
     const Surface_of_soup s = surface_of_soup(soup);
     const auto uv = uv_corners_of_soup(soup, s, s.mesh.triangles); // one for each vertex
     ASSERT_EQ(uv.size(), soup.corners.size());
-    for(std::size_t c = 0; c < uv.size(); ++c) {
-      if(uv[c] == no_vertex) // only vertices that no triangle has
-        ASSERT_FALSE(std::binary_search(s.vertex.begin(), s.vertex.end(), soup.corners[c]));
-      else
-        ASSERT_EQ(s.vertex[uv[c]], soup.corners[c]);
+    const auto is_in_surface = [&](std::size_t c) {
+      return std::binary_search(s.vertex.begin(), s.vertex.end(), soup.corners[c]);
+    };
+    for(std::size_t f = 0; f < soup.number_of_faces(); ++f) {
+      bool has_any = false;
+      for(std::size_t c = soup.first_corner[f]; c < soup.first_corner[f + 1]; ++c)
+        has_any = has_any || is_in_surface(c);
+      for(std::size_t c = soup.first_corner[f]; c < soup.first_corner[f + 1]; ++c) {
+        ASSERT_EQ(uv[c] != no_vertex, has_any); // all corners of a face or none
+        if(is_in_surface(c))
+          ASSERT_EQ(s.vertex[uv[c]], soup.corners[c]);
+      }
     }
     EXPECT_LE(cut_faces(soup, s, s.mesh.triangles).size(), soup.number_of_faces());
   }

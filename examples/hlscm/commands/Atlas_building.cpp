@@ -21,6 +21,8 @@ namespace {
 
 typedef CGAL::Indexed_mesh::Indexed_triangle_mesh Indexed_triangle_mesh;
 
+constexpr double share_of_atlas = 0.5; // of the time of `bake`
+
 template <class Segmenter, class Parameterizer>
 SMT::Texture_atlas_result build(const Indexed_triangle_mesh& mesh,
                                 const SMT::Texture_atlas_options& library,
@@ -57,7 +59,8 @@ Built_atlas build_atlas(const Input_surface& surface, const Program_options& opt
   library.bound = options.atlas.bound;
   library.max_charts = options.atlas.max_charts;
   const auto charts = given_charts(surface, options);
-  library.seconds = options.atlas.time_limit;
+  const double share = options.command == Command::BAKE ? share_of_atlas : 1;
+  library.seconds = share * options.atlas.time_limit;
   library.packing.time_budget = options.atlas.packing_time;
   library.packing.width = library.packing.height = options.atlas.texture;
   library.packing.padding = options.atlas.padding;

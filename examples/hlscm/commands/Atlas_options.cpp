@@ -43,9 +43,6 @@ void add_atlas_options(CLI::App& app, Program_options& o)
       "raster: charts in any gap where they fit; horizon: from below, as in 2002 (default raster)");
   add_number(app, "--packing-time", 0, 1e6, atlas.packing_time,
              "seconds to look for a better packing, on a usual machine (default none)");
-  add_number(app, "--time-limit", 0, 1e9, atlas.time_limit,
-             "after that many seconds finish the atlas in the quickest way: more charts, more "
-             "distortion, a looser packing");
   add_choice<std::optional<SMP::Conformal_method>>(
       app, "--method",
       {{"border-first", std::nullopt},
@@ -64,8 +61,12 @@ void add_atlas(CLI::App& app, Program_options& o)
   CLI::App* run = app.add_subcommand(
       "atlas", "Give a surface of any shape texture coordinates: cut it into charts, map each one "
                "to the plane conformally, and pack them into a texture");
-  run->add_option("IN", o.input, "a triangle mesh: .off, .obj, .ply or .stl")->required();
+  run->add_option("IN", o.input, "a mesh of any kind: .glb, .gltf, .off, .obj, .ply or .stl")
+      ->required();
   add_atlas_options(*run, o);
+  add_number(*run, "--time-limit", 0, 1e9, o.atlas.time_limit,
+             "after that many seconds finish the atlas in the quickest way: more charts, more "
+             "distortion, a looser packing");
   run->add_option("--pictures", o.pictures, "a folder for charts.png and checkerboard.png")
       ->type_name("DIR");
   add_report_and_quiet(*run, o);
@@ -76,7 +77,8 @@ void add_bake(CLI::App& app, Program_options& o)
 {
   CLI::App* run = app.add_subcommand(
       "bake", "Make a light model with a normal map in which the detail of IN is seen");
-  run->add_option("IN", o.input, "a triangle mesh: .off, .obj, .ply or .stl")->required();
+  run->add_option("IN", o.input, "a mesh of any kind: .glb, .gltf, .off, .obj, .ply or .stl")
+      ->required();
   const auto set_faces = [&o](const std::size_t& faces) { o.faces = {faces}; };
   run->add_option_function<std::size_t>("--faces", set_faces, "faces of the light model")
       ->check(CLI::Range(std::size_t(1), many, "N"));
@@ -104,6 +106,9 @@ void add_bake(CLI::App& app, Program_options& o)
                   "the light model")
       ->type_name("IMAGE");
   add_atlas_options(*run, o);
+  add_number(*run, "--time-limit", 0, 1e9, o.atlas.time_limit,
+             "after half of that many seconds finish the atlas in the quickest way; when all are up "
+             "before all is baked, stop with exit code 1 and without files");
   run->add_option("--pictures", o.pictures,
                   "a folder for charts.png, checkerboard.png, bake.png and closeup.png")
       ->type_name("DIR");

@@ -41,12 +41,15 @@ std::vector<Mesh_line> lines_of_model(const Read_mesh& file, const Texture_atlas
   std::vector<Mesh_line> lines = {{0, "mtllib " + name + ".mtl"}};
   auto line = file.lines.begin();
   std::optional<std::uint32_t> last;
-  for(std::size_t f = 0; f < file.soup.number_of_faces(); ++f) {
+  const auto add_lines_before = [&](std::size_t f) {
     for(; line != file.lines.end() && line->face <= f; ++line) {
       if(line->text.rfind("mtllib", 0) != 0 && line->text.rfind("usemtl", 0) != 0) {
         lines.push_back(*line);
       }
     }
+  };
+  for(std::size_t f = 0; f < file.soup.number_of_faces(); ++f) {
+    add_lines_before(f);
     const std::uint32_t first = file.soup.first_corner[f];
     const std::uint32_t uv
         = first < file.soup.first_corner[f + 1] ? file.soup.uv_corners[first] : std::uint32_t(-1);
@@ -56,6 +59,7 @@ std::vector<Mesh_line> lines_of_model(const Read_mesh& file, const Texture_atlas
       last = p;
     }
   }
+  add_lines_before(file.soup.number_of_faces());
   return lines;
 }
 

@@ -100,7 +100,7 @@ void add_solver_options(CLI::App& app, Program_options& options)
 void add_info(CLI::App& app, Program_options& o)
 {
   CLI::App* info = app.add_subcommand("info", "Say what a mesh is and what can be done with it");
-  info->add_option("IN", o.input, "a mesh: .off, .obj, .ply or .stl")->required();
+  info->add_option("IN", o.input, "a mesh: .glb, .gltf, .off, .obj, .ply or .stl")->required();
   add_weld(*info, o);
   info->add_flag("--json", o.prints_json, "print JSON instead of text");
   info->callback([&o] { o.command = Command::INFO; });
@@ -112,7 +112,7 @@ void add_parameterize(CLI::App& app, Program_options& o)
       app.add_subcommand("parameterize", "Map a surface to the plane, conformally, in one piece for each "
                                          "connected component");
   run->add_option("IN", o.input,
-                  "a mesh of any kind: .off, .obj, .ply or .stl; closed components, and those with "
+                  "a mesh of any kind: .glb, .gltf, .off, .obj, .ply or .stl; closed components, and those with "
                   "handles, are cut open, and several are laid side by side")
       ->required();
   run->add_option("-o,--output", o.output,
@@ -185,7 +185,7 @@ void add_levels(CLI::App& app, Program_options& o)
       "levels", "Make lighter models that share one texture: levels of detail of a textured mesh, "
                 "or of a chart, which is parameterized first");
   run->add_option("IN", o.input,
-                  "a triangle mesh: .off, .obj, .ply or .stl; or a progressive mesh: .pm")
+                  "a mesh of any kind: .glb, .gltf, .off, .obj, .ply or .stl; or a progressive mesh: .pm")
       ->required();
   run->add_option("-o,--output", o.output, "a folder for the files")->required()->type_name("DIR");
   run->add_option_function<std::string>(

@@ -7,6 +7,7 @@
 #include "commands/Commands.h"
 #include "reading/Image_reading.h"
 #include "commands/Overlap.h"
+#include "common/Interruption.h"
 #include "common/Program_error.h"
 #include "commands/Progressive_building.h"
 #include "commands/Run_report.h"
@@ -115,6 +116,11 @@ double diagonal(const Textured_triangle_mesh& mesh)
 
 int run_bake(const Program_options& options)
 {
+  if(options.atlas.time_limit > 0) {
+    Interruption::set_limit(options.atlas.time_limit,
+                            options.input + ": the time was up before all was baked, give a longer "
+                                            "--time-limit or a smaller --texture");
+  }
   Progress_bar progress(!options.is_quiet);
   Atlas_outputs outputs(options);
   Bake_outputs light(outputs.folder(), options);

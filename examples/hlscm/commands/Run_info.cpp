@@ -58,7 +58,7 @@ Plan plan_for(const Polygon_soup& soup, const Diagnosis& d)
     plan.refusal = surface_obstacles(d).front().what;
     return plan;
   }
-  const auto surface = surface_of(soup, d);
+  const auto surface = CGAL::Indexed_mesh::surface_of_soup(soup, d);
   plan.refusal = surface.error;
   plan.repairs = surface.repairs;
   const auto& triangles = surface.mesh.triangles;

@@ -51,7 +51,7 @@ struct Atlas_settings
   bool is_one_disk = false;   ///< one chart for each connected component
   std::size_t pages = 1;      ///< at most
   double packing_time = 0;    ///< seconds for better packings
-  double time_limit = 0;      ///< seconds for the atlas; 0: none
+  double time_limit = 0;      ///< seconds for `atlas`, or for all of `bake`; 0: none
   Packer packer = Packer::RASTER;
   /// Of `Conformal_chart_parameterizer`; none: `Border_first_chart_parameterizer`
   std::optional<CGAL::Surface_mesh_parameterization::Conformal_method> method;

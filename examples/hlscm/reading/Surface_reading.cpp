@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace hlscm {
@@ -18,26 +17,6 @@ namespace {
 
 using CGAL::Indexed_mesh::Surface_of_soup;
 using CGAL::Indexed_mesh::Triangle_indices;
-
-// Of triangles that are a surface already.
-Surface_of_soup copy_surface(const Polygon_soup& soup)
-{
-  Surface_of_soup surface;
-  surface.mesh.points = soup.points;
-  surface.vertex.resize(soup.points.size());
-  std::iota(surface.vertex.begin(), surface.vertex.end(), 0u);
-  const std::uint32_t n = std::uint32_t(soup.number_of_faces());
-  surface.mesh.triangles.resize(n);
-  surface.corners.resize(n);
-  surface.face.resize(n);
-  surface.diagonals.assign(n, 0);
-  for(std::uint32_t t = 0, c = 0; t < n; ++t, c += 3) {
-    surface.mesh.triangles[t] = {soup.corners[c], soup.corners[c + 1], soup.corners[c + 2]};
-    surface.corners[t] = {c, c + 1, c + 2};
-    surface.face[t] = t;
-  }
-  return surface;
-}
 
 // Replaces faces by their triangles; `faces` are ascending.
 void cut_into_triangles(Read_mesh& file, const Surface_of_soup& surface,
@@ -106,11 +85,6 @@ Read_mesh read_and_weld(const std::string& input, const Program_options& options
   return mesh;
 }
 
-Surface_of_soup surface_of(const Polygon_soup& soup, const Diagnosis& diagnosis)
-{
-  return diagnosis.is_surface() ? copy_surface(soup) : CGAL::Indexed_mesh::surface_of_soup(soup);
-}
-
 Input_surface read_surface(const std::string& input, const Program_options& options,
                            std::vector<Obstacle> (*obstacles)(const Diagnosis&),
                            Progress_bar& progress, std::vector<std::string>& warnings)
@@ -122,7 +96,7 @@ Input_surface read_surface(const std::string& input, const Program_options& opti
   if(options.is_strict || result.diagnosis.not_finite) {
     refuse_obstacles(input, obstacles(result.diagnosis));
   }
-  result.surface = surface_of(result.file.soup, result.diagnosis);
+  result.surface = CGAL::Indexed_mesh::surface_of_soup(result.file.soup, result.diagnosis);
   if(!result.surface.is_ok()) {
     throw Program_error(input, result.surface.error
                                    + ", give a mesh with a surface instead of points, lines or a "

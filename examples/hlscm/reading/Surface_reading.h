@@ -53,10 +53,6 @@ struct Input_surface
 Read_mesh read_and_weld(const std::string& input, const Program_options& options,
                         Progress_bar& progress);
 
-/// The surface of a soup whose diagnosis is known: what is one already is only copied.
-CGAL::Indexed_mesh::Surface_of_soup surface_of(const Polygon_soup& soup,
-                                               const Diagnosis& diagnosis);
-
 /// Reads any mesh and makes a surface of it, or throws `Program_error`: if there is no surface in it,
 /// or if the options are strict and there are obstacles. Adds the warnings of the reader.
 Input_surface read_surface(const std::string& input, const Program_options& options,

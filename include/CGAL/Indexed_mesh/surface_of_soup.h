@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -77,6 +78,11 @@ Time \f$ O(n \log d) \f$ for degrees up to \f$ d \f$. About 120 bytes a triangle
 */
 Surface_of_soup surface_of_soup(const Polygon_soup& soup);
 
+/// \ingroup PkgHLSCMIndexedMesh
+/// Returns the same where `diagnosis` is what `diagnose_soup()` returned: what is an oriented manifold
+/// of triangles already is only copied.
+Surface_of_soup surface_of_soup(const Polygon_soup& soup, const Soup_diagnosis& diagnosis);
+
 /*!
 \ingroup PkgHLSCMIndexedMesh
 
@@ -87,7 +93,8 @@ Returns for each corner of a soup the texture coordinate that a map of its surfa
 \param wedges for each triangle of `surface.mesh` the texture coordinates of its corners, as indices
 
 \return for each of `soup.corners` an index; corners of a face that was left out have that of the
-face which stays for it, or that of another corner of their vertex, or `no_vertex` if there is none.
+face which stays for it, or that of another corner of their vertex, or of their face; or `no_vertex`,
+which all corners of a face have then.
 Where both triangles at a diagonal have different ones for the same corner, it is that of the first;
 see `cut_faces()`.
 
@@ -234,6 +241,40 @@ inline Surface_of_soup surface_of_soup(const Polygon_soup& soup)
 
 namespace internal {
 
+// Triangles that are a surface already.
+inline Surface_of_soup copy_surface(const Polygon_soup& soup)
+{
+  Surface_of_soup surface;
+  surface.mesh.points = soup.points;
+  surface.vertex.resize(soup.points.size());
+  std::iota(surface.vertex.begin(), surface.vertex.end(), Vertex_index(0));
+  const std::uint32_t n = std::uint32_t(soup.number_of_faces());
+  surface.mesh.triangles.resize(n);
+  surface.corners.resize(n);
+  surface.face.resize(n);
+  surface.diagonals.assign(n, 0);
+  for(std::uint32_t t = 0, c = 0; t < n; ++t, c += 3) {
+    surface.mesh.triangles[t] = {soup.corners[c], soup.corners[c + 1], soup.corners[c + 2]};
+    surface.corners[t] = {c, c + 1, c + 2};
+    surface.face[t] = t;
+  }
+  return surface;
+}
+
+// For each corner of a soup the texture coordinate that the first of its triangles gives it.
+inline std::vector<std::uint32_t> first_wedges(const Polygon_soup& soup,
+                                               const Surface_of_soup& surface,
+                                               const std::vector<Triangle_indices>& wedges)
+{
+  std::vector<std::uint32_t> uv(soup.corners.size(), no_vertex);
+  for(Halfedge h = 0; h < 3 * wedges.size(); ++h) {
+    std::uint32_t& entry = uv[vertex_of(surface.corners, h)];
+    if(entry == no_vertex)
+      entry = vertex_of(wedges, h);
+  }
+  return uv;
+}
+
 // Gives corners of faces without a triangle the texture coordinates of others of their vertex.
 inline void give_to_others(const Polygon_soup& soup, const Surface_of_soup& surface,
                            std::vector<std::uint32_t>& uv)
@@ -258,20 +299,27 @@ inline void give_to_others(const Polygon_soup& soup, const Surface_of_soup& surf
   for(std::size_t c = 0; c < uv.size(); ++c)
     if(uv[c] == no_vertex)
       uv[c] = any[soup.corners[c]];
+  for(std::size_t f = 0; f < soup.number_of_faces(); ++f) {
+    const auto begin = uv.begin() + soup.first_corner[f], end = uv.begin() + soup.first_corner[f + 1];
+    const auto some
+      = std::find_if(begin, end, [](std::uint32_t entry) { return entry != no_vertex; });
+    if(some != end)
+      std::replace(begin, end, std::uint32_t(no_vertex), std::uint32_t(*some));
+  }
 }
 
 } // namespace internal
+
+inline Surface_of_soup surface_of_soup(const Polygon_soup& soup, const Soup_diagnosis& diagnosis)
+{
+  return diagnosis.is_surface() ? internal::copy_surface(soup) : surface_of_soup(soup);
+}
 
 inline std::vector<std::uint32_t> uv_corners_of_soup(const Polygon_soup& soup,
                                                      const Surface_of_soup& surface,
                                                      const std::vector<Triangle_indices>& wedges)
 {
-  std::vector<std::uint32_t> uv(soup.corners.size(), no_vertex);
-  for(Halfedge h = 0; h < 3 * wedges.size(); ++h) {
-    std::uint32_t& entry = uv[vertex_of(surface.corners, h)];
-    if(entry == no_vertex)
-      entry = vertex_of(wedges, h);
-  }
+  std::vector<std::uint32_t> uv = internal::first_wedges(soup, surface, wedges);
   internal::give_to_others(soup, surface, uv);
   return uv;
 }
@@ -280,13 +328,12 @@ inline std::vector<std::uint32_t> cut_faces(const Polygon_soup& soup,
                                             const Surface_of_soup& surface,
                                             const std::vector<Triangle_indices>& wedges)
 {
-  std::vector<std::uint32_t> uv(soup.corners.size(), no_vertex), result;
+  const std::vector<std::uint32_t> uv = internal::first_wedges(soup, surface, wedges);
+  std::vector<std::uint32_t> result;
   for(Halfedge h = 0; h < 3 * wedges.size(); ++h) {
-    std::uint32_t& entry = uv[vertex_of(surface.corners, h)];
     const std::uint32_t face = surface.face[triangle_of(h)];
-    if(entry == no_vertex)
-      entry = vertex_of(wedges, h);
-    else if(entry != vertex_of(wedges, h) && (result.empty() || result.back() != face))
+    if(uv[vertex_of(surface.corners, h)] != vertex_of(wedges, h)
+       && (result.empty() || result.back() != face))
       result.push_back(face);
   }
   return result;

@@ -7,6 +7,7 @@
 #include <CGAL/Indexed_mesh/surface_of_soup.h>
 #include <CGAL/Surface_mesh_parameterization/conformal_map.h>
 #include <CGAL/Surface_mesh_texturing/cut_to_disks.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/Handle_cutter.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/lay_side_by_side.h>
 #include <CGAL/Surface_mesh_texturing/segment_coarse_to_fine.h>
 
@@ -53,6 +54,10 @@ struct Surface_map_options
   std::vector<std::uint8_t> no_seams;
   /// How closed components, and those with handles, are cut.
   Disk_cut_options cut;
+  /// A closed component with handles is cut along these alone if its map then has at most so many
+  /// times the stretch \f$ L^2 \f$ that it has with seams to extremities, too; 0 for seams to
+  /// extremities in any case.
+  double stretch_without_extremities = 1.25;
 };
 
 /// \ingroup PkgHLSCMTexturing
@@ -140,37 +145,66 @@ private:
       component.is_cut = needs_cut(topology);
       m_result.components.push_back(component);
     }
-    cut_large_components(adjacency);
+    cut_by_trial(adjacency);
     charts = cut_charts(m_mesh, adjacency, std::move(charts), m_options.cut, m_options.no_seams,
                         needs_cut);
   }
 
-  // Cuts components of many triangles on a coarser mesh, from where the seams are carried back: that
-  // takes linear time, and what fails is cut as the others are.
-  void cut_large_components(const Triangle_adjacency& adjacency)
+  // Cuts closed components with handles, and those of many triangles.
+  void cut_by_trial(const Triangle_adjacency& adjacency)
   {
     Face_charts& charts = m_result.charts;
-    const auto& components = m_result.components;
-    if(std::none_of(components.begin(), components.end(),
-                    [](const Mapped_component& c) { return c.is_cut && c.faces > large; }))
+    std::vector<std::uint8_t> is_wanted(m_result.components.size());
+    for(std::size_t c = 0; c < is_wanted.size(); ++c)
+      is_wanted[c] = m_result.components[c].is_cut && (is_large(c) || may_do_without_extremities(c));
+    if(std::find(is_wanted.begin(), is_wanted.end(), 1) == is_wanted.end())
       return;
     const std::vector<Chart_mesh> parts = cut_out_charts(m_mesh, adjacency, charts);
     for(std::size_t c = 0; c < parts.size(); ++c) {
-      if(!components[c].is_cut || components[c].faces <= large)
+      if(!is_wanted[c])
         continue;
-      Segmentation_options options;
-      options.coarse_faces = large / 4;
-      options.cut = m_options.cut;
-      options.no_seams = parts[c].sides(m_options.no_seams);
-      const Segmentation_result cut = segment_coarse_to_fine(
-        parts[c].mesh, options, [this](const Indexed_triangle_mesh& coarse) {
-          return one_disk_per_component(coarse, m_options.cut);
-        });
-      if(!cut.is_ok() || cut.charts.number_of_charts != 1)
-        continue;
-      for(std::size_t t = 0; t < cut.charts.seams.size(); ++t)
-        charts.seams[parts[c].triangles[t]] |= cut.charts.seams[t];
+      const std::vector<std::uint8_t> avoided = parts[c].sides(m_options.no_seams);
+      const std::vector<std::uint8_t> seams = is_large(c)
+        ? coarse_seams_of(c, parts[c].mesh, avoided) : seams_of(c, parts[c].mesh, avoided);
+      for(std::size_t t = 0; t < seams.size(); ++t)
+        charts.seams[parts[c].triangles[t]] |= seams[t];
     }
+  }
+
+  bool is_large(std::size_t c) const { return m_result.components[c].faces > large; }
+
+  bool may_do_without_extremities(std::size_t c) const
+  {
+    const Mapped_component& component = m_result.components[c];
+    return component.borders == 0 && component.genus > 0 && m_options.cut.extremities > 0
+        && m_options.stretch_without_extremities > 0.;
+  }
+
+  // The seams that make a disk of a component, of which `mesh` may be a coarser one.
+  std::vector<std::uint8_t> seams_of(std::size_t c, const Indexed_triangle_mesh& mesh,
+                                     const std::vector<std::uint8_t>& avoided) const
+  {
+    if(!may_do_without_extremities(c))
+      return Disk_cutter(mesh, m_options.cut, avoided).cut();
+    return Handle_cutter(mesh, m_options.cut, avoided, m_options.solver.progress)
+      .cut(m_options.stretch_without_extremities);
+  }
+
+  // The same, found on a coarser mesh, from where they are carried back: that takes linear time. None
+  // if that fails: then it is cut as the others are.
+  std::vector<std::uint8_t> coarse_seams_of(std::size_t c, const Indexed_triangle_mesh& mesh,
+                                            const std::vector<std::uint8_t>& avoided) const
+  {
+    Segmentation_options options;
+    options.coarse_faces = large / 4;
+    options.cut = m_options.cut;
+    options.no_seams = avoided;
+    const Segmentation_result cut = segment_coarse_to_fine(
+      mesh, options, [this, c](const Indexed_triangle_mesh& coarse) {
+        return charts_between(coarse.triangles, seams_of(c, coarse, {}));
+      });
+    return cut.is_ok() && cut.charts.number_of_charts == 1 ? cut.charts.seams
+                                                           : std::vector<std::uint8_t>();
   }
 
   // The mesh as its only component.
@@ -294,7 +328,7 @@ private:
 \ingroup PkgHLSCMTexturing
 
 Maps a whole surface to the plane, whatever it is: closed components, and those with handles, are
-cut to disks first along short seams that prefer creases; each component is mapped by
+cut to disks first along short seams that prefer creases, those without handles to their extremities; each component is mapped by
 `Surface_mesh_parameterization::conformal_map()`, in one piece and with a free border; all are
 scaled to the same texels for a unit of area and laid side by side, if there are several. For charts
 of bounded distortion that do not overlap see `build_texture_atlas()`.
