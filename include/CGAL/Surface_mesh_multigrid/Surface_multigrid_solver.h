@@ -135,12 +135,12 @@ public:
   \tparam B, X have `size()` and `operator[]`: `Vector`, or for numbers a vector of Eigen
   */
   template <class B, class X>
-  Report solve(const B& b, X& x);
+  Surface_multigrid_report solve(const B& b, X& x);
 
   /// Solves for several right-hand sides, one after the other; returns the worst report. `x` has as
   /// many vectors as `b`.
   template <class Bs, class Xs>
-  Report solve_all(const Bs& b, Xs& x);
+  Surface_multigrid_report solve_all(const Bs& b, Xs& x);
 
   /// Returns the bytes that it takes beside the hierarchy.
   std::size_t memory() const { return m_system.memory(); }
@@ -168,7 +168,7 @@ private:
                                  + std::to_string(size()) + " vertices";
   }
   template <class Make_rows>
-  Report set_rows(const std::vector<bool>& is_fixed, const Make_rows& make_rows);
+  Surface_multigrid_report set_rows(const std::vector<bool>& is_fixed, const Make_rows& make_rows);
   template <class Values>
   std::string values_error(const std::string& name, const Values& values) const;
   void iterate(const Vector& f, double norm, Vector& u, Report& report);
