@@ -6,6 +6,7 @@
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Blocked_execution/memory.h>
+#include <CGAL/Blocked_execution/sort_and_select.h>
 #include <CGAL/Multigrid/Matrix_builder.h>
 
 #include <algorithm>
