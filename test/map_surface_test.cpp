@@ -134,7 +134,7 @@ double length_of_seams(const Surface_map& map)
 TEST(Map_surface, handles_are_cut_to_extremities_only_where_that_helps)
 {
   Surface_map_options always;
-  always.stretch_without_extremities = 0.;
+  always.least_gain = 0.;
   Surface_map_options never;
   never.cut.extremities = 0;
   for(const Vertex_index n : {60, 290}) { // the latter has more than 80,000 triangles

@@ -7,7 +7,7 @@
 #include <CGAL/Indexed_mesh/surface_of_soup.h>
 #include <CGAL/Surface_mesh_parameterization/conformal_map.h>
 #include <CGAL/Surface_mesh_texturing/cut_to_disks.h>
-#include <CGAL/Surface_mesh_texturing/internal/charts/Handle_cutter.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/Closed_mesh_cutter.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/lay_side_by_side.h>
 #include <CGAL/Surface_mesh_texturing/segment_coarse_to_fine.h>
 
@@ -54,10 +54,10 @@ struct Surface_map_options
   std::vector<std::uint8_t> no_seams;
   /// How closed components, and those with handles, are cut.
   Disk_cut_options cut;
-  /// A closed component with handles is cut along these alone if its map then has at most so many
-  /// times the stretch \f$ L^2 \f$ that it has with seams to extremities, too; 0 for seams to
-  /// extremities in any case.
-  double stretch_without_extremities = 1.25;
+  /// A closed component has seams along its handles alone, or seams to extremities as `cut` says, or
+  /// to half as many more that may be half as far: more of them only where that makes the stretch
+  /// \f$ L^2 \f$ of its map at least so many times as small. 0: as `cut` says, without trials.
+  double least_gain = 1.25;
 };
 
 /// \ingroup PkgHLSCMTexturing
@@ -150,13 +150,13 @@ private:
                         needs_cut);
   }
 
-  // Cuts closed components with handles, and those of many triangles.
+  // Cuts closed components, and those of many triangles.
   void cut_by_trial(const Triangle_adjacency& adjacency)
   {
     Face_charts& charts = m_result.charts;
     std::vector<std::uint8_t> is_wanted(m_result.components.size());
     for(std::size_t c = 0; c < is_wanted.size(); ++c)
-      is_wanted[c] = m_result.components[c].is_cut && (is_large(c) || may_do_without_extremities(c));
+      is_wanted[c] = m_result.components[c].is_cut && (is_large(c) || is_tried(c));
     if(std::find(is_wanted.begin(), is_wanted.end(), 1) == is_wanted.end())
       return;
     const std::vector<Chart_mesh> parts = cut_out_charts(m_mesh, adjacency, charts);
@@ -173,21 +173,20 @@ private:
 
   bool is_large(std::size_t c) const { return m_result.components[c].faces > large; }
 
-  bool may_do_without_extremities(std::size_t c) const
+  bool is_tried(std::size_t c) const
   {
     const Mapped_component& component = m_result.components[c];
-    return component.borders == 0 && component.genus > 0 && m_options.cut.extremities > 0
-        && m_options.stretch_without_extremities > 0.;
+    return component.borders == 0 && m_options.cut.extremities > 0 && m_options.least_gain > 0.;
   }
 
   // The seams that make a disk of a component, of which `mesh` may be a coarser one.
   std::vector<std::uint8_t> seams_of(std::size_t c, const Indexed_triangle_mesh& mesh,
                                      const std::vector<std::uint8_t>& avoided) const
   {
-    if(!may_do_without_extremities(c))
+    if(!is_tried(c))
       return Disk_cutter(mesh, m_options.cut, avoided).cut();
-    return Handle_cutter(mesh, m_options.cut, avoided, m_options.solver.progress)
-      .cut(m_options.stretch_without_extremities);
+    return Closed_mesh_cutter(mesh, m_options.cut, avoided, m_options.solver.progress)
+      .cut(m_result.components[c].genus > 0, m_options.least_gain);
   }
 
   // The same, found on a coarser mesh, from where they are carried back: that takes linear time. None

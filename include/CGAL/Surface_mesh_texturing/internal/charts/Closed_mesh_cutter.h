@@ -1,8 +1,8 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_HANDLE_CUTTER_H
-#define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_HANDLE_CUTTER_H
+#ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_CLOSED_MESH_CUTTER_H
+#define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_CLOSED_MESH_CUTTER_H
 
 #include <CGAL/Surface_mesh_parameterization/Distortion_measures.h>
 #include <CGAL/Surface_mesh_parameterization/conformal_map.h>
@@ -18,38 +18,44 @@ namespace CGAL {
 namespace Surface_mesh_texturing {
 namespace internal {
 
-// Cuts one connected closed mesh with handles to a disk. What these alone make of a torus is mapped
-// well; limbs need seams to their tips, too: trial maps tell.
-class Handle_cutter
+// Cuts one connected closed mesh to a disk. What loops along handles alone make of a torus is mapped
+// well; limbs need seams to their tips, some bodies to many: trial maps tell.
+class Closed_mesh_cutter
 {
 public:
   // `avoided`: see Refinable_seam_graph::avoid()
-  Handle_cutter(const Indexed_triangle_mesh& mesh, const Disk_cut_options& options,
+  Closed_mesh_cutter(const Indexed_triangle_mesh& mesh, const Disk_cut_options& options,
                 std::vector<std::uint8_t> avoided, std::function<bool(double)> progress)
     : m_mesh(mesh), m_adjacency(mesh.triangles), m_options(options), m_avoided(std::move(avoided))
     , m_progress(std::move(progress))
   {}
 
-  // Returns the seams: those along handles if the stretch is then at most `most` times what it is
-  // with seams to extremities, too.
-  std::vector<std::uint8_t> cut(double most) const
+  // Returns the seams: of handles alone, if there are any, then to the extremities of the options,
+  // then to more and nearer ones, those that make the stretch at least `gain` times as small.
+  std::vector<std::uint8_t> cut(bool has_handles, double gain) const
   {
-    std::vector<std::uint8_t> alone = seams_to(0);
-    const double stretch = stretch_along(alone);
-    if(stretch <= most) // and 1 is the least
-      return alone;
-    std::vector<std::uint8_t> all = seams_to(m_options.extremities);
-    return stretch <= most * stretch_along(all) ? alone : all;
+    Disk_cut_options more = m_options;
+    more.extremities += more.extremities / 2;
+    more.least_distance /= 2.;
+    std::vector<Disk_cut_options> all = {m_options, more};
+    if(has_handles) {
+      all.insert(all.begin(), m_options);
+      all.front().extremities = 0;
+    }
+    std::vector<std::uint8_t> best = Disk_cutter(m_mesh, all[0], m_avoided).cut();
+    double stretch = stretch_along(best);
+    for(std::size_t i = 1; i < all.size() && stretch > gain; ++i) { // and 1 is the least
+      std::vector<std::uint8_t> seams = Disk_cutter(m_mesh, all[i], m_avoided).cut();
+      const double next = seams == best ? stretch : stretch_along(seams);
+      if(stretch > gain * next) {
+        best = std::move(seams);
+        stretch = next;
+      }
+    }
+    return best;
   }
 
 private:
-  std::vector<std::uint8_t> seams_to(std::size_t extremities) const
-  {
-    Disk_cut_options options = m_options;
-    options.extremities = extremities;
-    return Disk_cutter(m_mesh, options, m_avoided).cut();
-  }
-
   // The stretch L2 of a map of the mesh cut along seams.
   double stretch_along(const std::vector<std::uint8_t>& seams) const
   {
@@ -77,4 +83,4 @@ private:
 } // namespace Surface_mesh_texturing
 } // namespace CGAL
 
-#endif // CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_HANDLE_CUTTER_H
+#endif // CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_CLOSED_MESH_CUTTER_H
