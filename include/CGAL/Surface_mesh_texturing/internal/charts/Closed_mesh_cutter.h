@@ -25,7 +25,7 @@ class Closed_mesh_cutter
 public:
   // `avoided`: see Refinable_seam_graph::avoid()
   Closed_mesh_cutter(const Indexed_triangle_mesh& mesh, const Disk_cut_options& options,
-                std::vector<std::uint8_t> avoided, std::function<bool(double)> progress)
+                     std::vector<std::uint8_t> avoided, std::function<bool(double)> progress)
     : m_mesh(mesh), m_adjacency(mesh.triangles), m_options(options), m_avoided(std::move(avoided))
     , m_progress(std::move(progress))
   {}
