@@ -22,6 +22,7 @@
 #include <Eigen/CholmodSupport>
 #endif
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <functional>
@@ -186,13 +187,24 @@ std::vector<double> heat_distances(const Arrays& mesh, Row& row)
   std::vector<double> source(mesh.points.size(), 0.), heat = source, distance = source;
   source[0] = 1.;
   row.solve.push_back(timing::seconds_of([&] {
-    const double reach = 4. * solver->hierarchy()->mean_edge();
+    // As in the example: near the source by heat of a short reach, farther away by a longer one.
+    std::vector<Surface_vector> directions(mesh.triangles.size(), Surface_vector(0., 0., 0.));
     solver->options().tolerance = 1e-13;
-    solver->set_element(Laplace_element{reach * reach, 1.});
-    row.iterations = solver->solve(source, heat).iterations;
-    std::vector<Surface_vector> directions = surface_gradients(mesh, heat);
-    for(Surface_vector& g : directions)
-      g = -g / (std::sqrt(g.squared_length()) + 1e-300);
+    bool is_everywhere = false;
+    for(int i = 2; i < 12 && !is_everywhere; ++i) {
+      const double reach = std::ldexp(solver->hierarchy()->mean_edge(), i);
+      solver->set_element(Laplace_element{reach * reach, 1.});
+      row.iterations += solver->solve(source, heat).iterations;
+      const auto gradients = surface_gradients(mesh, heat);
+      is_everywhere = true;
+      for(std::size_t t = 0; t < directions.size(); ++t) {
+        const auto& v = mesh.triangles[t];
+        if((std::min)({heat[v[0]], heat[v[1]], heat[v[2]]}) < 1e-10 * heat[0])
+          is_everywhere = false;
+        else if(directions[t].squared_length() == 0. && gradients[t].squared_length() > 0.)
+          directions[t] = -gradients[t] / std::sqrt(gradients[t].squared_length());
+      }
+    }
     solver->options().tolerance = 1e-6;
     solver->set_element(Laplace_element());
     row.iterations += solver->solve(weak_divergences(mesh, directions), distance).iterations;
