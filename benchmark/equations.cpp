@@ -13,8 +13,7 @@
 #include <CGAL/Heat_method_3/Surface_mesh_geodesic_distances_3.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Surface_mesh.h>
-#include <CGAL/Surface_mesh_multigrid/Surface_multigrid_solver.h>
-#include <CGAL/Surface_mesh_multigrid/surface_gradients.h>
+#include <CGAL/Surface_mesh_multigrid/heat_distances.h>
 
 #include <CLI/CLI.hpp>
 
@@ -178,40 +177,17 @@ void run_factorization(const Problem& p, const Matrix& a, Row& row)
   row.quality = (b - a * x).norm() / b.norm();
 }
 
-std::vector<double> heat_distances(const Arrays& mesh, Row& row)
+std::vector<double> our_heat_distances(const Arrays& mesh, Row& row)
 {
   std::unique_ptr<Surface_multigrid_solver<>> solver;
   row.setup.push_back(timing::seconds_of([&] {
     solver = std::make_unique<Surface_multigrid_solver<>>(mesh);
   }));
-  std::vector<double> source(mesh.points.size(), 0.), heat = source, distance = source;
-  source[0] = 1.;
+  std::vector<double> distance;
   row.solve.push_back(timing::seconds_of([&] {
-    // As in the example: near the source by heat of a short reach, farther away by a longer one.
-    std::vector<Surface_vector> directions(mesh.triangles.size(), Surface_vector(0., 0., 0.));
-    solver->options().tolerance = 1e-13;
-    bool is_everywhere = false;
-    for(int i = 2; i < 12 && !is_everywhere; ++i) {
-      const double reach = std::ldexp(solver->hierarchy()->mean_edge(), i);
-      solver->set_element(Laplace_element{reach * reach, 1.});
-      row.iterations += solver->solve(source, heat).iterations;
-      const auto gradients = surface_gradients(mesh, heat);
-      is_everywhere = true;
-      for(std::size_t t = 0; t < directions.size(); ++t) {
-        const auto& v = mesh.triangles[t];
-        if((std::min)({heat[v[0]], heat[v[1]], heat[v[2]]}) < 1e-10 * heat[0])
-          is_everywhere = false;
-        else if(directions[t].squared_length() == 0. && gradients[t].squared_length() > 0.)
-          directions[t] = -gradients[t] / std::sqrt(gradients[t].squared_length());
-      }
-    }
-    solver->options().tolerance = 1e-6;
-    solver->set_element(Laplace_element());
-    row.iterations += solver->solve(weak_divergences(mesh, directions), distance).iterations;
+    row.iterations = CGAL::Surface_mesh_multigrid::heat_distances(*solver, mesh, 0, distance).iterations;
   }));
   row.matrix.push_back(0.);
-  for(std::size_t v = distance.size(); v-- > 0;)
-    distance[v] -= distance[0];
   return distance;
 }
 
@@ -273,7 +249,7 @@ void run(const std::string& name, const Arrays& mesh, int repetitions, bool has_
   if(p.element.mass == 0.)
     return;
   for(int i = 0; i < (has_peers ? 1 : repetitions); ++i) { // CGAL's takes minutes
-    const auto ours = heat_distances(mesh, heat["multigrid"]);
+    const auto ours = our_heat_distances(mesh, heat["multigrid"]);
     if(has_peers)
       heat["multigrid"].quality = mean_difference(ours, cgal_heat_distances(mesh, heat["cgal"]));
   }

@@ -6,7 +6,7 @@
 
 #include <support/chart_generators.h>
 
-#include <CGAL/Surface_mesh_multigrid/Surface_multigrid_solver.h>
+#include <CGAL/Surface_mesh_multigrid/heat_distances.h>
 
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
@@ -140,6 +140,25 @@ TEST(Surface_multigrid, meets_the_order_of_linear_elements_on_the_sphere)
   const double coarse = error_on_sphere(3), fine = error_on_sphere(4), finest = error_on_sphere(5);
   EXPECT_GT(coarse / fine, 3.2);
   EXPECT_GT(fine / finest, 3.2);
+}
+
+// Distances on the unit sphere are angles; the farthest heat is far below rounding.
+TEST(Surface_multigrid, finds_distances_by_heat)
+{
+  const auto mesh = sphere(6);
+  Surface_multigrid_solver<> solver(mesh);
+  std::vector<double> distance;
+  const std::size_t source = 4; // (0, 0, 1)
+  const auto report = heat_distances(solver, mesh, source, distance);
+  ASSERT_TRUE(report.is_ok()) << report.error;
+  double error = 0.;
+  for(std::size_t v = 0; v < distance.size(); ++v)
+    error = (std::max)(error, std::abs(distance[v] - std::acos(mesh.points[v].z())));
+  EXPECT_LT(error, 0.01 * pi);
+  EXPECT_EQ(heat_distances(solver, mesh, mesh.points.size(), distance).error,
+            "the source is no vertex of the mesh");
+  Surface_multigrid_solver<> of_nothing((Indexed_triangle_mesh()));
+  EXPECT_EQ(heat_distances(of_nothing, {}, 0, distance).error, "the mesh has no triangles");
 }
 
 // In a plane linear functions are harmonic, whatever the triangles.

@@ -327,7 +327,7 @@ private:
 \ingroup PkgHLSCMTexturing
 
 Maps a whole surface to the plane, whatever it is: closed components, and those with handles, are
-cut to disks first along short seams that prefer creases, those without handles to their extremities; each component is mapped by
+cut to disks first along short seams that prefer creases; each component is mapped by
 `Surface_mesh_parameterization::conformal_map()`, in one piece and with a free border; all are
 scaled to the same texels for a unit of area and laid side by side, if there are several. For charts
 of bounded distortion that do not overlap see `build_texture_atlas()`.
