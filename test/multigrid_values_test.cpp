@@ -8,6 +8,7 @@
 
 #include <CGAL/Multigrid/Block_values.h>
 #include <CGAL/Multigrid/Monogrid_preconditioners.h>
+#include <CGAL/Multigrid/Patch_corrections.h>
 
 #include <gtest/gtest.h>
 
@@ -251,6 +252,45 @@ TYPED_TEST(Real_values, have_preconditioners_and_a_factorization)
 }
 
 // A component of a block that no entry concerns stays 0, where a diagonal has no inverse.
+// One patch after the other, by the definition; patches overlap, and some have a pin.
+TYPED_TEST(Real_values, are_corrected_on_patches)
+{
+  typedef TestFixture Test;
+  constexpr int rows = Test::rows;
+  std::vector<std::array<std::uint32_t, 3>> patches = {{3, 4, 5}, {5, 3, 9}, {11, 0, 69}, {11, 12, 1}};
+  for(std::uint32_t i = 20; i < 40; i += 2)
+    patches.push_back({i, i + 3, i + 1});
+  const auto h = this->sparse();
+  Patch_corrections<TypeParam> corrections;
+  EXPECT_TRUE(corrections.empty());
+  for(const auto& patch : patches)
+    corrections.add(h, patch);
+  EXPECT_FALSE(corrections.empty());
+  const auto correct = [&](const std::array<std::uint32_t, 3>& patch, const Eigen::VectorXd& f,
+                           Eigen::VectorXd& x) {
+    std::vector<int> numbers;
+    for(const std::uint32_t i : patch)
+      for(int r = 0; r < rows && int(i) != Test::pin; ++r)
+        numbers.push_back(rows * int(i) + r);
+    const Eigen::VectorXd residual = f - this->dense * x;
+    x(numbers) += this->dense(numbers, numbers).inverse() * residual(numbers);
+  };
+  const Eigen::VectorXd f = this->random_free_numbers();
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(f.size());
+  for(const auto& patch : patches)
+    correct(patch, f, x);
+  typename Test::Vector r = Test::to_values(f), y;
+  corrections.correct_forward(h, r, y);
+  EXPECT_LE((Test::to_numbers(y) - x).norm(), Test::tolerance * x.norm());
+  EXPECT_LE((Test::to_numbers(r) - (f - this->dense * x)).norm(), Test::tolerance * f.norm());
+  x = this->random_free_numbers();
+  y = Test::to_values(x);
+  for(std::size_t k = patches.size(); k-- > 0;)
+    correct(patches[k], f, x);
+  corrections.correct_backward(h, Test::to_values(f), y);
+  EXPECT_LE((Test::to_numbers(y) - x).norm(), Test::tolerance * x.norm());
+}
+
 TEST(Block_values, inverse_of_a_singular_block)
 {
   typedef Value_traits<Eigen::Matrix2d> Traits;

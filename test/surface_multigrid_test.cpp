@@ -421,34 +421,75 @@ TEST(Surface_multigrid, has_anisotropic_elements)
 // The cycle
 //
 
-// The spectrum of the preconditioned matrix does not grow with the mesh.
+// The least and the largest eigenvalue of the preconditioned matrix, which must be symmetric.
+std::array<double, 2> spectrum_of_cycle(const Indexed_triangle_mesh& mesh)
+{
+  const auto surface = hierarchy_of(mesh, 20);
+  EXPECT_GE(surface->number_of_levels(), 3u);
+  const std::size_t n = mesh.points.size();
+  internal::Surface_system<double> system;
+  EXPECT_EQ(system.set(*surface,
+                       internal::assemble_rows<double>(*surface, {}, Laplace_element{1., 0.05}),
+                       std::vector<bool>(n, false)), "");
+  Eigen::MatrixXd inverse(n, n), matrix(n, n);
+  for(std::size_t i = 0; i < n; ++i) {
+    std::vector<double> e(n, 0.), z(n), y(n);
+    e[i] = 1.;
+    system.precondition(CGAL::Multigrid::Schedule::v_cycle(3, 3), e, z);
+    system.matrix().multiply(e, y);
+    inverse.col(i) = Eigen::VectorXd::Map(z.data(), n);
+    matrix.col(i) = Eigen::VectorXd::Map(y.data(), n);
+  }
+  EXPECT_LE((inverse - inverse.transpose()).norm(), 1e-4 * inverse.norm());
+  const Eigen::MatrixXd symmetric = 0.5 * (inverse + inverse.transpose());
+  const Eigen::LLT<Eigen::MatrixXd> root(matrix);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(
+    root.matrixL().transpose() * symmetric * root.matrixL().toDenseMatrix(), Eigen::EigenvaluesOnly);
+  return {spectrum.eigenvalues().minCoeff(), spectrum.eigenvalues().maxCoeff()};
+}
+
+// The spectrum does not grow with the mesh.
 TEST(Surface_multigrid, preconditions_well)
 {
   for(const CGAL::Indexed_mesh::Vertex_index size : {14u, 24u}) {
-    const auto mesh = with_hills(irregular_grid(size, size, seed), 2., seed);
-    const auto surface = hierarchy_of(mesh, 20);
-    ASSERT_GE(surface->number_of_levels(), 3u);
-    const std::size_t n = mesh.points.size();
-    internal::Surface_system<double> system;
-    ASSERT_EQ(system.set(*surface,
-                         internal::assemble_rows<double>(*surface, {}, Laplace_element{1., 0.05}),
-                         std::vector<bool>(n, false)), "");
-    Eigen::MatrixXd inverse(n, n), matrix(n, n);
-    for(std::size_t i = 0; i < n; ++i) {
-      std::vector<double> e(n, 0.), z(n), y(n);
-      e[i] = 1.;
-      system.precondition(CGAL::Multigrid::Schedule::v_cycle(3, 3), e, z);
-      system.matrix().multiply(e, y);
-      inverse.col(i) = Eigen::VectorXd::Map(z.data(), n);
-      matrix.col(i) = Eigen::VectorXd::Map(y.data(), n);
-    }
-    EXPECT_LE((inverse - inverse.transpose()).norm(), 1e-4 * inverse.norm());
-    const Eigen::MatrixXd symmetric = 0.5 * (inverse + inverse.transpose());
-    const Eigen::LLT<Eigen::MatrixXd> root(matrix);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(
-      root.matrixL().transpose() * symmetric * root.matrixL().toDenseMatrix(), Eigen::EigenvaluesOnly);
-    EXPECT_GT(spectrum.eigenvalues().minCoeff(), 0.6) << n << " vertices";
-    EXPECT_LT(spectrum.eigenvalues().maxCoeff(), 1.001) << n << " vertices";
+    const auto [least, largest]
+      = spectrum_of_cycle(with_hills(irregular_grid(size, size, seed), 2., seed));
+    EXPECT_GT(least, 0.6) << size;
+    EXPECT_LT(largest, 1.001) << size;
+  }
+}
+
+// A mesh in which the middle vertex of every seventh triangle of a grid lies beside one of its sides, so
+// that cotangents are some 1 / height.
+Indexed_triangle_mesh with_flat_triangles(double height)
+{
+  auto mesh = irregular_grid(40, 40, seed);
+  for(std::size_t t = 0, n = mesh.triangles.size(); t < n; t += 7) {
+    const auto v = mesh.triangles[t];
+    const auto a = mesh.points[v[0]], b = mesh.points[v[1]], c = mesh.points[v[2]];
+    const auto inner
+      = [&](double x, double y, double z) { return 0.5 * (1. - height) * (x + y) + height * z; };
+    mesh.points.push_back({inner(a.x(), b.x(), c.x()), inner(a.y(), b.y(), c.y()),
+                           inner(a.z(), b.z(), c.z())});
+    const CGAL::Indexed_mesh::Vertex_index m(mesh.points.size() - 1);
+    mesh.triangles[t] = {v[0], v[1], m};
+    mesh.triangles.push_back({v[1], v[2], m});
+    mesh.triangles.push_back({v[2], v[0], m});
+  }
+  return mesh;
+}
+
+TEST(Surface_multigrid, takes_few_steps_where_triangles_are_flat)
+{
+  for(const double height : {1e-1, 3e-2, 1e-2}) {
+    const auto mesh = with_flat_triangles(height);
+    Surface_multigrid_solver<> solver(hierarchy_of(mesh));
+    ASSERT_TRUE(solver.set_element(Laplace_element(), border_vertices_of(mesh)).is_ok());
+    const std::vector<double> b = random_values(mesh.points.size(), seed);
+    std::vector<double> x(b.size(), 0.);
+    const auto report = solver.solve(b, x);
+    EXPECT_TRUE(report.is_ok()) << report.error;
+    EXPECT_LE(report.iterations, 16u) << height;
   }
 }
 

@@ -99,7 +99,7 @@ std::string error_in_rings(const Vertex_rings& rings, const Indexed_triangle_mes
   return {};
 }
 
-TEST(Vertex_rings, follow_random_collapses)
+TEST(Vertex_rings, follow_random_collapses_and_back)
 {
   std::vector<Named_mesh> inputs = generated_meshes(seed);
   inputs.push_back({"wheel of 300", fan(300)});
@@ -115,6 +115,13 @@ TEST(Vertex_rings, follow_random_collapses)
       rings.collapse(c.removed, position_in_ring(rings, c.removed, c.kept));
       done.push_back(c);
       if(done.size() % 16 == 0 || done.size() == pm.collapses.size()) {
+        ASSERT_EQ(error_in_rings(rings, input.mesh, done), "");
+      }
+    }
+    while(!done.empty()) { // and back
+      rings.split(done.back().removed, done.back().kept);
+      done.pop_back();
+      if(done.size() % 16 == 0) {
         ASSERT_EQ(error_in_rings(rings, input.mesh, done), "");
       }
     }

@@ -205,6 +205,10 @@ public:
   /// Collapses v into its ring vertex k. Precondition: `is_collapse_valid(v, k)`.
   void collapse(Vertex_index v, std::uint32_t k);
 
+  /// Undoes the collapse of v into t. Precondition: it is the last that was not undone. The rings of
+  /// vertices inside the surface may begin elsewhere than before.
+  void split(Vertex_index v, Vertex_index t);
+
 private:
   internal::Defective_vertex m_defect;
 };
@@ -278,6 +282,43 @@ inline void Vertex_rings::collapse(Vertex_index v, std::uint32_t k)
     erase(b, position(b, v));
   }
   splice(t, position(t, v), moved, count);
+}
+
+// The picture of collapse(), from right to left.
+inline void Vertex_rings::split(Vertex_index v, Vertex_index t)
+{
+  const Vertex_index* r = ring(v);
+  const std::uint32_t d = degree(v), k = position(v, t);
+  const bool border = is_border(v);
+  const bool has_before = !border || k != 0, has_after = !border || k + 1 != d;
+  const Vertex_index a = r[k == 0 ? d - 1 : k - 1], b = r[k + 1 == d ? 0 : k + 1];
+  for(std::uint32_t i = 0; i < d; ++i)
+    if(i != k && !(has_before && r[i] == a) && !(has_after && r[i] == b))
+      replace(r[i], t, v);
+  if(has_before) {
+    const Vertex_index both[2] = {t, v};
+    splice(a, position(a, t), both, 2);
+  }
+  if(has_after) {
+    const Vertex_index both[2] = {v, t};
+    splice(b, position(b, t), both, 2);
+  }
+  // The ring of t without what lies between b and a
+  const std::uint32_t count = d - 1 - (has_before ? 1 : 0) - (has_after ? 1 : 0), e = degree(t);
+  const Vertex_index* q = ring(t);
+  std::vector<Vertex_index> ring_of_t;
+  ring_of_t.reserve(e + 1 - count);
+  if(!is_border(t)) {
+    ring_of_t.push_back(v);
+    for(std::uint32_t i = 0, first = position(t, a); i < e - count; ++i)
+      ring_of_t.push_back(q[(first + i) % e]);
+  } else {
+    const std::uint32_t first = has_after ? position(t, b) + 1 : 0;
+    ring_of_t.assign(q, q + first);
+    ring_of_t.push_back(v);
+    ring_of_t.insert(ring_of_t.end(), q + first + count, q + e);
+  }
+  set_ring(t, ring_of_t, is_border(t));
 }
 
 } // namespace Indexed_mesh

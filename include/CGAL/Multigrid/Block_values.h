@@ -55,13 +55,22 @@ struct Value_traits<Eigen::Matrix<Real_, N, Columns, Options, N, Columns>>
   static Double modulus(const Block& v)
   {
     const Double d = v.template cast<double>();
-    return with_eigenvalues(d * d.transpose(), [](double s) { return s > 0. ? std::sqrt(s) : 0.; });
+    if constexpr(N == 2 && Columns == 2) { // by the theorem of Cayley and Hamilton
+      const double det = std::abs(d.determinant()), trace = std::sqrt(d.squaredNorm() + 2. * det);
+      return trace > 0. ? Double((d * d.transpose() + det * Double::Identity()) / trace) : Double(Double::Zero());
+    } else
+      return with_eigenvalues(d * d.transpose(), [](double s) { return s > 0. ? std::sqrt(s) : 0.; });
   }
   static bool is_positive(const Block& d) { return d.trace() > 0; }
   /// Of the part that is positive: a component without any entry stays 0.
   static Block inverse(const Double& d)
   {
     const double least = 1e-14 * d.diagonal().cwiseAbs().maxCoeff(); // rounding of d's entries
+    if constexpr(N == 2 && Columns == 2) {
+      const double det = d.determinant(), trace = d.trace();
+      if(trace > 0. && det > least * trace) // both eigenvalues are larger than that
+        return from((Double() << d(1, 1), -d(0, 1), -d(1, 0), d(0, 0)).finished() / det);
+    }
     return from(with_eigenvalues(d, [least](double s) { return s > least ? 1. / s : 0.; }));
   }
   static Vector_value quotient(const Vector_value& x, const Block& d) { return d.ldlt().solve(x); }

@@ -1,0 +1,170 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MULTIGRID_PATCH_CORRECTIONS_H
+#define CGAL_MULTIGRID_PATCH_CORRECTIONS_H
+
+#include <CGAL/Multigrid/Hermitian_matrix.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace CGAL {
+namespace Multigrid {
+
+/*!
+\ingroup PkgHLSCMMultigrid
+
+The class `Patch_corrections` solves for three unknowns at a time, one such patch after the other
+(the multiplicative Schwarz method). Where a triangle is nearly flat, its corners are coupled so
+strongly that no smoother moves them one by one; before and after a cycle, patches on these triangles
+take this part of the error.
+
+\tparam Value an entry of the matrix
+
+One after the other: the result does not depend on the number of threads. Linear in the number of
+patches and of entries in their rows.
+*/
+template <class Value>
+class Patch_corrections
+{
+public:
+  typedef Self_adjoint_matrix<Value> Matrix; ///< the matrix
+  typedef Value_vector<Value> Vector;        ///< a vector
+
+  /// Adds a patch: three unknowns of `h`, which must be the matrix of all patches. Unknowns with
+  /// rows of zeros, those of pins, stay as they are.
+  void add(const Matrix& h, const std::array<std::uint32_t, 3>& unknowns);
+
+  /// Returns whether there are no patches.
+  bool empty() const { return m_patches.empty(); }
+
+  /// Begins with x = 0, sets `x` to the corrections in the order of the patches, and `r`, on entry
+  /// the right-hand side, to the residual, but for pins.
+  void correct_forward(const Matrix& h, Vector& r, Vector& x) const;
+
+  /// Adds to `x` the corrections for the right-hand side `f` in the reverse order.
+  void correct_backward(const Matrix& h, const Vector& f, Vector& x) const;
+
+  /// Returns the bytes that they take.
+  std::size_t memory() const { return m_patches.size() * sizeof(Patch); }
+
+private:
+  typedef Value_traits<Value> Traits;
+  typedef typename Traits::Vector_value Vector_value;
+  typedef typename Traits::Inner Inner;
+  static constexpr int N = Traits::rows;
+  typedef Eigen::Matrix<Inner, 3 * N, 3 * N, Eigen::DontAlign> Block;
+  typedef Eigen::Matrix<Inner, 3 * N, 1, Eigen::DontAlign> Numbers;
+
+  struct Patch
+  {
+    std::array<std::uint32_t, 3> unknown, slot;
+    Block inverse; // of the part of the matrix; 0 in rows and columns of pins
+  };
+
+  template <class Entry>
+  static void put(const Entry& entry, int i, int j, Block& block)
+  {
+    for(int r = 0; r < N; ++r)
+      for(int c = 0; c < N; ++c)
+        block(N * i + r, N * j + c) = Traits::coefficient(entry, r, c);
+  }
+
+  // The numbers of entry i, from and to a vector of all numbers.
+  static Vector_value part(const Numbers& d, int i)
+  {
+    return Value_traits<Vector_value>::from_coefficients(d.data() + N * i);
+  }
+
+  static void take(const Vector_value& value, int i, Numbers& b)
+  {
+    for(int r = 0; r < N; ++r)
+      b[N * i + r] = Value_traits<Vector_value>::coefficient(value, r, 0);
+  }
+
+  std::vector<Patch> m_patches;
+};
+
+template <class Value>
+void Patch_corrections<Value>::add(const Matrix& h, const std::array<std::uint32_t, 3>& unknowns)
+{
+  constexpr double rounding = 1e-14;
+  Patch patch;
+  patch.unknown = unknowns;
+  Block block = Block::Identity(), is_free = Block::Identity();
+  const auto is_pin = [&](int i) {
+    return Value_traits<typename Traits::Diagonal>::is_zero(h.diagonal()[unknowns[i]]);
+  };
+  for(int i = 0; i < 3; ++i) {
+    patch.slot[i] = std::uint32_t(h.slot_of_row(unknowns[i]));
+    if(is_pin(i)) {
+      is_free.diagonal().segment(N * i, N).setZero();
+      continue;
+    }
+    put(Value(h.diagonal()[unknowns[i]]), i, i, block);
+    h.for_each_entry(patch.slot[i], [&](std::uint32_t column, const Value& value) {
+      for(int j = 0; j < 3; ++j)
+        if(column == unknowns[j] && !is_pin(j))
+          put(value, i, j, block);
+    });
+  }
+  block.diagonal() *= 1. + rounding;
+  for(int r = 0; r < 3 * N; ++r)
+    if(block(r, r) == Inner(0.)) // a component without any entry
+      block(r, r) = 1.;
+  const Eigen::LLT<Block> factorization(block);
+  if(factorization.info() != Eigen::Success)
+    return;
+  patch.inverse = is_free * factorization.solve(is_free);
+  m_patches.push_back(patch);
+}
+
+template <class Value>
+void Patch_corrections<Value>::correct_forward(const Matrix& h, Vector& r, Vector& x) const
+{
+  set_zero(r.size(), x);
+  Numbers b, d;
+  for(const Patch& patch : m_patches) {
+    for(int i = 0; i < 3; ++i)
+      take(r[patch.unknown[i]], i, b);
+    d.noalias() = patch.inverse * b;
+    for(int i = 0; i < 3; ++i) {
+      const Vector_value step = part(d, i);
+      x[patch.unknown[i]] += step;
+      r[patch.unknown[i]] -= h.diagonal()[patch.unknown[i]] * step;
+      h.for_each_entry(patch.slot[i], [&](std::uint32_t j, const Value& value) {
+        r[j] -= Traits::adjoint(value) * step;
+      });
+    }
+  }
+}
+
+template <class Value>
+void Patch_corrections<Value>::correct_backward(const Matrix& h, const Vector& f, Vector& x) const
+{
+  Numbers b, d;
+  for(std::size_t k = m_patches.size(); k-- > 0;) {
+    const Patch& patch = m_patches[k];
+    for(int i = 0; i < 3; ++i) {
+      Vector_value r = f[patch.unknown[i]];
+      r -= h.diagonal()[patch.unknown[i]] * x[patch.unknown[i]];
+      h.for_each_entry(patch.slot[i],
+                       [&](std::uint32_t j, const Value& value) { r -= value * x[j]; });
+      take(r, i, b);
+    }
+    d.noalias() = patch.inverse * b;
+    for(int i = 0; i < 3; ++i)
+      x[patch.unknown[i]] += part(d, i);
+  }
+}
+
+} // namespace Multigrid
+} // namespace CGAL
+
+#endif // CGAL_MULTIGRID_PATCH_CORRECTIONS_H
