@@ -72,6 +72,8 @@ Json to_json(const Bake_report& bake)
   json["normal_error_degrees"] = {{"without_map", to_json(bake.smooth)},
                                   {"with_map", to_json(bake.mapped)}};
   json["silhouette_difference"] = bake.silhouette_difference;
+  json["samples_each_way"] = bake.samples_each_way;
+  json["stopped_early"] = bake.stopped_early;
   json["samples"] = bake.samples;
   json["samples_beside"] = bake.samples_beside;
   json["samples_without"] = bake.samples_without;
@@ -139,6 +141,11 @@ std::vector<std::string> Atlas_report::all_warnings() const
   }
   if(overlapping_texels > 0) {
     all.push_back("texels in more than one triangle: " + std::to_string(overlapping_texels));
+  }
+  if(bake && bake->stopped_early) {
+    all.push_back("the time was up: samples of a texel each way are "
+                  + std::to_string(bake->samples_each_way)
+                  + ", fewer than asked for; see --time-limit");
   }
   if(bake && bake->samples_without > 0) {
     all.push_back("samples of the light model that found no point of the input: "

@@ -37,6 +37,8 @@ struct Bake_report
   Normal_error smooth; ///< with the interpolated normals of the vertices
   Normal_error mapped; ///< with the normal map as it is written
   double silhouette_difference = 0; ///< pixels that show one model only, to those of any
+  std::size_t samples_each_way = 0; ///< of a texel
+  bool stopped_early = false; ///< with fewer than asked for, since the time was up
   std::size_t samples = 0;        ///< in charts of the light model
   std::size_t samples_beside = 0; ///< of these, those that took the nearest point of the fine one
   std::size_t samples_without = 0; ///< of these, those that found none

@@ -35,23 +35,51 @@ using Ray_caster = SMT::Embree_ray_caster;
 class Baker
 {
 public:
-  Baker(const Baking_input& input, const Program_options& options, Progress_bar& progress)
-    : m_input(input), m_options(options), m_progress(progress),
-      m_fine_normals(SMT::vertex_normals(input.fine.points, input.fine.triangles))
+  Baker(const Baking_input& input, const Program_options& options, const Time_limit& limit,
+        Progress_bar& progress)
+    : m_input(input), m_options(options), m_limit(limit), m_progress(progress),
+      m_fine_normals(SMT::vertex_normals(input.fine.points, input.fine.triangles)),
+      m_frames(SMT::tangent_frames(input.light, SMT::vertex_normals(input.light)))
   {
     m_library.width = options.atlas.texture * input.pages;
     m_library.height = options.atlas.texture;
-    m_library.samples = options.bake.samples;
     m_library.space
         = options.bake.is_object_space ? SMT::Normal_space::OBJECT : SMT::Normal_space::TANGENT;
-    m_library.progress = [&progress](double part) { return progress.try_advance(part); };
+    m_library.progress = [this](double part) {
+      return m_progress.try_advance(part) && !(m_may_run_out && m_limit.is_up());
+    };
   }
 
+  // Within a limit of time with one sample of a texel first, then with twice as many each way, and
+  // again: the last ones that were all done in time are the result.
   Baked_images run(Bake_report& report)
   {
+    Baked_images best = run(m_limit.exists() ? 1 : m_options.bake.samples, report);
+    m_may_run_out = true;
+    for(std::size_t samples = report.samples_each_way;
+        samples < m_options.bake.samples && !m_limit.is_up();) {
+      samples = std::min(2 * samples, m_options.bake.samples);
+      Bake_report with_more = report;
+      try {
+        best = run(samples, with_more);
+        report = with_more;
+      } catch(const Time_is_up&) {
+      }
+    }
+    report.stopped_early = report.samples_each_way < m_options.bake.samples;
+    best.frames = std::move(m_frames);
+    return best;
+  }
+
+private:
+  struct Time_is_up
+  {};
+
+  Baked_images run(std::size_t samples, Bake_report& report)
+  {
+    m_library.samples = report.samples_each_way = samples;
     Baked_images images;
-    images.frames = SMT::tangent_frames(m_input.light, SMT::vertex_normals(m_input.light));
-    SMT::Baked_map normals = checked(bake_normals(images.frames));
+    SMT::Baked_map normals = checked(bake_normals());
     images.normals = std::move(normals.image);
     report.samples = normals.number_of_samples;
     report.samples_beside = normals.number_of_samples_beside;
@@ -63,34 +91,33 @@ public:
     if(m_options.bake.has_displacement) {
       m_progress.start_stage("heights");
       const SMT::Displacement_shader shader(m_input.fine.points, m_input.fine.triangles,
-                                            m_input.light, images.frames.normals);
-      const SMT::Baked_map map = checked(bake_with(shader, images.frames));
+                                            m_input.light, m_frames.normals);
+      const SMT::Baked_map map = checked(bake_with(shader));
       set_displacement(map, images);
     }
     if(m_input.coloured) {
       m_progress.start_stage("colours");
       const SMT::Image_shader shader(*m_input.coloured, m_input.colours);
-      images.colours = checked(bake_with(shader, images.frames)).image;
+      images.colours = checked(bake_with(shader)).image;
     }
     return images;
   }
 
-private:
-  SMT::Baked_map bake_normals(const SMT::Tangent_frames& frames)
+  SMT::Baked_map bake_normals()
   {
     m_progress.start_stage("baking");
     if(m_input.shares_texture()) {
-      return SMT::bake_normal_map(m_input.fine, m_fine_normals, m_input.light, frames, m_library);
+      return SMT::bake_normal_map(m_input.fine, m_fine_normals, m_input.light, m_frames, m_library);
     }
     SMT::Baking_by_rays_options by_rays;
     static_cast<SMT::Baking_options&>(by_rays) = m_library;
     return SMT::bake_normal_map_by_rays<Ray_caster>({m_input.fine.points, m_input.fine.triangles},
-                                                    m_fine_normals, m_input.light, frames, by_rays);
+                                                    m_fine_normals, m_input.light, m_frames, by_rays);
   }
 
   // Data that the normals could be baked of is good.
   template <typename Shader>
-  SMT::Baked_map bake_with(const Shader& shader, const SMT::Tangent_frames& frames)
+  SMT::Baked_map bake_with(const Shader& shader)
   {
     if(m_input.shares_texture()) {
       const SMT::Equal_uv equal(m_input.fine, m_input.light, m_library);
@@ -99,7 +126,7 @@ private:
     const Ray_caster caster(m_input.fine.points, m_input.fine.triangles);
     const double radius = SMT::internal::Bounding_ball({&m_input.light.points}).radius;
     const SMT::Along_rays<Ray_caster> rays(
-        caster, m_input.fine.points, m_input.fine.triangles, m_input.light, frames.normals,
+        caster, m_input.fine.points, m_input.fine.triangles, m_input.light, m_frames.normals,
         SMT::Baking_by_rays_options().max_distance * radius);
     return SMT::bake(m_input.light, rays, shader, m_library);
   }
@@ -121,6 +148,9 @@ private:
   SMT::Baked_map checked(SMT::Baked_map map) const
   {
     Interruption::check();
+    if(map.status == CGAL::Indexed_mesh::Mesh_status::CANCELLED) {
+      throw Time_is_up();
+    }
     if(!map.error.empty()) {
       throw Program_error(m_options.input, map.error);
     }
@@ -129,19 +159,22 @@ private:
 
   const Baking_input& m_input;
   const Program_options& m_options;
+  const Time_limit& m_limit;
   Progress_bar& m_progress;
+  bool m_may_run_out = false; // without a result
   std::vector<SMT::Vector_3> m_fine_normals;
+  SMT::Tangent_frames m_frames; // of the light model
   SMT::Baking_options m_library;
 };
 
 } // namespace
 
 Baked_images bake_images(const Baking_input& input, const Program_options& options,
-                         Progress_bar& progress, Bake_report& report)
+                         const Time_limit& limit, Progress_bar& progress, Bake_report& report)
 {
   const Stopwatch baking;
   const CGAL::Blocked_execution::Thread_scope threads(options.library.threads);
-  Baked_images images = Baker(input, options, progress).run(report);
+  Baked_images images = Baker(input, options, limit, progress).run(report);
   report.seconds_bake = baking.seconds();
   return images;
 }

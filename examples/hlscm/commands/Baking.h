@@ -7,6 +7,7 @@
 #include "commands/Atlas_report.h"
 #include "common/Program_options.h"
 #include "common/Progress_bar.h"
+#include "common/Stopwatch.h"
 #include "writing/Textured_model.h"
 
 #include <CGAL/Surface_mesh_texturing/Texture_image.h>
@@ -39,9 +40,10 @@ struct Baked_images
   std::optional<CGAL::Surface_mesh_texturing::Texture_image> colours;      ///< sRGB
 };
 
-/// Bakes what the options ask for; throws `Program_error`.
+/// Bakes what the options ask for; throws `Program_error`. When the time is up the result is what
+/// was baked by then with fewer samples of a texel; one is baked in any case.
 Baked_images bake_images(const Baking_input& input, const Program_options& options,
-                         Progress_bar& progress, Bake_report& report);
+                         const Time_limit& limit, Progress_bar& progress, Bake_report& report);
 
 /// Compares what is seen of the two models; `normals` is the map as it is written.
 void compare_normals(const Baking_input& input, const Baked_images& images,

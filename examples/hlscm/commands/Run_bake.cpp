@@ -7,7 +7,6 @@
 #include "commands/Commands.h"
 #include "reading/Image_reading.h"
 #include "commands/Overlap.h"
-#include "common/Interruption.h"
 #include "common/Program_error.h"
 #include "commands/Progressive_building.h"
 #include "commands/Run_report.h"
@@ -116,11 +115,7 @@ double diagonal(const Textured_triangle_mesh& mesh)
 
 int run_bake(const Program_options& options)
 {
-  if(options.atlas.time_limit > 0) {
-    Interruption::set_limit(options.atlas.time_limit,
-                            options.input + ": the time was up before all was baked, give a longer "
-                                            "--time-limit or a smaller --texture");
-  }
+  const Time_limit limit(options.atlas.time_limit);
   Progress_bar progress(!options.is_quiet);
   Atlas_outputs outputs(options);
   Bake_outputs light(outputs.folder(), options);
@@ -136,7 +131,7 @@ int run_bake(const Program_options& options)
   bake.vertices = input.light.points.size();
   bake.wedges = input.light.uv.size();
   bake.diagonal = diagonal(input.fine);
-  const Baked_images images = bake_images(input, options, progress, bake);
+  const Baked_images images = bake_images(input, options, limit, progress, bake);
   bake.lowest = images.lowest;
   bake.highest = images.highest;
   const Stopwatch writing;

@@ -204,6 +204,10 @@ std::string to_json(const Run_report& report, const Program_options& options)
                  {"write", report.seconds_write}}},
                {"peak_memory_mb", report.peak_memory_mb},
                {"warnings", report.warnings}};
+  if(report.stretch) {
+    json["stretch"] = {{"energy", number(report.stretch->energy)},
+                       {"energy_gap_estimate", number(report.stretch->energy_gap)}};
+  }
   if(s.flip_repair) {
     json["flip_repair"] = to_json(*s.flip_repair);
   }
@@ -232,6 +236,10 @@ std::string to_table(const Run_report& report, const Program_options& options)
   }
   table.add("levels", levels_text(report));
   table.add("pins", pins_text(report));
+  if(report.stretch) {
+    table.add("stretch", report.stretch->energy, " on average, can fall by about ",
+              100 * report.stretch->energy_gap, " % more");
+  }
   table.add("energy", s.energy, gap_text(s.energy_gap_estimate));
   table.add("angles", "quasi-conformal ratio mean ", d.quasi_conformal_mean, ", 99 % below ",
             d.quasi_conformal_99, ", max ", d.quasi_conformal_max);

@@ -8,8 +8,10 @@
 
 #include <CGAL/Surface_mesh_parameterization/Distortion_measures.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
+#include <CGAL/Surface_mesh_parameterization/Low_stretch_options.h>
 #include <CGAL/Surface_mesh_texturing/map_surface.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,8 @@ namespace hlscm {
 struct Run_report
 {
   CGAL::Surface_mesh_parameterization::HLSCM_report solver;
+  /// Of the surface to its map before it was scaled, if the method is low-stretch.
+  std::optional<CGAL::Surface_mesh_parameterization::Low_stretch_report> stretch;
   CGAL::Surface_mesh_parameterization::Distortion_measures distortion;
   /// Of each connected component.
   std::vector<CGAL::Surface_mesh_texturing::Mapped_component> components;

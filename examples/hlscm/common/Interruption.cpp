@@ -5,25 +5,20 @@
 
 #include "common/Program_error.h"
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <ctime>
 #include <exception>
 #include <iostream>
 #include <mutex>
-#include <string>
 #include <thread>
 
 #include <fcntl.h>
 #include <pthread.h>
 #include <semaphore.h>
-#include <sys/time.h>
 #include <unistd.h>
 
 namespace hlscm {
@@ -32,8 +27,7 @@ namespace {
 
 constexpr std::chrono::milliseconds time_to_stop_by_itself(500);
 
-std::atomic<bool> requested(false), is_time_up(false), is_finished(false), is_in_place(false),
-    is_said(false);
+std::atomic<bool> requested(false), is_finished(false), is_in_place(false), is_said(false);
 sem_t arrival;
 
 // Never destroyed: the waiting thread may outlive main().
@@ -49,13 +43,6 @@ Clean_up& clean_up()
   return *instance;
 }
 
-// What is said when the time is up; never destroyed, as above.
-std::string& limit_sentence()
-{
-  static std::string* instance = new std::string;
-  return *instance;
-}
-
 // nohup and non-interactive shells start background jobs with SIGINT ignored; that wish is kept.
 bool is_ignored(int signal)
 {
@@ -63,11 +50,8 @@ bool is_ignored(int signal)
   return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
-void handle(int signal)
+void handle(int)
 {
-  if(signal == SIGALRM) {
-    is_time_up = true;
-  }
   requested = true;
   sem_post(&arrival); // one of the few functions that a handler may call
 }
@@ -169,20 +153,6 @@ void install()
   std::signal(SIGPIPE, SIG_IGN); // nor is a reader that has gone
 }
 
-void set_limit(double seconds, const std::string& sentence)
-{
-  limit_sentence() = "hlscm: error: " + sentence + "\n";
-  struct sigaction action = {};
-  action.sa_handler = handle;
-  action.sa_flags = SA_RESTART;
-  sigaction(SIGALRM, &action, nullptr);
-  itimerval timer = {};
-  timer.it_value.tv_sec = time_t(seconds);
-  timer.it_value.tv_usec
-      = std::max(suseconds_t(1), suseconds_t(1e6 * (seconds - std::floor(seconds)))); // 0 is never
-  setitimer(ITIMER_REAL, &timer, nullptr);
-}
-
 bool is_requested() { return requested; }
 
 void check()
@@ -195,8 +165,6 @@ void check()
 void finish()
 {
   std::lock_guard<std::mutex> lock(clean_up().mutex);
-  const itimerval never = {};
-  setitimer(ITIMER_REAL, &never, nullptr);
   check();
   is_finished = true;
 }
@@ -211,7 +179,7 @@ void say_cancelled()
   if(isatty(STDERR_FILENO)) {
     say("\r\033[K"); // erases a progress bar
   }
-  say(is_time_up ? limit_sentence().c_str() : "hlscm: cancelled\n");
+  say("hlscm: cancelled\n");
 }
 
 void set_clean_up(std::function<void()> action)

@@ -5,7 +5,6 @@
 #define HLSCM_PROGRAM_INTERRUPTION_H
 
 #include <functional>
-#include <string>
 
 namespace hlscm {
 
@@ -21,9 +20,6 @@ namespace Interruption {
 
 /// Starts to listen; to be called once.
 void install();
-
-/// After that many seconds it stops as if the user asked for it, but says this sentence.
-void set_limit(double seconds, const std::string& sentence);
 
 /// Whether the user asked to stop.
 bool is_requested();
