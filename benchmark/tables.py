@@ -295,6 +295,21 @@ def reading():
                      for reader in ("hlscm", "cgal", "assimp")] for name, rows in formats.items()])
 
 
+def low_stretch():
+    """Seconds and mean energies of low-stretch maps by their tolerance."""
+    charts = {}
+    for row in read("low_stretch.csv"):
+        charts.setdefault(row["chart"], {})[row["tolerance"], row["threads"]] = row
+    lines = []
+    for chart, rows in charts.items():
+        first = rows["0.001", "1"]
+        lines.append([chart.rsplit("_", 1)[0].replace("_", " "), f"{int(first['faces']):,}"]
+                     + [f"{number(rows[key], 'seconds')} s, {number(rows[key], 'energy', 4)}"
+                        for key in (("0.01", "1"), ("0.001", "1"), ("0.0001", "1"))]
+                     + [number(rows["0.001", "2"], "seconds")])
+    return table(["chart", "faces", "tolerance 1e-2", "1e-3", "1e-4", "1e-3, two threads"], lines)
+
+
 def memory_of_commands():
     """Bytes a face of each command at a million faces."""
     rows = [row for row in read("memory.csv") if row["chart"] == "terrain_1000k"]
@@ -306,7 +321,7 @@ def memory_of_commands():
 
 TABLES = {table.__name__: table for table in (
     million_faces, ratios, scaling, growth, stages, stages_two_threads, atlases,
-    atlases_beside_paper, atlases_short, live, levels, compile_time, reading, memory_of_commands)}
+    atlases_beside_paper, atlases_short, live, levels, compile_time, reading, low_stretch, memory_of_commands)}
 BEGIN, END = "<!-- table ", "<!-- end of table -->"
 
 

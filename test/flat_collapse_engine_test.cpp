@@ -133,7 +133,8 @@ TEST(Flat_collapse_engine, result_does_not_depend_on_size_and_place)
 
 TEST(Progress, is_told_and_may_cancel)
 {
-  Indexed_triangle_mesh mesh = with_hills(irregular_grid(200, 200, seed), 5., seed);
+  const int side = is_sanitized ? 150 : 200;
+  Indexed_triangle_mesh mesh = with_hills(irregular_grid(side, side, seed), 5., seed);
   CGAL::Indexed_mesh::normalize(mesh);
   for(const Engine engine : all_engines)
     for(const double last : {0., 0.3, 2.}) {

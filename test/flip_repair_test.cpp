@@ -8,6 +8,9 @@
 #include <support/repaired_maps.h>
 
 #include <CGAL/Surface_mesh_parameterization/Map_certificate.h>
+#include <CGAL/Surface_mesh_parameterization/internal/repair/Patch_energy.h>
+#include <CGAL/Surface_mesh_parameterization/internal/repair/relax_flipped_faces.h>
+#include <CGAL/Surface_mesh_parameterization/internal/repair/turns_of_border.h>
 #include <CGAL/Surface_mesh_parameterization/repair_flipped_faces.h>
 
 #include <gtest/gtest.h>

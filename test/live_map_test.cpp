@@ -6,6 +6,7 @@
 #include <support/conformal_maps.h>
 
 #include <CGAL/Multigrid/Sparse_cholesky.h>
+#include <CGAL/Surface_mesh_parameterization/Conformal_operator.h>
 #include <CGAL/Surface_mesh_parameterization/Hierarchical_conformal_map.h>
 #include <CGAL/Surface_mesh_parameterization/Spectral_conformal_parameterizer_3.h>
 

@@ -6,6 +6,7 @@
 #include <support/chart_generators.h>
 
 #include <CGAL/Surface_mesh_parameterization/conformal_map.h>
+#include <CGAL/Surface_mesh_parameterization/internal/solver/Conformal_system.h>
 #include <CGAL/Surface_mesh_parameterization/internal/solver/map_chart_conformally.h>
 
 #include <gtest/gtest.h>

@@ -167,7 +167,7 @@ std::vector<Named_mesh> ordinary_charts()
   std::vector<Named_mesh> result;
   for(const Named_mesh& m : curved_charts(4))
     for(const char* name : {"hills", "hills with holes", "jagged hills", "dome"})
-      if(m.name == name)
+      if(m.name == name && !(is_sanitized && result.size() == 2))
         result.push_back(m);
   return result;
 }
@@ -234,6 +234,8 @@ TEST(Hierarchical_method, meets_the_tolerance_with_every_schedule)
                                 Schedule::k_cycle(0, 2), Schedule::k_cycle(1, 1), Schedule()};
   for(const std::uint64_t seed : {1, 2})
     for(const auto& [name, mesh] : curved_charts(seed)) {
+      if(is_sanitized && seed == 2)
+        continue;
       // Where some of them converge fast at first, and slowly then. (With slivers a V-cycle that does
       // not smooth before it stands still for hundreds of steps: no estimate sees through that.)
       const std::string title = name;

@@ -315,6 +315,30 @@ TEST_F(Program, repairs_flipped_triangles)
   EXPECT_NE(outcome.out.find("repair "), std::string::npos) << outcome.out;
 }
 
+// Lengths are kept better than by a conformal map, and no triangle is flipped.
+TEST_F(Program, maps_with_low_stretch)
+{
+  const std::string in = write("in.off", off(wall(40)));
+  const double conformal = report(in)["distortion"]["area_scale_range"];
+  for(const char* energy : {"symmetric-dirichlet", "area", "arap", "mips"}) {
+    const Json json = report(in, {"--method", "low-stretch", "--energy", energy});
+    ASSERT_TRUE(json.is_object()) << energy;
+    EXPECT_EQ(json["method"], "low-stretch");
+    EXPECT_EQ(json["converged"], true) << energy;
+    EXPECT_EQ(json["flips"], 0) << energy;
+    EXPECT_EQ(json["degenerate_faces"], 0) << energy;
+    EXPECT_LT(json["stretch"]["energy_gap_estimate"].get<double>(), 1e-3) << energy;
+    if(std::string(energy) != "mips") { // which is conformal itself
+      EXPECT_LT(json["distortion"]["area_scale_range"].get<double>(), conformal) << energy;
+    }
+  }
+  const Texts pins{"--method", "low-stretch", "--pin", "0=0,0", "--pin", "39=0,5"};
+  ASSERT_EQ(parameterize(in, "out.obj", pins).exit_code, 0);
+  const Result result = read_obj(folder / "out.obj");
+  EXPECT_EQ(result.uv[0], (std::array<double, 2>{0, 0}));
+  EXPECT_EQ(result.uv[39], (std::array<double, 2>{0, 5}));
+}
+
 TEST_F(Program, says_so_when_it_does_not_converge)
 {
   const std::string in = write("in.off", off(grid(60, hilly)));

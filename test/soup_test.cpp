@@ -340,8 +340,9 @@ TEST(Soup, every_corner_gets_a_texture_coordinate)
         has_any = has_any || is_in_surface(c);
       for(std::size_t c = soup.first_corner[f]; c < soup.first_corner[f + 1]; ++c) {
         ASSERT_EQ(uv[c] != no_vertex, has_any); // all corners of a face or none
-        if(is_in_surface(c))
+        if(is_in_surface(c)) {
           ASSERT_EQ(s.vertex[uv[c]], soup.corners[c]);
+        }
       }
     }
     EXPECT_LE(cut_faces(soup, s, s.mesh.triangles).size(), soup.number_of_faces());

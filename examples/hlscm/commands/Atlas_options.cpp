@@ -107,8 +107,8 @@ void add_bake(CLI::App& app, Program_options& o)
       ->type_name("IMAGE");
   add_atlas_options(*run, o);
   add_number(*run, "--time-limit", 0, 1e9, o.atlas.time_limit,
-             "after half of that many seconds finish the atlas in the quickest way; when all are up "
-             "before all is baked, stop with exit code 1 and without files");
+             "after half of that many seconds finish the atlas in the quickest way; when all are up, "
+             "take what was baked by then, with fewer samples");
   run->add_option("--pictures", o.pictures,
                   "a folder for charts.png, checkerboard.png, bake.png and closeup.png")
       ->type_name("DIR");

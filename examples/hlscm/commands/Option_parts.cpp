@@ -52,20 +52,17 @@ CLI::Option* add_number(CLI::App& app, const std::string& name, double low, doub
   return app.add_option(name, value, help)->check(CLI::Validator(check, ""))->type_name("NUMBER");
 }
 
-void add_method(CLI::App& app, SMP::Conformal_method& method)
+Names<std::optional<SMP::Conformal_method>> method_names(const std::string& other)
 {
-  add_choice<SMP::Conformal_method>(
-      app, "--method",
-      {{"hlscm", SMP::Conformal_method::HLSCM},
-       {"spectral", SMP::Conformal_method::SPECTRAL},
-       {"cascadic", SMP::Conformal_method::CASCADIC},
-       {"lscm", SMP::Conformal_method::LSCM},
-       {"direct", SMP::Conformal_method::DIRECT}},
-      method,
-      "hlscm: multigrid; spectral: the same without pins, by the eigenvalue problem of "
-      "Mullen et al.; cascadic: coarse to fine once, as in the paper of "
-      "Ray and Levy; lscm: conjugate gradient on the finest level alone; direct: sparse "
-      "Cholesky of the whole (default hlscm)");
+  Names<std::optional<SMP::Conformal_method>> names = {{"hlscm", SMP::Conformal_method::HLSCM},
+                                                       {"spectral", SMP::Conformal_method::SPECTRAL},
+                                                       {"cascadic", SMP::Conformal_method::CASCADIC},
+                                                       {"lscm", SMP::Conformal_method::LSCM},
+                                                       {"direct", SMP::Conformal_method::DIRECT}};
+  if(!other.empty()) {
+    names.emplace_back(other, std::nullopt);
+  }
+  return names;
 }
 
 void add_threads(CLI::App& app, unsigned int& threads)

@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -60,7 +61,9 @@ CLI::Option* add_count(CLI::App& app, const std::string& name, Number low, Numbe
   return app.add_option(name, value, help)->check(CLI::Range(low, high, "N"));
 }
 
-void add_method(CLI::App& app, CGAL::Surface_mesh_parameterization::Conformal_method& method);
+/// The methods of conformal maps by their names; none is behind the name `other`, if there is one.
+Names<std::optional<CGAL::Surface_mesh_parameterization::Conformal_method>>
+method_names(const std::string& other = {});
 
 void add_threads(CLI::App& app, unsigned int& threads);
 

@@ -49,12 +49,25 @@ void set_schedule(const std::string& text, SMP::HLSCM_options& options)
   options.schedule = schedule;
 }
 
-void add_solver_options(CLI::App& app, Program_options& options)
+void add_solver_options(CLI::App& app, Program_options& options, const std::string& other_method)
 {
   SMP::HLSCM_options& o = options.library;
-  add_method(app, o.method);
-  app.parse_complete_callback(
-      [&options, &app] { options.is_method_given = app.count("--method") > 0; });
+  add_choice<std::optional<SMP::Conformal_method>>(
+      app, "--method", method_names(other_method), options.method,
+      "hlscm: multigrid; spectral: the same without pins, by the eigenvalue problem of "
+      "Mullen et al.; cascadic: coarse to fine once, as in the paper of "
+      "Ray and Levy; lscm: conjugate gradient on the finest level alone; direct: sparse "
+      "Cholesky of the whole"
+          + (other_method.empty() ? std::string()
+                                  : "; " + other_method
+                                        + ": not conformal, but lengths and areas are kept "
+                                          "as well as angles, and no triangle is flipped")
+          + " (default hlscm)");
+  app.parse_complete_callback([&options, &app] {
+    options.is_method_given = app.count("--method") > 0;
+    options.is_tolerance_given = app.count("--tolerance") > 0;
+    options.library.method = options.method.value_or(SMP::Conformal_method::HLSCM);
+  });
   add_choice<SMP::Conformal_weights>(
       app, "--weights",
       {{"exact", SMP::Conformal_weights::EXACT}, {"cgal", SMP::Conformal_weights::CGAL_LSCM}},
@@ -130,7 +143,16 @@ void add_parameterize(CLI::App& app, Program_options& o)
          "two far border vertices are taken and the map is scaled and moved into the unit square")
       ->type_name("INDEX=U,V")
       ->allow_extra_args(false);
-  add_solver_options(*run, o);
+  add_solver_options(*run, o, "low-stretch");
+  add_choice<Stretch>(*run, "--energy",
+                      {{"symmetric-dirichlet", Stretch::SYMMETRIC_DIRICHLET},
+                       {"mips", Stretch::MIPS},
+                       {"arap", Stretch::ARAP},
+                       {"area", Stretch::AREA}},
+                      o.stretch,
+                      "what --method low-stretch makes small: the change of lengths, either way "
+                      "(default); that of angles alone; the distance from a rotation, with a "
+                      "barrier; that of areas more than that of angles");
   run->add_option("--pictures", o.pictures,
                   "a folder for domain.png, isolines.png, checker.png and levels.png")
       ->type_name("DIR");
@@ -208,7 +230,7 @@ void add_levels(CLI::App& app, Program_options& o)
       ->type_name("obj|ply|glb|pm");
   run->add_flag("--lossless", o.is_lossless,
                 "write mesh.pm with all bits instead of 16 for each coordinate");
-  add_solver_options(*run, o);
+  add_solver_options(*run, o, {});
   run->add_option("--pictures", o.pictures, "a folder for levels.png and swimming.png")
       ->type_name("DIR");
   add_report_and_quiet(*run, o);

@@ -77,6 +77,7 @@ int run_parameterize(const Program_options& options)
   Mapped_surface map
       = map_input(input, options, snapshots ? &*snapshots : nullptr, progress);
   report.solver = map.report;
+  report.stretch = map.stretch;
   report.components = map.components;
   report.repairs = input.surface.repairs;
   report.seconds_total = working.seconds();

@@ -3,6 +3,8 @@
 
 #include "commands/Surface_mapping.h"
 
+#include "commands/Low_stretch.h"
+
 #include "common/Interruption.h"
 #include "common/Program_error.h"
 
@@ -63,11 +65,37 @@ SMP::HLSCM_options observed(const Program_options& options, Level_snapshots* sna
   return library;
 }
 
+using Stretch_reports = std::vector<SMP::Low_stretch_report>; // one for each component
+
+// That of all together.
+std::optional<SMP::Low_stretch_report> mean_of(const Stretch_reports& reports)
+{
+  if(reports.empty()) {
+    return std::nullopt;
+  }
+  SMP::Low_stretch_report all = reports.front();
+  double area = 0, energy = 0, gap = 0;
+  for(const SMP::Low_stretch_report& part : reports) {
+    area += part.area;
+    energy += part.area * part.energy;
+    gap += part.area * part.energy * part.energy_gap;
+  }
+  all.area = area;
+  all.energy = energy / area;
+  all.energy_gap = gap / energy;
+  return all;
+}
+
 // One connected component with a border, without handles.
 SMP::Conformal_map map_component(const Program_options& options, SMP::HLSCM_options library,
                                  const Indexed_triangle_mesh& component,
-                                 const std::vector<SMP::HLSCM_pin>& pins, Progress_bar& progress)
+                                 const std::vector<SMP::HLSCM_pin>& pins,
+                                 Stretch_reports& stretch, Progress_bar& progress)
 {
+  if(!options.method) {
+    stretch.emplace_back();
+    return map_with_low_stretch(options, component, pins, stretch.back(), progress);
+  }
   Mesh mesh = build_mesh(component);
   const Uv_map uv = mesh.add_property_map<Mesh::Vertex_index, Kernel::Point_2>("v:uv").first;
   SMP::Conformal_map result;
@@ -148,9 +176,11 @@ Mapped_surface map_chart(const Input_surface& input, const Program_options& opti
                          Progress_bar& progress)
 {
   const Indexed_triangle_mesh& mesh = input.surface.mesh;
+  Stretch_reports stretch;
   SMP::Conformal_map map
-      = map_component(options, observed(options, snapshots), mesh, pins, progress);
+      = map_component(options, observed(options, snapshots), mesh, pins, stretch, progress);
   Mapped_surface result;
+  result.stretch = mean_of(stretch);
   result.mesh.points = mesh.points;
   result.mesh.triangles = result.mesh.wedges = mesh.triangles;
   result.mesh.uv = std::move(map.uv);
@@ -171,6 +201,7 @@ std::string reason(const Program_error& error, const std::string& file)
 Mapped_surface map_components(const Input_surface& input, const Program_options& options,
                               const std::vector<SMP::HLSCM_pin>& pins, Progress_bar& progress)
 {
+  Stretch_reports stretch;
   SMT::Surface_map_options map;
   map.no_seams = input.surface.diagonals;
   map.pins = pins;
@@ -178,7 +209,7 @@ Mapped_surface map_components(const Input_surface& input, const Program_options&
   map.map = [&](const Indexed_triangle_mesh& component, const std::vector<SMP::HLSCM_pin>& fixed,
                 const SMP::HLSCM_options& library) {
     try {
-      return map_component(options, library, component, fixed, progress);
+      return map_component(options, library, component, fixed, stretch, progress);
     } catch(const Program_error& error) {
       SMP::Conformal_map none;
       none.report.message = reason(error, options.input);
@@ -192,6 +223,7 @@ Mapped_surface map_components(const Input_surface& input, const Program_options&
     throw Program_error(options.input, mapped.error);
   }
   Mapped_surface result;
+  result.stretch = mean_of(stretch);
   result.mesh = std::move(mapped.mesh);
   result.components = std::move(mapped.components);
   return result;

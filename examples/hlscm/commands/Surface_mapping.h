@@ -10,8 +10,10 @@
 #include "pictures/Level_snapshots.h"
 #include "reading/Surface_reading.h"
 
+#include <CGAL/Surface_mesh_parameterization/Low_stretch_options.h>
 #include <CGAL/Surface_mesh_texturing/map_surface.h>
 
+#include <optional>
 #include <vector>
 
 namespace hlscm {
@@ -24,6 +26,8 @@ struct Mapped_surface
   std::vector<CGAL::Surface_mesh_texturing::Mapped_component> components;
   /// Sums over the components, in the units of the map; or what is said of the only one.
   CGAL::Surface_mesh_parameterization::HLSCM_report report;
+  /// Of the surface to its map before it was scaled, if the method is low-stretch.
+  std::optional<CGAL::Surface_mesh_parameterization::Low_stretch_report> stretch;
   Similarity from_solver; ///< of the only component
 };
 

@@ -22,6 +22,9 @@ enum class Level_format { OBJ, PLY, GLB, PM };
 /// What decimates a mesh to be mapped.
 enum class Engine { FLAT, FLAT_STRICT, CGAL };
 
+/// What maps with low stretch make small.
+enum class Stretch { SYMMETRIC_DIRICHLET, MIPS, ARAP, AREA };
+
 /// A vertex of the input, counted from 0, and where it goes.
 struct Pin
 {
@@ -86,6 +89,11 @@ struct Program_options
   std::vector<Pin> pins; ///< none, or two and more
   CGAL::Surface_mesh_parameterization::HLSCM_options library;
   bool is_method_given = false; ///< by the user, in `library`
+  bool is_tolerance_given = false; ///< the same
+  /// That in `library`; none: with low stretch
+  std::optional<CGAL::Surface_mesh_parameterization::Conformal_method> method
+      = CGAL::Surface_mesh_parameterization::Conformal_method::HLSCM;
+  Stretch stretch = Stretch::SYMMETRIC_DIRICHLET; ///< what is then small
   bool repairs_flips = false; ///< of the map
   Engine engine = Engine::FLAT;
 

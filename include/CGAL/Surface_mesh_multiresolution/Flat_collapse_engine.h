@@ -101,6 +101,10 @@ public:
   /// Returns the number of costs computed so far, one a vertex and its ring.
   std::size_t number_of_evaluations() const { return m_surface.evaluations; }
 
+  /// Gives the connectivity of what is left away; the ring of a removed vertex is that at its
+  /// collapse. The engine must not run again.
+  Indexed_mesh::Vertex_rings take_rings() { return std::move(m_surface.rings); }
+
   /// Returns what has become of the layer.
   const Layer& layer() const { return m_surface.layer; }
 

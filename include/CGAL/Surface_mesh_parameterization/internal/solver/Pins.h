@@ -95,15 +95,11 @@ inline std::string name_of(const std::vector<std::uint32_t>& source, const Pin& 
   return "vertex " + std::to_string(source[pin.vertex]);
 }
 
-// Says in `status` what is wrong with the pins of a chart with these sources.
-inline void check_pins(const std::vector<std::uint32_t>& source, const Pins& pins, Status& status)
+// Says in `status` which of the pins of a chart with these sources is no good by itself.
+inline void check_each_pin(const std::vector<std::uint32_t>& source, const Pins& pins, Status& status)
 {
   const auto name = [&](const Pin& pin) { return name_of(source, pin); };
-  if(pins.size() < 2)
-    return status.fail(ERROR_WRONG_PARAMETER,
-                       "fewer than two vertices are pinned; pin two or more");
   std::vector<bool> is_pinned(source.size(), false);
-  bool is_spread = false;
   for(const Pin& pin : pins) {
     if(!std::isfinite(pin.value.real()) || !std::isfinite(pin.value.imag()))
       return status.fail(ERROR_WRONG_PARAMETER, "the pin of " + name(pin)
@@ -111,11 +107,20 @@ inline void check_pins(const std::vector<std::uint32_t>& source, const Pins& pin
     if(is_pinned[pin.vertex])
       return status.fail(ERROR_WRONG_PARAMETER, name(pin) + " is pinned twice; pin it once");
     is_pinned[pin.vertex] = true;
-    is_spread = is_spread || pin.value != pins[0].value;
   }
-  if(!is_spread)
-    return status.fail(ERROR_WRONG_PARAMETER, "the pins of " + name(pins[0]) + " and "
-                       + name(pins[1])
+}
+
+// Says in `status` what is wrong with the pins of a conformal map of a chart with these sources.
+inline void check_pins(const std::vector<std::uint32_t>& source, const Pins& pins, Status& status)
+{
+  if(pins.size() < 2)
+    return status.fail(ERROR_WRONG_PARAMETER,
+                       "fewer than two vertices are pinned; pin two or more");
+  check_each_pin(source, pins, status);
+  if(std::all_of(pins.begin(), pins.end(),
+                 [&pins](const Pin& pin) { return pin.value == pins[0].value; }))
+    return status.fail(ERROR_WRONG_PARAMETER, "the pins of " + name_of(source, pins[0]) + " and "
+                       + name_of(source, pins[1])
                        + " lie in one point of the parameter plane; move one of them");
 }
 

@@ -1,0 +1,98 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Low-stretch maps of charts: a CSV file on stdout, medians of runs, with one thread and with two.
+//
+// Usage: low_stretch CHART... [--repeat N] [--best]
+
+#include "machine.h"
+#include "timing.h"
+
+#include "charts/chart_io.h"
+
+#include <CGAL/Surface_mesh_parameterization/low_stretch_map.h>
+
+#include <CLI/CLI.hpp>
+
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace SMP = CGAL::Surface_mesh_parameterization;
+typedef CGAL::Indexed_mesh::Indexed_triangle_mesh Arrays;
+
+Arrays read(const std::string& path)
+{
+  const charts::Chart chart = charts::read_chart(path);
+  Arrays mesh;
+  for(const auto& p : chart.points)
+    mesh.points.emplace_back(p[0], p[1], p[2]);
+  for(const auto& t : chart.triangles)
+    mesh.triangles.push_back({t[0], t[1], t[2]});
+  return mesh;
+}
+
+// The triangles that are not counterclockwise, as far as double precision tells.
+std::size_t flips(const Arrays& mesh, const SMP::Low_stretch_map& map)
+{
+  std::size_t count = 0;
+  for(const auto& t : mesh.triangles) {
+    const auto &a = map.uv[t[0]], &b = map.uv[t[1]], &c = map.uv[t[2]];
+    count += (b.x() - a.x()) * (c.y() - a.y()) > (b.y() - a.y()) * (c.x() - a.x()) ? 0 : 1;
+  }
+  return count;
+}
+
+void print_row(const std::string& chart, const Arrays& mesh, double tolerance, unsigned int threads,
+               int repetitions)
+{
+  SMP::Low_stretch_options options;
+  options.tolerance = tolerance;
+  SMP::Low_stretch_map map;
+  const CGAL::Blocked_execution::Thread_scope scope(threads);
+  const double seconds = timing::median_seconds_of(
+    repetitions, [&] { map = SMP::low_stretch_map(mesh, options); });
+  if(!map.is_ok())
+    throw std::runtime_error(chart + ": " + map.error);
+  std::cout << chart << ',' << mesh.triangles.size() << ',' << map.report.borders << ',' << tolerance
+            << ',' << threads << ',' << seconds << ',' << 1e6 * seconds / double(mesh.triangles.size())
+            << ',' << map.report.energy << ',' << map.report.energy_gap << ','
+            << map.report.iterations << ',' << flips(mesh, map) << std::endl;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  std::vector<std::string> paths;
+  int repetitions = 3;
+  bool has_best = false;
+  CLI::App app{"Low-stretch maps: seconds beside energies."};
+  app.add_option("charts", paths, "meshes with a border, of genus 0")->required();
+  app.add_option("--repeat", repetitions, "runs of which the median counts")->check(CLI::Range(1, 100));
+  app.add_flag("--best", has_best, "also with a tolerance of 1e-6, for the energy that can be reached");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    std::cout << "# " << machine::description() << "; medians of " << repetitions << "\n"
+              << "chart,faces,borders,tolerance,threads,seconds,seconds_per_million,energy,gap_estimate,"
+                 "iterations,flips\n";
+    std::cout.precision(8);
+    for(const std::string& path : paths) {
+      const Arrays mesh = read(path);
+      const std::string chart = std::filesystem::path(path).stem().string();
+      for(const double tolerance : {1e-2, 1e-3, 1e-4})
+        print_row(chart, mesh, tolerance, 1, repetitions);
+      print_row(chart, mesh, 1e-3, 2, repetitions);
+      if(has_best)
+        print_row(chart, mesh, 1e-6, 1, 1);
+    }
+  } catch(const std::exception& error) {
+    std::cerr << error.what() << "\n";
+    return 1;
+  }
+}

@@ -1,0 +1,28 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef HLSCM_PROGRAM_LOW_STRETCH_H
+#define HLSCM_PROGRAM_LOW_STRETCH_H
+
+#include "common/Program_options.h"
+#include "common/Progress_bar.h"
+
+#include <CGAL/Surface_mesh_parameterization/Low_stretch_options.h>
+#include <CGAL/Surface_mesh_parameterization/conformal_map.h>
+
+#include <vector>
+
+namespace hlscm {
+
+/// Maps a connected component of genus 0 with a border with little stretch; what it says of energies
+/// is in `stretch`. Throws `Program_error`.
+CGAL::Surface_mesh_parameterization::Conformal_map
+map_with_low_stretch(const Program_options& options,
+                     const CGAL::Indexed_mesh::Indexed_triangle_mesh& component,
+                     const std::vector<CGAL::Surface_mesh_parameterization::HLSCM_pin>& pins,
+                     CGAL::Surface_mesh_parameterization::Low_stretch_report& stretch,
+                     Progress_bar& progress);
+
+} // namespace hlscm
+
+#endif // HLSCM_PROGRAM_LOW_STRETCH_H

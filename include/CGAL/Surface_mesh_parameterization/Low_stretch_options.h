@@ -1,0 +1,63 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_LOW_STRETCH_OPTIONS_H
+#define CGAL_SURFACE_MESH_PARAMETERIZATION_LOW_STRETCH_OPTIONS_H
+
+#include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_parameterization {
+
+/// \ingroup PkgHLSCMStretch
+/// The options of `low_stretch_map()` and `Low_stretch_parameterizer_3`.
+struct Low_stretch_options
+{
+  /// Of what remains of the energy, in parts of it: the iteration stops when it has no more than that
+  /// to gain, as far as can be estimated. Where the least energy is nearly that of an isometry, a
+  /// tenth of the difference counts instead of the energy.
+  double tolerance = 1e-3;
+  std::size_t maximal_iterations = 50; ///< of Newton's method, on the surface itself
+  /// Vertices and where they are held, different vertices; any number. The unit is that of the mesh.
+  std::vector<HLSCM_pin> pins;
+  double time_limit = 0.;              ///< seconds after which nothing more is improved; 0: none
+  unsigned int threads = 0;    ///< of a parallel parameterizer; 0: as many as there are processors
+  /// Told the part done in [0, 1] from time to time. When it returns false, or the time is over, the
+  /// map is finished without improving it any further, in a small part of the whole time: it has no
+  /// flipped triangle either, but more stretch.
+  std::function<bool(double)> progress;
+};
+
+/// \ingroup PkgHLSCMStretch
+/// What happened on one level.
+struct Low_stretch_level_report
+{
+  std::size_t vertices = 0;   ///< vertices of the level
+  std::size_t faces = 0;      ///< faces of the level
+  std::size_t iterations = 0; ///< steps of Newton's method
+};
+
+/// \ingroup PkgHLSCMStretch
+/// What became of a low-stretch map.
+struct Low_stretch_report
+{
+  double energy = 0.;          ///< the mean over the surface
+  double energy_gap = 0.;      ///< estimate of what the energy has still to lose, in parts of it
+  bool converged = false;      ///< whether the tolerance is met, as far as can be estimated
+  bool is_cut_short = false;   ///< whether `progress` or the time limit ended it early
+  double area = 0.;            ///< of the surface
+  std::size_t borders = 0;     ///< the number of borders
+  std::vector<Low_stretch_level_report> levels; ///< the levels, the coarsest first
+  std::size_t iterations = 0;  ///< steps of Newton's method on the surface itself
+  double seconds_decimation = 0.; ///< for the levels
+  double seconds = 0.;            ///< for all
+};
+
+} // namespace Surface_mesh_parameterization
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_LOW_STRETCH_OPTIONS_H

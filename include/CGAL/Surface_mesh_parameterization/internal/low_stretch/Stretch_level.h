@@ -1,0 +1,396 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_STRETCH_LEVEL_H
+#define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_STRETCH_LEVEL_H
+
+#include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Blocked_execution/memory.h>
+#include <CGAL/Indexed_mesh/Triangle_adjacency.h>
+#include <CGAL/Multigrid/Block_values.h>
+#include <CGAL/Multigrid/Matrix_builder.h>
+#include <CGAL/Surface_mesh_parameterization/Stretch_element.h>
+#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Stretched_star.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_parameterization {
+namespace internal {
+
+// The least of numbers, as a sum.
+struct Least
+{
+  double value = (std::numeric_limits<double>::infinity)();
+  Least operator+(const Least& other) const { return {(std::min)(value, other.value)}; }
+  Least& operator+=(const Least& other) { return *this = *this + other; }
+};
+
+// The total energy of a map of a mesh, with what Newton's method wants to know of it.
+//
+// Invariant: all triangles of the map are surely positive.
+template <class Energy>
+class Stretch_level
+{
+public:
+  typedef std::vector<Plane_point> Places;
+  typedef std::vector<Triangle_indices> Triangles;
+
+  // `reference(t)` is triangle t laid out by its metric. The vertices for which `is_fixed` never
+  // move; none if it is empty. The triangles must live as long as the level.
+  template <class Reference>
+  Stretch_level(const Triangles& triangles, const Reference& reference, Places places,
+                std::vector<bool> is_fixed, const Energy& energy)
+    : m_triangles(triangles), m_corners(triangles, places.size()), m_energy(energy)
+    , m_is_fixed(std::move(is_fixed)), m_places(std::move(places))
+  {
+    m_references.resize(triangles.size());
+    for_each(triangles.size(), [&](std::size_t t) { m_references[t] = reference(t); });
+    m_area = Blocked_execution::blocked_sum<double>(
+      triangles.size(), block_size, [this](std::size_t begin, std::size_t end) {
+        double sum = 0.;
+        for(std::size_t t = begin; t < end; ++t)
+          sum += m_references[t].area();
+        return sum;
+      });
+    m_value = energy_at(m_places);
+  }
+
+  const Places& places() const { return m_places; }
+  std::size_t size() const { return m_places.size(); }
+  bool is_fixed(std::size_t v) const { return !m_is_fixed.empty() && m_is_fixed[v]; }
+  double area() const { return m_area; } // of the reference triangles
+  double value() const { return m_value; }
+  double mean() const { return m_value / m_area; }
+
+  // The energy of a map, infinity if it is not valid.
+  double energy_at(const Places& z) const
+  {
+    const double sum = Blocked_execution::blocked_sum<double>(
+      m_triangles.size(), block_size, [&](std::size_t begin, std::size_t end) {
+        double part = 0.;
+        for(std::size_t t = begin; t < end; ++t) {
+          const std::array<Plane_point, 3> c = corners_at(z, t);
+          const Plane_jacobian<double> j(m_references[t], c);
+          const double d = j.determinant();
+          if(!(d > 0.) || !is_surely_positive(c[0], c[1], c[2]))
+            return infinity;
+          part += m_references[t].area() * m_energy.value(j.squared_norm(), d);
+        }
+        return part;
+      });
+    return std::isfinite(sum) ? sum : infinity;
+  }
+
+  // Scales the map to its least energy among all scales, or to the area of the surface if none is
+  // better than the others. Not with fixed vertices.
+  void scale();
+
+  // Takes a local step at each vertex, and then at those at which much changes; returns by how much
+  // the energy fell.
+  double sweep(double share_of_queue);
+
+  // Computes the derivatives at the map.
+  void linearize()
+  {
+    m_elements.resize(m_triangles.size());
+    for_each(m_triangles.size(), [this](std::size_t t) {
+      m_elements[t] = Stretch_element<double>(
+        m_references[t], Plane_jacobian<double>(m_references[t], corners_at(m_places, t)), m_energy,
+        Curvature::PROJECTED);
+    });
+  }
+
+  // Frees what `linearize()` has computed.
+  void forget_derivatives()
+  {
+    Blocked_execution::Uninitialized_vector<Stretch_element<double>>().swap(m_elements);
+  }
+
+  // The first derivative; 0 at fixed vertices.
+  Places gradient() const
+  {
+    Places result(size());
+    for_each(size(), [&](std::size_t v) {
+      if(is_fixed(v))
+        return;
+      for(const Halfedge* c = m_corners.begin(Vertex_index(v)); c != m_corners.end(Vertex_index(v)); ++c)
+        result[v] = result[v] + m_elements[triangle_of(*c)].gradient(m_references[triangle_of(*c)],
+                                                                     int(corner_of(*c)));
+    });
+    return result;
+  }
+
+  // The projected second derivative, without rows for fixed vertices; its diagonal is longer by the
+  // part `shift`.
+  template <class Value>
+  Multigrid::Self_adjoint_matrix<Value> matrix(double shift = 0.) const;
+
+  // Goes along `direction` as far as the energy falls and no triangle turns over; returns by how
+  // much the energy fell. `slope` is its derivative there.
+  double go(const Places& direction, double slope);
+
+  // Moves vertices, all by the same part of the way, towards places, half as far as no triangle turns
+  // over; returns whether they are there.
+  template <class Held_vertex>
+  bool move_towards(const std::vector<Held_vertex>& held)
+  {
+    Places direction(size()), target = m_places;
+    for(const Held_vertex& h : held) {
+      direction[h.vertex] = h.place - m_places[h.vertex];
+      target[h.vertex] = h.place;
+    }
+    const double limit = longest_step(direction);
+    const bool is_there = limit > 1. && energy_at(target) < infinity;
+    for(double t = (std::min)(0.5, 0.5 * limit); !is_there && t > 1e-6; t *= 0.5) {
+      target = moved(direction, t);
+      if(energy_at(target) < infinity)
+        break;
+    }
+    const double value = energy_at(target);
+    if(value < infinity) {
+      m_places.swap(target);
+      m_value = value;
+    }
+    return is_there;
+  }
+
+private:
+  static constexpr std::size_t block_size = 16384;
+  static constexpr double infinity = (std::numeric_limits<double>::infinity)();
+
+  template <class Body>
+  static void for_each(std::size_t n, const Body& body)
+  {
+    Blocked_execution::blocked_for(n, block_size, [&](std::size_t begin, std::size_t end) {
+      for(std::size_t i = begin; i < end; ++i)
+        body(i);
+    });
+  }
+
+  std::array<Plane_point, 3> corners_at(const Places& z, std::size_t t) const
+  {
+    const Triangle_indices& v = m_triangles[t];
+    return {z[v[0]], z[v[1]], z[v[2]]};
+  }
+
+  double relax(Vertex_index v, Stretched_star& star);
+  double longest_step(const Places& direction) const;
+  Places moved(const Places& direction, double t) const
+  {
+    Places result(size());
+    for_each(size(), [&](std::size_t v) { result[v] = m_places[v] + direction[v] * t; });
+    return result;
+  }
+
+  const Triangles& m_triangles;
+  Indexed_mesh::Triangles_at_vertices m_corners;
+  Energy m_energy;
+  std::vector<bool> m_is_fixed;
+  Places m_places;
+  std::vector<Reference_triangle<double>> m_references;
+  Blocked_execution::Uninitialized_vector<Stretch_element<double>> m_elements;
+  double m_area = 0., m_value = 0.;
+};
+
+// Newton's method for the logarithm s of the scale: I and D are multiplied by e^2s.
+template <class Energy>
+void Stretch_level<Energy>::scale()
+{
+  const auto derivatives = [this](double factor) {
+    std::array<double, 3> sum = {0., 0., 0.}; // first, second, and what they are measured by
+    for(std::size_t t = 0; t < m_triangles.size(); ++t) {
+      const Plane_jacobian<double> j(m_references[t], corners_at(m_places, t));
+      const double i = factor * j.squared_norm(), d = factor * j.determinant();
+      const Stretch_jet<double> f = m_energy(i, d);
+      const double w = m_references[t].area(), first = i * f.f_i + d * f.f_d;
+      sum[0] += w * 2. * first;
+      sum[1] += w * 4. * (first + i * i * f.f_ii + 2. * i * d * f.f_id + d * d * f.f_dd);
+      sum[2] += w * (std::abs(i * f.f_i) + std::abs(d * f.f_d));
+    }
+    return sum;
+  };
+  double s = 0.;
+  for(int i = 0; i < 50; ++i) {
+    const std::array<double, 3> f = derivatives(std::exp(2. * s));
+    if(!(std::abs(f[0]) > 1e-12 * f[2]))
+      break;
+    const double step = f[1] > 0. ? -f[0] / f[1] : (f[0] > 0. ? -0.5 : 0.5);
+    s += (std::max)(-0.5, (std::min)(0.5, step));
+    if(std::abs(step) < 1e-3)
+      break;
+  }
+  if(s == 0.) { // no scale is better
+    double image = 0.;
+    for(std::size_t t = 0; t < m_triangles.size(); ++t) {
+      const std::array<Plane_point, 3> c = corners_at(m_places, t);
+      image += 0.5 * (c[1] - c[0]).cross(c[2] - c[0]);
+    }
+    s = 0.5 * std::log(m_area / image);
+  }
+  Places scaled = m_places;
+  for(Plane_point& z : scaled)
+    z = z * std::exp(s);
+  const double value = energy_at(scaled);
+  if(value < infinity) {
+    m_places.swap(scaled);
+    m_value = value;
+  }
+}
+
+// Takes a local step at v; returns by how much the energy fell.
+template <class Energy>
+double Stretch_level<Energy>::relax(Vertex_index v, Stretched_star& star)
+{
+  if(is_fixed(v))
+    return 0.;
+  star.clear();
+  for(const Halfedge* c = m_corners.begin(v); c != m_corners.end(v); ++c) {
+    const Indexed_mesh::Triangle_corner corner(*c);
+    const Triangle_indices& t = m_triangles[corner.triangle];
+    star.add(m_references[corner.triangle], int(corner_of(*c)), m_places[t[corner.next]],
+             m_places[t[corner.last]]);
+  }
+  double energy = star.energy_at(m_places[v], m_energy);
+  return star.improve(m_places[v], energy, m_energy);
+}
+
+template <class Energy>
+double Stretch_level<Energy>::sweep(double share_of_queue)
+{
+  const double much = 1e-6 * m_value, before = m_value;
+  Stretched_star star;
+  std::deque<Vertex_index> queue;
+  std::vector<bool> is_queued(size(), false);
+  const auto push_with_ring = [&](Vertex_index v) {
+    for(const Halfedge* c = m_corners.begin(v); c != m_corners.end(v); ++c)
+      for(const Vertex_index w : m_triangles[triangle_of(*c)])
+        if(!is_queued[w]) {
+          is_queued[w] = true;
+          queue.push_back(w);
+        }
+  };
+  for(Vertex_index v = 0; v < size(); ++v)
+    if(relax(v, star) > much)
+      push_with_ring(v);
+  std::size_t steps = std::size_t(share_of_queue * double(size()));
+  for(; steps > 0 && !queue.empty(); --steps) {
+    const Vertex_index v = queue.front();
+    queue.pop_front();
+    is_queued[v] = false;
+    if(relax(v, star) > much)
+      push_with_ring(v);
+  }
+  m_value = energy_at(m_places);
+  return before - m_value;
+}
+
+template <class Energy>
+template <class Value>
+Multigrid::Self_adjoint_matrix<Value> Stretch_level<Energy>::matrix(double shift) const
+{
+  std::vector<std::uint32_t> lengths(size());
+  for_each(size(), [&](std::size_t v) {
+    lengths[v] = is_fixed(v) ? 0 : m_corners.number(Vertex_index(v)) + 1; // one less inside
+  });
+  const auto fill = [&](std::uint32_t v, Multigrid::Real_row<Value>& row) {
+    constexpr std::size_t few = 16;
+    std::array<std::uint32_t, few> few_columns;
+    std::array<Eigen::Matrix2d, few> few_values;
+    std::vector<std::uint32_t> many_columns(lengths[v] > few ? lengths[v] : 0);
+    std::vector<Eigen::Matrix2d> many_values(many_columns.size());
+    std::uint32_t* columns = many_columns.empty() ? few_columns.data() : many_columns.data();
+    Eigen::Matrix2d* values = many_values.empty() ? few_values.data() : many_values.data();
+    std::size_t count = 0;
+    Eigen::Matrix2d diagonal = Eigen::Matrix2d::Zero();
+    const auto block = [](const Plane_matrix<double>& b) {
+      return (Eigen::Matrix2d() << b.xx, b.xy, b.yx, b.yy).finished();
+    };
+    if(!is_fixed(v))
+      for(const Halfedge* c = m_corners.begin(v); c != m_corners.end(v); ++c) {
+        const std::size_t t = triangle_of(*c);
+        const int corner = int(corner_of(*c));
+        diagonal += block(m_elements[t].block(m_references[t], corner, corner));
+        for(int k = 1; k < 3; ++k) {
+          const int other = (corner + k) % 3;
+          const std::uint32_t w = m_triangles[t][other];
+          const std::size_t at = std::find(columns, columns + count, w) - columns;
+          const Eigen::Matrix2d b = block(m_elements[t].block(m_references[t], corner, other));
+          if(at < count)
+            values[at] += b;
+          else {
+            columns[count] = w;
+            values[count++] = b;
+          }
+        }
+      }
+    diagonal *= 1. + shift;
+    row.set(diagonal, count, columns, values);
+    return true;
+  };
+  return Multigrid::Matrix_builder::build_matrix<Value>(
+    lengths, fill, [](std::uint32_t, typename Multigrid::Self_adjoint_matrix<Value>::Row&) {});
+}
+
+template <class Energy>
+double Stretch_level<Energy>::longest_step(const Places& direction) const
+{
+  return Blocked_execution::blocked_sum<Least>(
+    m_triangles.size(), block_size, [&](std::size_t begin, std::size_t end) {
+      Least least;
+      for(std::size_t t = begin; t < end; ++t) {
+        const std::array<Plane_point, 3> z = corners_at(m_places, t), d = corners_at(direction, t);
+        least.value = (std::min)(least.value, largest_step(z[1] - z[0], d[1] - d[0], z[2] - z[0],
+                                                           d[2] - d[0]));
+      }
+      return least;
+    }).value;
+}
+
+// Armijo's rule; then, as long as the energy falls, steps twice as long.
+template <class Energy>
+double Stretch_level<Energy>::go(const Places& direction, double slope)
+{
+  constexpr double share = 0.9, sufficient = 1e-4, longest = 4.;
+  constexpr int halvings = 30;
+  const double limit = share * longest_step(direction), before = m_value;
+  double t = (std::min)(1., limit);
+  Places best;
+  for(int i = 0; i < halvings && best.empty(); ++i) {
+    Places next = moved(direction, t);
+    const double value = energy_at(next);
+    if(value <= before + sufficient * t * slope && value < before) {
+      best.swap(next);
+      m_value = value;
+    } else
+      t *= 0.5;
+  }
+  if(best.empty())
+    return 0.;
+  for(t *= 2.; t <= longest && t <= limit; t *= 2.) {
+    Places next = moved(direction, t);
+    const double value = energy_at(next);
+    if(!(value < m_value))
+      break;
+    best.swap(next);
+    m_value = value;
+  }
+  m_places.swap(best);
+  return before - m_value;
+}
+
+} // namespace internal
+} // namespace Surface_mesh_parameterization
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_STRETCH_LEVEL_H

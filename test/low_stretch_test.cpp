@@ -1,0 +1,472 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Low-stretch maps: that no triangle is flipped, whatever the surface; what is known of least
+// energies; and what is said of bad input.
+
+#include <support/chart_generators.h>
+
+#include <CGAL/Blocked_execution/blocked_for.h>
+
+#include <CGAL/Surface_mesh_parameterization/Low_stretch_parameterizer_3.h>
+#include <CGAL/Surface_mesh_parameterization/parameterize.h>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/measure.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace low_stretch_test {
+
+using namespace CGAL::Surface_mesh_parameterization;
+using namespace test_support;
+using CGAL::Indexed_mesh::Mesh_status;
+
+constexpr std::uint64_t seed = 20261123;
+constexpr double pi = 3.14159265358979323846;
+typedef std::vector<CGAL::Simple_cartesian<double>::Point_2> Uv;
+
+// --- Properties, as functions that return what is wrong
+
+// Exactly: every triangle is counterclockwise.
+std::string error_in_orientation(const Indexed_triangle_mesh& mesh, const Uv& uv)
+{
+  typedef CGAL::Exact_predicates_inexact_constructions_kernel::Point_2 Point;
+  const auto point = [&uv](Vertex_index v) { return Point(uv[v].x(), uv[v].y()); };
+  if(uv.size() != mesh.points.size())
+    return "the map has " + std::to_string(uv.size()) + " parameters";
+  for(const auto& p : uv)
+    if(!std::isfinite(p.x()) || !std::isfinite(p.y()))
+      return "a parameter is not a finite number";
+  for(std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Triangle_indices& v = mesh.triangles[t];
+    if(CGAL::orientation(point(v[0]), point(v[1]), point(v[2])) != CGAL::LEFT_TURN)
+      return "triangle " + std::to_string(t) + " is flipped or degenerate";
+  }
+  return {};
+}
+
+// The triangles at a vertex inside go around it once.
+std::string error_in_turns(const Indexed_triangle_mesh& mesh, const Uv& uv)
+{
+  std::vector<double> angle(uv.size(), 0.);
+  for(const Triangle_indices& t : mesh.triangles)
+    for(int c = 0; c < 3; ++c) {
+      const auto a = uv[t[(c + 1) % 3]] - uv[t[c]], b = uv[t[(c + 2) % 3]] - uv[t[c]];
+      angle[t[c]] += std::atan2(a.x() * b.y() - a.y() * b.x(), a * b);
+    }
+  const std::vector<bool> is_border = border_vertices_of(mesh);
+  for(std::size_t v = 0; v < uv.size(); ++v)
+    if(!is_border[v] && std::abs(angle[v] - 2. * pi) > 1e-3)
+      return "the triangles at vertex " + std::to_string(v) + " turn by " + std::to_string(angle[v]);
+  return {};
+}
+
+template <class Energy>
+double energy_of(const Indexed_triangle_mesh& mesh, const Uv& uv, const Energy& energy)
+{
+  double sum = 0., area = 0.;
+  for(const Triangle_indices& t : mesh.triangles) {
+    const auto reference = Reference_triangle<double>::of_points(mesh.points[t[0]], mesh.points[t[1]],
+                                                                 mesh.points[t[2]]);
+    const auto place = [&](int c) { return Plane_vector<double>{uv[t[c]].x(), uv[t[c]].y()}; };
+    const Plane_jacobian<double> j(reference, {place(0), place(1), place(2)});
+    sum += reference.area() * energy.value(j.squared_norm(), j.determinant());
+    area += reference.area();
+  }
+  return sum / area;
+}
+
+// All that is promised of any result.
+template <class Energy>
+std::string error_in_map(const Indexed_triangle_mesh& mesh, const Low_stretch_map& map,
+                         const Energy& energy)
+{
+  if(!map.is_ok())
+    return map.error;
+  std::string error = error_in_orientation(mesh, map.uv);
+  if(error.empty())
+    error = error_in_turns(mesh, map.uv);
+  if(error.empty() && !(std::abs(energy_of(mesh, map.uv, energy) / map.report.energy - 1.) < 1e-6))
+    error = "the energy is not that of the report";
+  return error;
+}
+
+std::string error_in_map(const Indexed_triangle_mesh& mesh, const Low_stretch_map& map)
+{
+  return error_in_map(mesh, map, Symmetric_dirichlet_energy());
+}
+
+// By how much a map changes the lengths of edges, as a part of the mean length.
+double largest_change_of_length(const Indexed_triangle_mesh& mesh, const Uv& uv)
+{
+  double largest = 0., sum = 0.;
+  for(const Triangle_indices& t : mesh.triangles)
+    for(int c = 0; c < 3; ++c) {
+      const Vertex_index v = t[c], w = t[(c + 1) % 3];
+      const double length = std::sqrt(squared_distance(mesh.points[v], mesh.points[w]));
+      largest = std::max(largest, std::abs(std::sqrt(squared_distance(uv[v], uv[w])) - length));
+      sum += length;
+    }
+  return largest * 3. * double(mesh.triangles.size()) / sum;
+}
+
+// --- Charts
+
+// A tube of the given length and radius 1, closed at its far end.
+Indexed_triangle_mesh finger(double length, Vertex_index circles)
+{
+  return moved(round_disk(circles), [=](const Point_3& p) {
+    const double r = std::hypot(p.x(), p.y()), z = (length + 1.) * r;
+    const double radius = z < 1. ? std::sqrt(1. - (1. - z) * (1. - z)) : 1.;
+    return r > 0. ? Point_3(radius * p.x() / r, radius * p.y() / r, z) : Point_3(0., 0., 0.);
+  });
+}
+
+// A plane with high thin spikes.
+Indexed_triangle_mesh spikes(std::size_t number, double height, std::uint64_t s)
+{
+  Indexed_triangle_mesh mesh = irregular_grid(30, 30, s);
+  Random random(s);
+  std::vector<Point_3> tips;
+  for(std::size_t i = 0; i < number; ++i)
+    tips.emplace_back(uniform(random, 3., 27.), uniform(random, 3., 27.), 0.);
+  return moved(mesh, [&](const Point_3& p) {
+    double z = 0.;
+    for(const Point_3& tip : tips)
+      z = std::max(z, height * (1. - std::sqrt(squared_distance(p, tip)) / 3.));
+    return Point_3(p.x(), p.y(), z);
+  });
+}
+
+// A share of the triangles is split near an edge: heights of 1e-5.
+Indexed_triangle_mesh with_caps(Indexed_triangle_mesh mesh, double share, std::uint64_t s)
+{
+  Random random(s);
+  for(std::size_t t = 0, n = mesh.triangles.size(); t < n; ++t)
+    if(uniform(random, 0., 1.) < share) {
+      const Triangle_indices v = mesh.triangles[t];
+      const Vertex_index m = Vertex_index(mesh.points.size());
+      const Point_3 &a = mesh.points[v[0]], &b = mesh.points[v[1]], &c = mesh.points[v[2]];
+      mesh.points.push_back(CGAL::ORIGIN + 0.5 * ((a - CGAL::ORIGIN) + (b - CGAL::ORIGIN)) + 1e-5 * (c - a));
+      mesh.triangles[t] = {v[0], v[1], m};
+      mesh.triangles.push_back({v[1], v[2], m});
+      mesh.triangles.push_back({v[2], v[0], m});
+    }
+  return mesh;
+}
+
+// Charts of up to some 2,000 faces.
+std::vector<Named_mesh> nasty_charts(std::uint64_t s)
+{
+  const Indexed_triangle_mesh plane = irregular_grid(32, 26, s), hills = with_hills(plane, 8., s + 1);
+  return {
+    {"noise of an edge length", with_noise(hills, 1., s + 2)},
+    {"noise alone", with_noise(plane, 5., s + 4)},
+    {"caps", with_caps(hills, 0.2, s + 5)},
+    {"squeezed by 50", moved(hills, [](const Point_3& p) { return Point_3(p.x(), p.y() / 50., p.z()); })},
+    {"stretched by 50", moved(hills, [](const Point_3& p) { return Point_3(p.x(), p.y(), 50. * p.z()); })},
+    {"finger", finger(20., 20)},
+    {"spikes", spikes(10, 20., s + 6)},
+    {"spiral", rolled_up(irregular_grid(150, 5, s + 7), 4., 3.)},
+    {"noisy holes", with_noise(with_holes(hills, 15, s + 8), 0.5, s + 9)},
+    {"jagged holes", with_hills(with_jagged_border(with_holes(plane, 12, s + 11), 0.6, s + 12), 10., s + 13)},
+    {"nearly closed sphere", on_sphere(round_disk(18), 3.1)},
+    {"sphere with holes", with_holes(sphere(3), 5, s + 14)},
+    {"long cylinder", with_noise(cylinder(14, 60), 0.02, s + 15)},
+    {"zero-area triangles", with_zero_area_triangles(hills, 15, s + 16)},
+    {"duplicate points", with_duplicate_points(hills, 15, s + 17)},
+    {"shuffled", shuffled(with_noise(hills, 0.4, s + 18), s + 19)},
+  };
+}
+
+// Those of up to 1,500 faces.
+std::vector<Named_mesh> small_ones_of(std::vector<Named_mesh> charts)
+{
+  charts.erase(std::remove_if(charts.begin(), charts.end(), [](const Named_mesh& chart) {
+    return chart.mesh.triangles.size() > 1500;
+  }), charts.end());
+  return charts;
+}
+
+// How many seeds are tried: the variable HLSCM_STRETCH_SEEDS, or 1.
+std::uint64_t number_of_seeds()
+{
+  const char* text = std::getenv("HLSCM_STRETCH_SEEDS");
+  return text == nullptr ? 1 : std::strtoull(text, nullptr, 10);
+}
+
+// --- Tests
+
+TEST(Low_stretch_map, no_triangle_is_flipped)
+{
+  for(std::uint64_t s = seed; s < seed + number_of_seeds(); ++s)
+    for(const auto& charts : {small_ones_of(planar_charts(s)), nasty_charts(s)})
+      for(const Named_mesh& chart : charts) {
+        const Low_stretch_map map = low_stretch_map(chart.mesh);
+        EXPECT_EQ(error_in_map(chart.mesh, map), "") << chart.name << ", seed " << s;
+      }
+}
+
+TEST(Low_stretch_map, planar_meshes_stay_what_they_are)
+{
+  for(const Named_mesh& chart : small_ones_of(planar_charts(seed))) {
+    const Low_stretch_map map = low_stretch_map(chart.mesh);
+    ASSERT_EQ(error_in_map(chart.mesh, map), "") << chart.name;
+    EXPECT_LT(largest_change_of_length(chart.mesh, map.uv), 1e-6) << chart.name;
+  }
+}
+
+TEST(Low_stretch_map, what_can_be_unrolled_is)
+{
+  const Indexed_triangle_mesh roll = rolled_up(grid(80, 12), 12., 0.);
+  const Low_stretch_map map = low_stretch_map(roll);
+  ASSERT_EQ(error_in_map(roll, map), "");
+  EXPECT_LT(largest_change_of_length(roll, map.uv), 1e-6);
+}
+
+// A user's energy, in double precision alone, with nothing but what the concept asks for.
+struct Own_energy
+{
+  double value(double i, double d) const { return i + 1. / d; }
+  Stretch_jet<double> operator()(double i, double d) const
+  {
+    return {i + 1. / d, 1., -1. / (d * d), 0., 0., 2. / (d * d * d)};
+  }
+};
+
+// Each energy is lower at its own map than at those of the others, and no triangle is flipped.
+TEST(Low_stretch_map, each_energy_has_its_own_map)
+{
+  const Indexed_triangle_mesh mesh = with_noise(on_sphere(round_disk(14), 2.), 0.004, seed);
+  Low_stretch_options options;
+  options.tolerance = 1e-5;
+  std::vector<Low_stretch_map> maps;
+  std::vector<std::array<double, 6>> energies; // of each map
+  const auto add = [&](const auto& energy) {
+    maps.push_back(low_stretch_map(mesh, options, energy));
+    EXPECT_EQ(error_in_map(mesh, maps.back(), energy), "") << maps.size();
+    const Uv& uv = maps.back().uv;
+    energies.push_back({energy_of(mesh, uv, Symmetric_dirichlet_energy()),
+                        energy_of(mesh, uv, Area_weighted_mips_energy{3.}),
+                        energy_of(mesh, uv, Arap_energy()), energy_of(mesh, uv, Mips_energy()),
+                        energy_of(mesh, uv, Powered_energy<Symmetric_dirichlet_energy>()),
+                        energy_of(mesh, uv, Own_energy())});
+  };
+  add(Symmetric_dirichlet_energy());
+  add(Area_weighted_mips_energy{3.});
+  add(Arap_energy());
+  add(Mips_energy());
+  add(Powered_energy<Symmetric_dirichlet_energy>());
+  add(Own_energy());
+  for(std::size_t i = 0; i < maps.size(); ++i)
+    for(std::size_t j = 0; j < maps.size(); ++j)
+      if(i != j) {
+        EXPECT_LT(energies[i][i], energies[j][i]) << "energy " << i << ", map " << j;
+      }
+}
+
+// The estimate at a tolerance holds against a run until nothing moves.
+TEST(Low_stretch_map, the_tolerance_is_met)
+{
+  for(const Named_mesh& chart : {Named_mesh{"dome", on_sphere(round_disk(18), 2.5)},
+                                 Named_mesh{"noisy hills", with_noise(with_hills(irregular_grid(30, 25, seed), 8., seed), 0.3, seed)},
+                                 Named_mesh{"sphere with holes", with_holes(sphere(3), 5, seed)}}) {
+    Low_stretch_options options;
+    const Low_stretch_map map = low_stretch_map(chart.mesh, options);
+    options.tolerance = 1e-10;
+    options.maximal_iterations = 200;
+    const Low_stretch_map best = low_stretch_map(chart.mesh, options);
+    ASSERT_EQ(error_in_map(chart.mesh, map) + error_in_map(chart.mesh, best), "") << chart.name;
+    EXPECT_TRUE(map.report.converged) << chart.name;
+    EXPECT_LT(map.report.energy, (1. + 1e-3) * best.report.energy) << chart.name;
+    EXPECT_GT(map.report.energy, (1. - 1e-3) * best.report.energy) << chart.name;
+  }
+}
+
+TEST(Low_stretch_map, threads_do_not_change_a_bit)
+{
+  const Indexed_triangle_mesh mesh = with_noise(with_hills(irregular_grid(120, 100, seed), 20., seed), 0.2, seed);
+  const Low_stretch_map map = low_stretch_map(mesh);
+  ASSERT_EQ(error_in_map(mesh, map), "");
+  {
+    const unsigned int threads = 3;
+    const CGAL::Blocked_execution::Thread_scope scope(threads);
+    const Low_stretch_map again = low_stretch_map(mesh);
+    EXPECT_EQ(map.uv, again.uv) << threads << " threads";
+  }
+}
+
+// In other units and places the map is the same but for rounding.
+TEST(Low_stretch_map, units_do_not_matter)
+{
+  const Indexed_triangle_mesh mesh = with_hills(irregular_grid(40, 30, seed), 8., seed);
+  const Low_stretch_map map = low_stretch_map(mesh);
+  for(const double unit : {1e-20, 0.3, 1e20}) {
+    const Indexed_triangle_mesh other = moved(mesh, [=](const Point_3& p) {
+      return Point_3(unit * p.x(), unit * p.y(), unit * (p.z() + 10.));
+    });
+    const Low_stretch_map again = low_stretch_map(other);
+    ASSERT_EQ(error_in_orientation(other, again.uv), "") << unit;
+    EXPECT_NEAR(again.report.energy, map.report.energy, 1e-5 * map.report.energy) << unit;
+    EXPECT_NEAR(std::abs(again.uv[7].x() - again.uv[500].x()) / unit,
+                std::abs(map.uv[7].x() - map.uv[500].x()), 1e-2) << unit;
+  }
+}
+
+// Ended at any moment it is a map without a flip.
+TEST(Low_stretch_map, can_be_ended_at_any_moment)
+{
+  const Indexed_triangle_mesh mesh = with_noise(with_hills(irregular_grid(30, 25, seed), 8., seed), 0.4, seed);
+  const double best = low_stretch_map(mesh).report.energy;
+  double last = std::numeric_limits<double>::infinity();
+  for(std::size_t calls = 0; calls < 60; calls += calls / 4 + 1) {
+    Low_stretch_options options;
+    std::size_t count = 0;
+    double part = 0.;
+    options.progress = [&](double done) {
+      EXPECT_GE(done, part);
+      EXPECT_LE(done, 1.);
+      part = done;
+      return ++count <= calls;
+    };
+    const Low_stretch_map map = low_stretch_map(mesh, options);
+    ASSERT_EQ(error_in_map(mesh, map), "") << calls << " calls";
+    EXPECT_EQ(map.report.is_cut_short, count > calls);
+    EXPECT_GE(map.report.energy, best);
+    last = map.report.energy;
+  }
+  EXPECT_LT(last, 1.5 * best);
+  Low_stretch_options options;
+  options.time_limit = 1e-9;
+  const Low_stretch_map map = low_stretch_map(mesh, options);
+  EXPECT_EQ(error_in_map(mesh, map), "");
+  EXPECT_TRUE(map.report.is_cut_short);
+  EXPECT_FALSE(map.report.converged);
+}
+
+// Pins are kept exactly, and nothing flips.
+TEST(Low_stretch_map, pins_are_kept)
+{
+  Random random(seed);
+  for(const Named_mesh& chart : {Named_mesh{"hills", with_hills(irregular_grid(30, 25, seed), 8., seed)},
+                                 Named_mesh{"dome with holes", with_holes(on_sphere(round_disk(18), 2.), 6, seed)}})
+    for(const std::size_t number : {1, 2, 3, 10, 60}) {
+      Low_stretch_options options;
+      const Low_stretch_map free = low_stretch_map(chart.mesh, options);
+      // Near where the free map has them, turned
+      for(std::size_t i = 0; i < number; ++i) {
+        const std::size_t v = i * (chart.mesh.points.size() / number);
+        const double shift = 0.02 * std::sqrt(free.report.area);
+        options.pins.push_back({v, 100. - free.uv[v].y() + uniform(random, -shift, shift),
+                                free.uv[v].x() + uniform(random, -shift, shift)});
+      }
+      const Low_stretch_map map = low_stretch_map(chart.mesh, options);
+      ASSERT_EQ(error_in_map(chart.mesh, map), "") << chart.name << ", " << number << " pins";
+      for(const HLSCM_pin& pin : options.pins) {
+        EXPECT_EQ(map.uv[pin.vertex].x(), pin.u) << chart.name << ", " << number << " pins";
+        EXPECT_EQ(map.uv[pin.vertex].y(), pin.v) << chart.name << ", " << number << " pins";
+      }
+      EXPECT_GT(map.report.energy, 0.999 * free.report.energy);
+      EXPECT_LT(map.report.energy, 3. * free.report.energy) << chart.name << ", " << number << " pins";
+    }
+}
+
+TEST(Low_stretch_map, pins_that_cannot_be_reached_are_named)
+{
+  const Indexed_triangle_mesh mesh = grid(8, 8);
+  const auto error = [&mesh](const std::vector<HLSCM_pin>& pins) {
+    Low_stretch_options options;
+    options.pins = pins;
+    const Low_stretch_map map = low_stretch_map(mesh, options);
+    EXPECT_TRUE(map.uv.empty());
+    return map.error;
+  };
+  // Three neighbours the wrong way round, two at one place
+  EXPECT_NE(error({{0, 0., 0.}, {1, 0., 1.}, {9, 1., 0.}}).find("turns over"), std::string::npos);
+  EXPECT_NE(error({{0, 0., 0.}, {1, 0., 0.}, {80, 8., 8.}}).find("turns over"), std::string::npos);
+  EXPECT_NE(error({{99, 0., 0.}}).find("99"), std::string::npos);
+  EXPECT_NE(error({{5, 0., 0.}, {5, 1., 0.}}).find("twice"), std::string::npos);
+  EXPECT_NE(error({{5, std::numeric_limits<double>::infinity(), 0.}}).find("finite"), std::string::npos);
+}
+
+TEST(Low_stretch_map, bad_input_is_named)
+{
+  const Indexed_triangle_mesh good = grid(3, 3);
+  const auto status = [](const Indexed_triangle_mesh& mesh, const Low_stretch_options& options = {}) {
+    const Low_stretch_map map = low_stretch_map(mesh, options);
+    EXPECT_TRUE(map.uv.empty());
+    EXPECT_FALSE(map.error.empty());
+    return map.status;
+  };
+  EXPECT_EQ(status({}), Mesh_status::BAD_MESH);
+  EXPECT_EQ(status(sphere(2)), Mesh_status::BAD_MESH);
+  EXPECT_EQ(status(torus(8, 8)), Mesh_status::BAD_MESH);
+  Indexed_triangle_mesh bad = good;
+  bad.triangles[3][1] = 99;
+  EXPECT_EQ(status(bad), Mesh_status::BAD_MESH);
+  bad = good;
+  bad.points[2] = Point_3(0., std::numeric_limits<double>::quiet_NaN(), 0.);
+  EXPECT_EQ(status(bad), Mesh_status::BAD_MESH);
+  EXPECT_EQ(status(moved(good, [](const Point_3&) { return Point_3(1., 2., 3.); })), Mesh_status::BAD_MESH);
+  Low_stretch_options options;
+  options.tolerance = 0.;
+  EXPECT_EQ(status(good, options), Mesh_status::BAD_OPTIONS);
+  options = Low_stretch_options();
+  options.time_limit = -1.;
+  EXPECT_EQ(status(good, options), Mesh_status::BAD_OPTIONS);
+}
+
+// --- The parameterizer
+
+typedef Surface_mesh::Vertex_index Vertex;
+typedef CGAL::Kernel_traits<Surface_mesh::Point>::Kernel::Point_2 Mesh_point_2;
+
+// The same map as that of the arrays, by the member function and by CGAL's free function.
+TEST(Low_stretch_parameterizer_3, maps_what_the_arrays_map)
+{
+  const Indexed_triangle_mesh arrays = with_hills(irregular_grid(30, 20, seed), 6., seed);
+  Surface_mesh mesh = to_surface_mesh(arrays);
+  const Low_stretch_map map = low_stretch_map(arrays);
+  const auto border = CGAL::Polygon_mesh_processing::longest_border(mesh).first;
+  for(const bool is_free_function : {false, true}) {
+    auto uv = mesh.add_property_map<Vertex, Mesh_point_2>("v:uv", Mesh_point_2(0., 0.)).first;
+    Low_stretch_parameterizer_3<Surface_mesh> parameterizer;
+    EXPECT_EQ(is_free_function ? parameterize(mesh, parameterizer, border, uv)
+                               : parameterizer.parameterize(mesh, border, uv), OK);
+    EXPECT_TRUE(parameterizer.report().converged);
+    std::size_t different = 0;
+    for(const Vertex v : mesh.vertices())
+      different += uv[v].x() != map.uv[v].x() || uv[v].y() != map.uv[v].y() ? 1 : 0;
+    EXPECT_EQ(different, 0u) << is_free_function;
+    mesh.remove_property_map(uv);
+  }
+}
+
+// Only the component of the border is mapped; bad input is an error with a sentence.
+TEST(Low_stretch_parameterizer_3, takes_the_component_of_the_border)
+{
+  Surface_mesh mesh = to_surface_mesh(grid(4, 4));
+  mesh += to_surface_mesh(sphere(1));
+  auto uv = mesh.add_property_map<Vertex, Mesh_point_2>("v:uv", Mesh_point_2(77., 77.)).first;
+  Low_stretch_parameterizer_3<Surface_mesh, Mips_energy> parameterizer;
+  const auto border = CGAL::Polygon_mesh_processing::longest_border(mesh).first;
+  EXPECT_EQ(parameterizer.parameterize(mesh, border, uv), OK);
+  for(const Vertex v : mesh.vertices())
+    EXPECT_EQ(uv[v] == Mesh_point_2(77., 77.), v.idx() >= 25);
+  EXPECT_EQ(parameterizer.parameterize(mesh, Surface_mesh::null_halfedge(), uv), ERROR_NO_TOPOLOGICAL_DISC);
+  EXPECT_FALSE(parameterizer.outcome().error.empty());
+  parameterizer.options().tolerance = -1.;
+  EXPECT_EQ(parameterizer.parameterize(mesh, border, uv), ERROR_WRONG_PARAMETER);
+}
+
+} // namespace low_stretch_test
