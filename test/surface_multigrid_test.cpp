@@ -44,12 +44,12 @@ constexpr std::uint64_t seed = 20261123;
 constexpr double pi = 3.14159265358979323846;
 
 // Several levels on small meshes.
-std::shared_ptr<const Surface_hierarchy> hierarchy_of(const Indexed_triangle_mesh& mesh,
+std::shared_ptr<Surface_hierarchy> hierarchy_of(const Indexed_triangle_mesh& mesh,
                                                       std::size_t coarsest_size = 60)
 {
   Surface_hierarchy_options options;
   options.coarsest_size = coarsest_size;
-  return std::make_shared<const Surface_hierarchy>(mesh, options);
+  return std::make_shared<Surface_hierarchy>(mesh, options);
 }
 
 std::vector<double> random_values(std::size_t n, std::uint64_t s)

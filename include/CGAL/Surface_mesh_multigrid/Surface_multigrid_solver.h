@@ -22,6 +22,7 @@
 #include <ostream>
 #include <sstream>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -72,7 +73,8 @@ public:
   {}
 
   /// Constructs a solver with a hierarchy of its own, of arrays or any model of `FaceListGraph`.
-  template <class Mesh>
+  template <class Mesh, class = std::enable_if_t<
+              !std::is_convertible_v<const Mesh&, std::shared_ptr<const Surface_hierarchy>>>>
   explicit Surface_multigrid_solver(const Mesh& mesh, const Options& options = Options())
     : m_options(options)
   {
