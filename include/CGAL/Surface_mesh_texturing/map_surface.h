@@ -125,6 +125,10 @@ private:
     for(const Pin& pin : m_options.pins)
       if(pin.vertex >= m_mesh.points.size())
         return "there is no vertex " + std::to_string(pin.vertex) + " that could be pinned";
+    const std::size_t tensors = m_options.solver.metric.size();
+    if(tensors != 0 && tensors != m_mesh.triangles.size())
+      return "the metric has " + std::to_string(tensors) + " tensors, but there are "
+           + std::to_string(m_mesh.triangles.size()) + " triangles";
     const std::vector<std::uint8_t>& no_seams = m_options.no_seams;
     return no_seams.empty() ? std::string() : foreign_seams_error(m_mesh, no_seams).error;
   }
@@ -238,6 +242,9 @@ private:
     typedef Surface_mesh_parameterization::Conformal_method Method;
     const std::size_t faces = m_parts[c].triangles.size();
     Surface_mesh_parameterization::HLSCM_options options = m_options.solver;
+    for(std::size_t i = 0; !options.metric.empty() && i < faces; ++i)
+      options.metric[i] = m_options.solver.metric[m_parts[c].triangles[i]];
+    options.metric.resize((std::min)(options.metric.size(), faces));
     if(options.method == Method::HLSCM && m_result.components[c].is_cut && !has_pins)
       options.method = Method::SPECTRAL;
     else if(options.method == Method::HLSCM && m_parts.size() > 1 && faces < m_options.direct_faces)

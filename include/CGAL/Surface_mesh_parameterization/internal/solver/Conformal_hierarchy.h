@@ -78,6 +78,9 @@ public:
   const std::vector<Level>& levels() const { return m_levels; }
   std::size_t number_of_levels() const { return m_levels.size(); }
 
+  // Sets the metric of the finest triangles; empty: that of their points.
+  void set_metric(std::vector<Indexed_mesh::Space_tensor> metric) { m_metric = std::move(metric); }
+
   // Builds the operators from the meshes of the levels, without pins. `triangle_weights` are those
   // of the finest level, empty for 1. After each level, the finest first, `after_level(l)` says
   // whether to go on.
@@ -173,6 +176,7 @@ private:
 
   Coarsest_solver m_solver;
   std::vector<Level> m_levels;
+  std::vector<Indexed_mesh::Space_tensor> m_metric;    // of the finest triangles; empty: of the points
   std::vector<Conformal_operator<float>> m_single;     // of the levels between; of all for a cycle
   Conformal_operator<double> m_coarsest, m_finest;     // those at the ends
   std::unique_ptr<Cycle> m_cycle;
@@ -200,7 +204,7 @@ void Conformal_hierarchy::build_operators(std::vector<double> triangle_weights,
     return Triangles_at_vertices(m_levels[l].mesh.triangles, m_levels[l].vertices.size());
   };
   Triangles_at_vertices at = corners(count - 1);
-  Half_cotangents cot(m_levels.back().mesh);
+  Half_cotangents cot(m_levels.back().mesh, m_metric);
   for(std::size_t l = count; l-- > 0;) {
     Level& level = m_levels[l];
     const auto assemble = [&](auto& op) {

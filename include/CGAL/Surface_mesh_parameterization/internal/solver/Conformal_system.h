@@ -171,6 +171,7 @@ inline Conformal_system::Conformal_system(Chart chart, Pins wanted_pins, const S
   , m_has_cgal_weights(run.options().weights == Conformal_weights::CGAL_LSCM)
 {
   set_scale(chart.scale);
+  hierarchy.set_metric(std::move(chart.metric));
   build_levels(chart, run);
   source = std::move(chart.source);
   borders = std::move(chart.borders);
