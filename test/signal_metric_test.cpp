@@ -166,7 +166,8 @@ TEST(Signal, AnImageIsASignal)
   for(std::size_t y = 0; y < image.height; ++y)
     for(std::size_t x = 0; x < image.width; ++x)
       image.texels.push_back(float(wave((double(x) + 0.5) / 512., 1. - (double(y) + 0.5) / 384.)));
-  const Face_tensors of_image = image_signal(textured, image), of_values = vertex_signal(mesh, values, 1);
+  const Face_tensors of_image = image_signal(textured, image);
+  const Face_tensors of_values = vertex_signal(mesh, values, 1);
   ASSERT_TRUE(of_image.is_ok()) << of_image.error;
   double largest = 0.;
   for(const Space_tensor& t : of_values.tensors)
@@ -279,7 +280,8 @@ Uv map_by_factorization(const Indexed_triangle_mesh& mesh, const Tensors& metric
       ll[c] = metric[t].product(e, e);
     }
     const double sum = ll[0] + ll[1] + ll[2];
-    const double area = 0.25 * std::sqrt(sum * sum - 2. * (ll[0] * ll[0] + ll[1] * ll[1] + ll[2] * ll[2]));
+    const double squares = ll[0] * ll[0] + ll[1] * ll[1] + ll[2] * ll[2];
+    const double area = 0.25 * std::sqrt(sum * sum - 2. * squares);
     for(int c = 0; c < 3; ++c) {
       const int i = int(v[(c + 1) % 3]), j = int(v[(c + 2) % 3]);
       const double w = (sum - 2. * ll[c]) / (8. * area); // half the cotangent at c
@@ -477,16 +479,15 @@ TEST(Signal, GraphsAndComponents)
   HLSCM_options options;
   options.metric = metric;
   HLSCM_parameterizer_3<Surface_mesh> parameterizer(options);
-  ASSERT_EQ(CGAL::Surface_mesh_parameterization::parameterize(graph, parameterizer,
-                                                              border_halfedge(graph), uv), OK);
+  const auto bhd = border_halfedge(graph);
+  ASSERT_EQ(CGAL::Surface_mesh_parameterization::parameterize(graph, parameterizer, bhd, uv), OK);
   const Uv expected = conformal_map(mesh, options).uv;
   Low_stretch_options low;
   low.metric = metric;
   for(const auto v : graph.vertices())
     ASSERT_EQ(uv[v], expected[v]);
   Low_stretch_parameterizer_3<Surface_mesh> stretch(low);
-  ASSERT_EQ(CGAL::Surface_mesh_parameterization::parameterize(graph, stretch, border_halfedge(graph), uv),
-            OK);
+  ASSERT_EQ(CGAL::Surface_mesh_parameterization::parameterize(graph, stretch, bhd, uv), OK);
   const Uv expected_low = low_stretch_map(mesh, low).uv;
   for(const auto v : graph.vertices())
     ASSERT_EQ(uv[v], expected_low[v]);

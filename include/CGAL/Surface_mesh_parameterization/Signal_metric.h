@@ -58,7 +58,8 @@ struct Linear_gradient
 
 inline std::string weight_error(double weight)
 {
-  return weight >= 0. && std::isfinite(weight) ? "" : "the weight of the signal is negative or no number";
+  return weight >= 0. && std::isfinite(weight) ? ""
+                                               : "the weight of the signal is negative or no number";
 }
 
 // Scales a metric so that the surface has the area that it has.

@@ -73,8 +73,8 @@ void map_chart(Prepared_chart prepared, std::size_t n, const Low_stretch_options
 {
   using Indexed_mesh::Mesh_status;
   if(result.fail(Mesh_status::BAD_OPTIONS, options_error(options))
-     || result.fail(prepared.chart.has_bad_metric ? Mesh_status::BAD_OPTIONS : Mesh_status::BAD_MESH,
-                    prepared.status.message))
+     || result.fail(Mesh_status::BAD_OPTIONS, prepared.chart.metric_error)
+     || result.fail(Mesh_status::BAD_MESH, prepared.status.message))
     return;
   Chart& chart = prepared.chart;
   const int exponent = scale_to_power_of_two(chart);
@@ -83,7 +83,8 @@ void map_chart(Prepared_chart prepared, std::size_t n, const Low_stretch_options
     return;
   Low_stretch_solver<Energy> solver(options, energy);
   const std::vector<Plane_point> places
-    = solver.run(std::move(chart.mesh), std::move(chart.rings), std::move(held), std::move(chart.metric));
+    = solver.run(std::move(chart.mesh), std::move(chart.rings), std::move(held),
+                 std::move(chart.metric));
   result.report = solver.report();
   result.report.area = std::ldexp(result.report.area, 2 * exponent);
   result.report.borders = chart.borders.size();

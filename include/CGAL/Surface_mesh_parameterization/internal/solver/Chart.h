@@ -77,14 +77,15 @@ struct Chart
 {
   typedef Indexed_mesh::Indexed_triangle_mesh Mesh;
   typedef Indexed_mesh::Vertex_index Vertex_index;
+  typedef std::vector<Indexed_mesh::Space_tensor> Metric;
 
   Mesh mesh;                              // normalized, in spatial order
   std::vector<std::uint32_t> source;      // for each vertex its position in vertices(mesh)
   Indexed_mesh::Vertex_rings rings;
   std::vector<std::vector<Vertex_index>> borders;
   double scale = 1.;                      // lengths of `mesh` to those of the input
-  std::vector<Indexed_mesh::Space_tensor> metric; // of each triangle; empty: that of the points
-  bool has_bad_metric = false;            // whether that is what is wrong
+  Metric metric;                          // of each triangle; empty: that of the points
+  std::string metric_error;               // what is wrong with it
 };
 
 inline void check_point(const Chart::Mesh::Point_3& p, std::size_t vertex, Status& status)
@@ -180,8 +181,7 @@ inline void number_sources(Chart& chart)
 }
 
 // A connected mesh that is two arrays, with the metric of its triangles, if that is not their own.
-CGAL_HLSCM_INLINE Prepared_chart
-chart_of_arrays(Chart::Mesh mesh, const std::vector<Indexed_mesh::Space_tensor>& metric = {});
+CGAL_HLSCM_INLINE Prepared_chart chart_of_arrays(Chart::Mesh mesh, const Chart::Metric& metric = {});
 
 // The parameters of the `n` vertices of the input; (0, 0) of those that are not in the chart.
 inline std::vector<Simple_cartesian<double>::Point_2>
@@ -219,7 +219,7 @@ Status check_border(const TriangleMesh& mesh,
 template <class TriangleMesh>
 Prepared_chart extract_chart(const TriangleMesh& mesh,
                              typename boost::graph_traits<TriangleMesh>::halfedge_descriptor bhd,
-                             const std::vector<Indexed_mesh::Space_tensor>& metric = {})
+                             const Chart::Metric& metric = {})
 {
   Prepared_chart result;
   result.status = check_border(mesh, bhd);
@@ -372,16 +372,13 @@ CGAL_HLSCM_INLINE void prepare_chart(Chart& chart, std::uint32_t seed, Status& s
   const std::vector<Indexed_mesh::Triangle_indices> input = chart.mesh.triangles;
   const std::size_t n = chart.mesh.points.size();
   prepare_surface(chart, seed, status);
-  if(!status.is_ok())
-    return;
-  const std::string error = sort_metric(input, n, chart.mesh, chart.source, chart.metric);
-  chart.has_bad_metric = !error.empty();
-  if(chart.has_bad_metric)
-    status.fail(ERROR_WRONG_PARAMETER, error);
+  if(status.is_ok())
+    chart.metric_error = sort_metric(input, n, chart.mesh, chart.source, chart.metric);
+  if(!chart.metric_error.empty())
+    status.fail(ERROR_WRONG_PARAMETER, chart.metric_error);
 }
 
-CGAL_HLSCM_INLINE Prepared_chart
-chart_of_arrays(Chart::Mesh mesh, const std::vector<Indexed_mesh::Space_tensor>& metric)
+CGAL_HLSCM_INLINE Prepared_chart chart_of_arrays(Chart::Mesh mesh, const Chart::Metric& metric)
 {
   Prepared_chart result;
   Chart& chart = result.chart;

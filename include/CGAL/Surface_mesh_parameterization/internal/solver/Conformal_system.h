@@ -171,7 +171,6 @@ inline Conformal_system::Conformal_system(Chart chart, Pins wanted_pins, const S
   , m_has_cgal_weights(run.options().weights == Conformal_weights::CGAL_LSCM)
 {
   set_scale(chart.scale);
-  hierarchy.set_metric(std::move(chart.metric));
   build_levels(chart, run);
   source = std::move(chart.source);
   borders = std::move(chart.borders);
@@ -200,7 +199,8 @@ inline void Conformal_system::build_levels(Chart& chart, Run_control& run)
       levels.ratio = m_parts.level_ratio;
     levels.coarsest_size = options.coarsest_size;
     levels.rule = options.prolongation;
-    hierarchy.set_levels(SMM::build_hierarchy(std::move(chart.mesh), pm, levels));
+    hierarchy.set_levels(SMM::build_hierarchy(std::move(chart.mesh), pm, levels),
+                         std::move(chart.metric));
   }
   if(options.keep_progressive_mesh)
     progressive_mesh = std::move(pm);
