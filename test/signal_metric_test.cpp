@@ -12,6 +12,7 @@
 #include <CGAL/Surface_mesh_parameterization/Signal_metric.h>
 #include <CGAL/Surface_mesh_parameterization/conformal_map.h>
 #include <CGAL/Surface_mesh_parameterization/parameterize.h>
+#include <CGAL/Surface_mesh_texturing/build_texture_atlas.h>
 #include <CGAL/Surface_mesh_texturing/map_surface.h>
 #include <CGAL/Surface_mesh_texturing/surface_signals.h>
 
@@ -107,7 +108,7 @@ double difference_up_to(const Uv& a, const Uv& b, bool may_scale)
 // --- Tensors
 
 // What defines T: along each edge the signal changes by the square root of e T e.
-TEST(Signal, TensorsMeasureTheChangeAlongEdges)
+TEST(Signal_metric, tensors_measure_the_change_along_edges)
 {
   const Indexed_triangle_mesh mesh = with_noise(hills(), 0.2, seed);
   Random random(seed);
@@ -128,7 +129,7 @@ TEST(Signal, TensorsMeasureTheChangeAlongEdges)
 }
 
 // Of a plane the normals do not change, on a cylinder only across, by one over the radius.
-TEST(Signal, NormalsOfACylinderChangeAcross)
+TEST(Signal_metric, normals_of_a_cylinder_change_across)
 {
   const double radius = 15.;
   const Indexed_triangle_mesh mesh = rolled_up(grid(200, 20), radius, 0.);
@@ -150,7 +151,7 @@ TEST(Signal, NormalsOfACylinderChangeAcross)
 }
 
 // An image on texture coordinates is the signal that has its values at the vertices.
-TEST(Signal, AnImageIsASignal)
+TEST(Signal_metric, an_image_is_a_signal)
 {
   const Indexed_triangle_mesh mesh = irregular_grid(40, 40, seed);
   CGAL::Surface_mesh_texturing::Textured_triangle_mesh textured;
@@ -181,7 +182,7 @@ TEST(Signal, AnImageIsASignal)
 
 // --- Metrics
 
-TEST(Signal, MetricKeepsTheAreaAndBlends)
+TEST(Signal_metric, metric_keeps_the_area_and_blends)
 {
   const Indexed_triangle_mesh mesh = hills();
   const double area = area_in(mesh, Tensors(mesh.triangles.size(), Space_tensor::identity()));
@@ -201,7 +202,7 @@ TEST(Signal, MetricKeepsTheAreaAndBlends)
   EXPECT_GT(importance_metric(mesh, importance).tensors[0].xx, 100.);
 }
 
-TEST(Signal, NoUnitCounts)
+TEST(Signal_metric, no_unit_counts)
 {
   const Indexed_triangle_mesh mesh = hills();
   const auto wave = [](const Point_3& p) { return std::sin(0.3 * p.x()) + 0.2 * p.z(); };
@@ -233,7 +234,7 @@ TEST(Signal, NoUnitCounts)
 // --- Maps
 
 // The square with the signal u = k x becomes the rectangle that is analytically known.
-TEST(Signal, ARampStretchesTheSquare)
+TEST(Signal_metric, a_ramp_stretches_the_square)
 {
   const Indexed_triangle_mesh mesh = irregular_grid(30, 30, seed);
   for(const double weight : {0.5, 4., 50.}) {
@@ -320,7 +321,7 @@ Uv map_by_factorization(const Indexed_triangle_mesh& mesh, const Tensors& metric
   return uv;
 }
 
-TEST(Signal, ConformalMapIsTheGlobalMinimum)
+TEST(Signal_metric, conformal_map_is_the_global_minimum)
 {
   for(const Indexed_triangle_mesh& mesh :
       {hills(), with_noise(with_hills(irregular_grid(80, 60, seed), 9., seed + 2), 0.15, seed + 3)}) {
@@ -347,7 +348,7 @@ TEST(Signal, ConformalMapIsTheGlobalMinimum)
 }
 
 // Without a flip, and of the energy that is reported.
-TEST(Signal, LowStretchMapsHaveNoFlip)
+TEST(Signal_metric, low_stretch_maps_have_no_flip)
 {
   for(const Named_mesh& chart : curved_charts(seed)) {
     Low_stretch_options options;
@@ -386,7 +387,7 @@ double signal_stretch(const Indexed_triangle_mesh& mesh, const Tensors& signal, 
   return stretch * texture;
 }
 
-TEST(Signal, LowersTheSignalStretch)
+TEST(Signal_metric, lowers_the_signal_stretch)
 {
   const Indexed_triangle_mesh mesh = with_hills(irregular_grid(60, 50, seed), 12., seed + 1);
   const auto bump = [](const Point_3& p) {
@@ -405,7 +406,7 @@ TEST(Signal, LowersTheSignalStretch)
   EXPECT_LT(last, 0.5 * without);
 }
 
-TEST(Signal, ImportanceIsDensity)
+TEST(Signal_metric, importance_is_density)
 {
   const Indexed_triangle_mesh mesh = irregular_grid(40, 40, seed);
   std::vector<double> importance(mesh.triangles.size(), 0.);
@@ -426,7 +427,7 @@ TEST(Signal, ImportanceIsDensity)
 }
 
 // A metric of identities is that of the surface, up to rounding.
-TEST(Signal, TheIdentityIsTheSurface)
+TEST(Signal_metric, the_identity_is_the_surface)
 {
   const Indexed_triangle_mesh mesh = hills();
   Low_stretch_options low;
@@ -449,7 +450,7 @@ bool is_equal(const Uv& a, const Uv& b)
   return std::equal(a.begin(), a.end(), b.begin(), b.end());
 }
 
-TEST(Signal, EqualBitsForAnyThreads)
+TEST(Signal_metric, equal_bits_for_any_threads)
 {
   const Indexed_triangle_mesh mesh = with_hills(irregular_grid(200, 150, seed), 12., seed + 1);
   Low_stretch_options low;
@@ -469,7 +470,7 @@ TEST(Signal, EqualBitsForAnyThreads)
 }
 
 // The tensors find their faces in meshes of graphs, and of several components.
-TEST(Signal, GraphsAndComponents)
+TEST(Signal_metric, graphs_and_components)
 {
   const Indexed_triangle_mesh mesh = hills();
   const Tensors metric = normals_metric(mesh);
@@ -518,9 +519,47 @@ TEST(Signal, GraphsAndComponents)
             std::string::npos);
 }
 
+// Charts of an atlas get the texture that the metric gives them, without a flip.
+TEST(Signal_metric, charts_of_an_atlas_are_adapted)
+{
+  namespace SMT = CGAL::Surface_mesh_texturing;
+  const Indexed_triangle_mesh mesh = with_noise(sphere(4), 0.01, seed);
+  std::vector<double> importance(mesh.triangles.size(), 0.);
+  const auto is_above = [&](std::size_t t) { return mesh.points[mesh.triangles[t][0]].z() > 0.; };
+  for(std::size_t t = 0; t < importance.size(); ++t)
+    importance[t] = is_above(t) ? 1. : 0.;
+  SMT::Texture_atlas_options options;
+  const auto ratio = [&](const SMT::Texture_atlas& atlas) { // of the texture above to that below
+    double areas[2] = {0., 0.};
+    for(std::size_t t = 0; t < importance.size(); ++t) {
+      const auto& w = atlas.mesh.wedges[t];
+      const auto& uv = atlas.mesh.uv;
+      const auto p = uv[w[1]] - uv[w[0]], q = uv[w[2]] - uv[w[0]];
+      const double area = p.x() * q.y() - p.y() * q.x();
+      EXPECT_GT(area, 0.);
+      areas[is_above(t) ? 1 : 0] += area;
+    }
+    return areas[1] / areas[0];
+  };
+  const SMT::Texture_atlas_result even = SMT::build_texture_atlas(mesh, options);
+  ASSERT_TRUE(even.is_ok()) << even.error;
+  EXPECT_NEAR(ratio(even.atlas), 1., 0.2);
+  options.metric = importance_metric(mesh, importance, 4.).tensors;
+  const SMT::Texture_atlas_result adapted = SMT::build_texture_atlas(mesh, options);
+  ASSERT_TRUE(adapted.is_ok()) << adapted.error;
+  EXPECT_GT(ratio(adapted.atlas), 2.);
+  for(const auto& chart : adapted.report.charts)
+    EXPECT_TRUE(chart.is_one_to_one);
+  options.metric[3] = Space_tensor();
+  EXPECT_NE(SMT::build_texture_atlas(mesh, options).error.find("the metric of triangle 3"),
+            std::string::npos);
+  options.metric.pop_back();
+  EXPECT_NE(SMT::build_texture_atlas(mesh, options).error.find("tensors"), std::string::npos);
+}
+
 // --- Bad input
 
-TEST(Signal, SaysWhatIsWrong)
+TEST(Signal_metric, says_what_is_wrong)
 {
   const Indexed_triangle_mesh mesh = hills();
   const std::size_t n = mesh.points.size(), faces = mesh.triangles.size();

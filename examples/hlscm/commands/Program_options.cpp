@@ -153,16 +153,7 @@ void add_parameterize(CLI::App& app, Program_options& o)
                       "what --method low-stretch makes small: the change of lengths, either way "
                       "(default); that of angles alone; the distance from a rotation, with a "
                       "barrier; that of areas more than that of angles");
-  run->add_option("--signal", o.signal,
-                  "give more of the plane to where something changes fast: the normals of the "
-                  "surface, the colours of its vertices (.ply), a picture on its texture "
-                  "coordinates (.png, .jpg, .bmp, .tga); or, from any other file, to faces of a "
-                  "larger number")
-      ->type_name("normals|colors|FILE");
-  run->add_option("--signal-weight", o.signal_weight,
-                  "how many times as much as the surface that counts (default 4)")
-      ->check(CLI::Range(0., 1e6, "NUMBER"))
-      ->needs("--signal");
+  add_signal(*run, o);
   run->add_option("--pictures", o.pictures,
                   "a folder for domain.png, isolines.png, checker.png and levels.png")
       ->type_name("DIR");

@@ -55,7 +55,7 @@ std::vector<double> read_numbers(const std::string& name)
 
 SMP::Face_tensors metric_of_importance(const Input_surface& input, const Program_options& options)
 {
-  if(options.method) {
+  if(options.command == Command::PARAMETERIZE && options.method) {
     throw Program_error(options.signal, "the importance of faces says nothing of angles, which are "
                                         "all that a conformal map keeps, take --method low-stretch");
   }

@@ -127,7 +127,7 @@ private:
         return "there is no vertex " + std::to_string(pin.vertex) + " that could be pinned";
     const auto& metric = m_options.solver.metric;
     if(!metric.empty() && metric.size() != m_mesh.triangles.size())
-      return "the metric has not as many tensors as there are triangles";
+      return Indexed_mesh::metric_size_error(metric.size(), m_mesh.triangles.size());
     const std::vector<std::uint8_t>& no_seams = m_options.no_seams;
     return no_seams.empty() ? std::string() : foreign_seams_error(m_mesh, no_seams).error;
   }
