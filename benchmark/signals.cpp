@@ -14,6 +14,7 @@
 
 #include <CGAL/IO/polygon_soup_io.h>
 #include <CGAL/Indexed_mesh/surface_of_soup.h>
+#include <CGAL/Surface_mesh_parameterization/Distortion_measures.h>
 #include <CGAL/Surface_mesh_parameterization/Signal_metric.h>
 #include <CGAL/Surface_mesh_parameterization/low_stretch_map.h>
 #include <CGAL/Surface_mesh_texturing/Texture_image.h>
@@ -234,9 +235,11 @@ private:
     const double texels = double(size * size);
     const double share = double(points.size()) / double(m_points.size());
     const auto error = SMT::internal::mean_and_quantile(angles);
+    const SMP::Distortion_measures distortion = SMP::measure_distortion(mesh);
     std::cout << m_name << ',' << m_mesh.triangles.size() << ',' << size << ',' << weight << ',' << map
               << ',' << seconds << ',' << double(baked.number_of_covered_texels) / texels << ',' << share
-              << ',' << error[0] << ',' << error[1] << std::endl;
+              << ',' << error[0] << ',' << error[1] << ',' << distortion.quasi_conformal_mean << ','
+              << distortion.area_scale_range << ',' << distortion.stretch_L2 << std::endl;
   }
 
   std::string m_name;
@@ -259,7 +262,8 @@ int main(int argc, char** argv)
   app.add_option("--weight", weights, "of the signal");
   CLI11_PARSE(app, argc, argv);
   std::cout << "# " << machine::description() << "\n"
-            << "model,faces,size,weight,map,seconds,covered,points,mean_angle,angle_95\n";
+            << "model,faces,size,weight,map,seconds,covered,points,mean_angle,angle_95,"
+               "quasi_conformal_mean,area_scale_range,stretch_L2\n";
   for(const std::string& path : paths) {
     try {
       const Arrays mesh = read(path);

@@ -11,6 +11,7 @@ import argparse
 import csv
 import math
 import pathlib
+import statistics
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -333,6 +334,19 @@ def signals():
     return table(["model", "texture", "points"] + maps, lines)
 
 
+def which_map():
+    """What each kind of map keeps: medians over the models."""
+    rows = [row for row in read("signals.csv") if row["size"] == "256"]
+    columns = ["quasi_conformal_mean", "stretch_L2", "mean_angle", "angle_95"]
+    lines = []
+    for kind in dict.fromkeys(row["map"] for row in rows):
+        of_kind = [row for row in rows if row["map"] == kind]
+        lines.append([kind] + [f"{statistics.median(float(row[c]) for row in of_kind):.2f}"
+                               for c in columns])
+    return table(["map", "angles: quasi-conformal ratio", "areas: stretch L2",
+                  "normal map: mean error", "normal map: 95 %"], lines)
+
+
 def memory_of_commands():
     """Bytes a face of each command at a million faces."""
     rows = [row for row in read("memory.csv") if row["chart"] == "terrain_1000k"]
@@ -345,7 +359,7 @@ def memory_of_commands():
 TABLES = {table.__name__: table for table in (
     million_faces, ratios, scaling, growth, stages, stages_two_threads, atlases,
     atlases_beside_paper, atlases_short, live, levels, compile_time, reading, low_stretch, signals,
-    memory_of_commands)}
+    which_map, memory_of_commands)}
 BEGIN, END = "<!-- table ", "<!-- end of table -->"
 
 
