@@ -51,7 +51,6 @@ std::string draw_signal_figure(const Chart& chart, const std::filesystem::path& 
   options.metric
     = SMP::signal_metric(chart.mesh, CGAL::Surface_mesh_texturing::normal_signal(chart.mesh)).tensors;
   maps.push_back(low_stretch(chart, options));
-  const char* const names[] = {"conformal", "low-stretch", "low-stretch to the normals"};
   const Frame frame(chart.mesh);
   Sheet sheet(3. * (width + margin) + margin, 1.95 * width + 4. * margin);
   const View view(drawn(chart.mesh, maps[1], frame));
@@ -60,12 +59,11 @@ std::string draw_signal_figure(const Chart& chart, const std::filesystem::path& 
     const double left = margin + double(i) * (width + margin);
     sheet.draw_surface(view, {left, 3. * margin, width, width}, surface, Pattern::CHECKERBOARD);
     sheet.draw_relief(view, {left, width + 3.5 * margin, width, 0.9 * width}, surface);
-    sheet.label({left, 2. * margin, 0., 0.}, names[i]);
   }
   sheet.write(file);
-  return "The same checkerboard by the conformal map without pins, the low-stretch map, and the "
-         "low-stretch map in the metric of the normals; below, their parameter domains with the light and "
-         "shade of the surface. (" + chart.name + ", " + count(chart.mesh.triangles.size())
+  return "A checkerboard by the conformal map without pins, the low-stretch map, and the low-stretch "
+         "map in the metric of the normals; below, their parameter domains with the light and shade of the "
+         "surface. (" + chart.name + ", " + count(chart.mesh.triangles.size())
          + " triangles)";
 }
 
