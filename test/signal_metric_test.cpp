@@ -231,6 +231,39 @@ TEST(Signal_metric, no_unit_counts)
   }
 }
 
+// On coarser meshes a vertex has the mean over what it stands for, and its own again afterwards.
+TEST(Signal_metric, collapses_take_means_and_give_them_back)
+{
+  const Indexed_triangle_mesh mesh = hills();
+  const Tensors metric = normals_metric(mesh);
+  CGAL::Indexed_mesh::Vertex_rings left;
+  const auto pm = CGAL::Surface_mesh_parameterization::internal::collapse_to_few(
+    mesh, CGAL::Indexed_mesh::Vertex_rings(mesh), {}, 40,
+    CGAL::Surface_mesh_parameterization::internal::Border_rule::ANY, [](double) { return true; }, left);
+  typedef CGAL::Surface_mesh_parameterization::internal::Vertex_tensors Vertex_tensors;
+  const Vertex_tensors before(mesh, metric);
+  Vertex_tensors tensors = before;
+  tensors.collapse(pm.collapses);
+  std::vector<bool> is_gone(mesh.points.size(), false);
+  for(const auto& c : pm.collapses)
+    is_gone[c.removed] = true;
+  double lowest = infinity, highest = 0., least = infinity, greatest = 0.;
+  for(std::size_t v = 0; v < is_gone.size(); ++v) {
+    least = std::min(least, before[v].trace());
+    greatest = std::max(greatest, before[v].trace());
+    if(!is_gone[v]) {
+      lowest = std::min(lowest, tensors[v].trace());
+      highest = std::max(highest, tensors[v].trace());
+    }
+  }
+  EXPECT_GE(lowest, least);
+  EXPECT_LT(highest, 0.9 * greatest); // of means
+  for(std::size_t i = pm.collapses.size(); i-- > 0;)
+    tensors.undo(pm.collapses[i]);
+  for(std::size_t v = 0; v < is_gone.size(); ++v)
+    ASSERT_EQ(tensors[v].xy, before[v].xy) << v;
+}
+
 // --- Maps
 
 // The square with the signal u = k x becomes the rectangle that is analytically known.
