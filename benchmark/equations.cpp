@@ -3,7 +3,8 @@
 
 // Surface_multigrid_solver beside sparse factorizations, on Poisson's equation (values given at the
 // border; screened on closed surfaces), and its heat method beside CGAL's: a CSV file on stdout,
-// medians of runs in turn, one thread.
+// medians of runs in turn, one thread. The times of multigrid_of_4 are those of one of four
+// right-hand sides that are solved for at once.
 //
 // Usage: equations [--repeat N] [--vertices N] [--no-peers]
 
@@ -146,7 +147,29 @@ struct Row
   double quality = 0., bytes = 0.;
 };
 
-void run_multigrid(const Problem& p, Row& row)
+// For several right-hand sides at once: the times of one of them.
+void run_columns(const Problem& p, const std::shared_ptr<const Surface_hierarchy>& hierarchy, Row& row)
+{
+  constexpr int columns = 4;
+  typedef CGAL::Multigrid::Columns<double, columns> Value;
+  Surface_multigrid_solver<Value> solver(hierarchy);
+  Surface_multigrid_solver<Value>::Vector b(p.b.size()), x(p.b.size());
+  for(std::size_t v = 0; v < b.size(); ++v) {
+    const double s = p.mesh.points[v].x(), t = p.mesh.points[v].y();
+    b[v] = p.b[v] * Eigen::RowVector4d(1., s, t, s * t);
+    x[v].setZero();
+  }
+  row.setup.push_back(0.);
+  row.matrix.push_back(timing::seconds_of([&] { solver.set_element(p.element, p.is_fixed); }) / columns);
+  Surface_multigrid_report report;
+  row.solve.push_back(timing::seconds_of([&] { report = solver.solve(b, x); }) / columns);
+  if(!report.is_ok())
+    throw std::runtime_error(report.error);
+  row.iterations = report.iterations;
+  row.quality = report.relative_residual;
+}
+
+void run_multigrid(const Problem& p, Row& row, Row& columns)
 {
   std::shared_ptr<const Surface_hierarchy> hierarchy;
   row.setup.push_back(timing::seconds_of([&] {
@@ -162,6 +185,7 @@ void run_multigrid(const Problem& p, Row& row)
   row.iterations = report.iterations;
   row.quality = report.relative_residual;
   row.bytes = double(hierarchy->memory() + solver.memory()) / double(p.b.size());
+  run_columns(p, hierarchy, columns);
 }
 
 template <class Factorization>
@@ -236,7 +260,7 @@ void run(const std::string& name, const Arrays& mesh, int repetitions, bool has_
   std::map<std::string, Row> rows, heat;
   const Matrix a = matrix_of(p, Surface_hierarchy(mesh));
   for(int i = 0; i < repetitions; ++i) {
-    run_multigrid(p, rows["multigrid"]);
+    run_multigrid(p, rows["multigrid"], rows["multigrid_of_4"]);
     if(!has_peers)
       continue;
     if(p.b.size() <= 200000)

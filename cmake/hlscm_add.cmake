@@ -14,7 +14,7 @@ function(hlscm_set_up target)
   # GCC 12 takes variables of its own vector intrinsics for uninitialized when Eigen uses them;
   # vectors by value, inside one program, are no matter of the ABI.
   target_compile_options(${target} PRIVATE -Wall -Wextra -fno-math-errno
-    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-psabi>)
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-uninitialized -Wno-maybe-uninitialized -Wno-psabi>)
   if(HLSCM_NATIVE AND HLSCM_HAS_MARCH_NATIVE)
     target_compile_options(${target} PRIVATE -march=native)
   endif()

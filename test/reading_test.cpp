@@ -490,7 +490,7 @@ TEST(Reading, takes_numbers_for_what_they_are)
       EXPECT_EQ(std::memcmp(&*value, &expected, sizeof expected), 0) << text << " " << *value;
     }
   }
-  for(const std::string& text :
+  for(const std::string text :
       {"", ".", "-", "+", "+-1", "e5", "1e", "1e+", "1x", "1.5.5", "0x10", "--1", "1,5"})
   {
     hlscm::Text_scanner scanner(text.data(), text.data() + text.size());

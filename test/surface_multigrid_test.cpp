@@ -8,6 +8,10 @@
 
 #include <CGAL/Surface_mesh_multigrid/heat_distances.h>
 
+#include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
+
+#include <CGAL/boost/graph/graph_traits_PolyMesh_ArrayKernelT.h>
+
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Simple_cartesian.h>
@@ -18,6 +22,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
@@ -587,6 +592,111 @@ TEST(Surface_multigrid, knows_the_kernel_of_each_component)
 }
 
 //
+// Several right-hand sides at once
+//
+
+// Each column is what a solver of numbers finds: with fixed unknowns, with a kernel, with slivers.
+TEST(Surface_multigrid_of_columns, solves_for_each_as_alone)
+{
+  typedef CGAL::Multigrid::Columns<double, 3> Columns;
+  for(const auto& [name, mesh] : surfaces()) {
+    SCOPED_TRACE(name);
+    const std::size_t n = mesh.points.size();
+    const auto hierarchy = hierarchy_of(mesh);
+    Surface_multigrid_solver<> alone(hierarchy);
+    Surface_multigrid_solver<Columns> at_once(hierarchy);
+    alone.options().tolerance = at_once.options().tolerance = 1e-12;
+    const std::vector<bool> border = border_vertices_of(mesh);
+    ASSERT_TRUE(alone.set_element(Laplace_element(), border).is_ok());
+    ASSERT_TRUE(at_once.set_matrix(laplace_matrix(mesh, 1., 0.), border).is_ok());
+    std::vector<std::vector<double>> b, x;
+    for(std::uint64_t c = 0; c < 3; ++c) {
+      b.push_back(random_values(n, seed + c));
+      x.push_back(random_values(n, seed + 3 + c));
+    }
+    std::vector<Eigen::RowVector3d> rows_of_b(n), rows_of_x(n);
+    for(std::size_t v = 0; v < n; ++v)
+      for(int c = 0; c < 3; ++c) {
+        rows_of_b[v][c] = b[c][v];
+        rows_of_x[v][c] = x[c][v];
+      }
+    const auto rows_before = rows_of_x;
+    const auto report = at_once.solve(rows_of_b, rows_of_x);
+    ASSERT_TRUE(report.is_ok()) << report.error;
+    const auto each = alone.solve_all(b, x);
+    ASSERT_TRUE(each.is_ok()) << each.error;
+    double largest = 0., difference = 0.;
+    for(std::size_t v = 0; v < n; ++v)
+      for(int c = 0; c < 3; ++c) {
+        largest = (std::max)(largest, std::abs(x[c][v]));
+        difference = (std::max)(difference, std::abs(x[c][v] - rows_of_x[v][c]));
+        if(border[v]) {
+          EXPECT_EQ(rows_of_x[v][c], rows_before[v][c]);
+        }
+      }
+    EXPECT_LE(difference, 1e-7 * largest);
+    EXPECT_LE(report.iterations, each.iterations + 3);
+  }
+}
+
+TEST(Surface_multigrid_of_columns, is_the_same_for_any_number_of_threads)
+{
+  const auto mesh = with_slivers(with_hills(irregular_grid(60, 50, seed), 2., seed), 0.01);
+  const std::size_t n = mesh.points.size();
+  std::vector<Eigen::RowVector3d> first;
+  for(const unsigned int threads : {1, 2, 3}) {
+    Surface_multigrid_solver<CGAL::Multigrid::Columns<double, 3>, CGAL::Parallel_tag> solver(
+      hierarchy_of(mesh));
+    solver.options().threads = threads;
+    ASSERT_TRUE(solver.set_element(Laplace_element{1., 1e-3}).is_ok());
+    std::vector<Eigen::RowVector3d> b(n), x(n, Eigen::RowVector3d::Zero());
+    const auto values = random_values(3 * n, seed);
+    for(std::size_t v = 0; v < n; ++v)
+      b[v] = {values[3 * v], values[3 * v + 1], values[3 * v + 2]};
+    ASSERT_TRUE(solver.solve(b, x).is_ok());
+    if(threads == 1)
+      first = x;
+    EXPECT_TRUE(x == first) << threads << " threads";
+  }
+}
+
+// All levels have the locked vertices, and the solution is the same.
+TEST(Surface_multigrid, has_locked_vertices_on_all_levels)
+{
+  const auto mesh = with_hills(irregular_grid(60, 50, seed), 3., seed);
+  Surface_hierarchy_options options;
+  options.coarsest_size = 60;
+  options.is_locked.assign(mesh.points.size(), false);
+  std::vector<std::size_t> locked;
+  for(std::size_t v = 5; v < mesh.points.size(); v += 97) {
+    options.is_locked[v] = true;
+    locked.push_back(v);
+  }
+  const auto hierarchy = std::make_shared<const Surface_hierarchy>(mesh, options);
+  ASSERT_TRUE(hierarchy->is_ok()) << hierarchy->error;
+  ASSERT_GT(hierarchy->number_of_levels(), 3u);
+  std::vector<std::size_t> sources(hierarchy->source().begin(), hierarchy->source().end());
+  for(std::size_t l = hierarchy->number_of_levels() - 1; l > 0; --l) {
+    std::vector<std::size_t> coarser;
+    for(const auto v : hierarchy->from_coarser(l).kept())
+      coarser.push_back(sources[v]);
+    sources.swap(coarser);
+    for(const std::size_t v : locked)
+      EXPECT_NE(std::find(sources.begin(), sources.end(), v), sources.end()) << v << ", level " << l;
+  }
+  Surface_multigrid_solver<> solver(hierarchy), other(hierarchy_of(mesh));
+  solver.options().tolerance = other.options().tolerance = 1e-11;
+  ASSERT_TRUE(solver.set_element(Laplace_element{1., 0.1}, options.is_locked).is_ok());
+  ASSERT_TRUE(other.set_element(Laplace_element{1., 0.1}, options.is_locked).is_ok());
+  const auto b = random_values(mesh.points.size(), seed);
+  auto x = random_values(mesh.points.size(), seed + 1), y = x;
+  EXPECT_TRUE(solver.solve(b, x).is_ok());
+  EXPECT_TRUE(other.solve(b, y).is_ok());
+  for(std::size_t v = 0; v < x.size(); ++v)
+    EXPECT_NEAR(x[v], y[v], 1e-8);
+}
+
+//
 // Change
 //
 
@@ -643,15 +753,37 @@ template <class Mesh>
 class Surface_multigrid_on : public ::testing::Test
 {};
 
+struct Open_mesh_traits : OpenMesh::DefaultTraits
+{
+  typedef OpenMesh::Vec3d Point;
+};
+typedef OpenMesh::PolyMesh_ArrayKernelT<Open_mesh_traits> Open_mesh;
+
+template <class Mesh>
+void fill(const Indexed_triangle_mesh& arrays, Mesh& mesh)
+{
+  CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(arrays.points, arrays.triangles, mesh);
+}
+
+void fill(const Indexed_triangle_mesh& arrays, Open_mesh& mesh)
+{
+  std::vector<Open_mesh::VertexHandle> v;
+  for(const auto& p : arrays.points)
+    v.push_back(mesh.add_vertex(OpenMesh::Vec3d(p.x(), p.y(), p.z())));
+  for(const auto& t : arrays.triangles)
+    mesh.add_face(v[t[0]], v[t[1]], v[t[2]]);
+}
+
 typedef CGAL::Simple_cartesian<double> Kernel;
-typedef ::testing::Types<CGAL::Surface_mesh<Kernel::Point_3>, CGAL::Polyhedron_3<Kernel>> Meshes;
+typedef ::testing::Types<CGAL::Surface_mesh<Kernel::Point_3>, CGAL::Polyhedron_3<Kernel>, Open_mesh>
+  Meshes;
 TYPED_TEST_SUITE(Surface_multigrid_on, Meshes);
 
 TYPED_TEST(Surface_multigrid_on, a_mesh_of_cgal_solves_the_same)
 {
   const auto arrays = sphere(3);
   TypeParam mesh;
-  CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(arrays.points, arrays.triangles, mesh);
+  fill(arrays, mesh);
   Surface_multigrid_solver<> of_mesh(mesh), of_arrays(arrays);
   const auto b = random_values(arrays.points.size(), seed);
   std::vector<double> x(b.size(), 0.), y = x;

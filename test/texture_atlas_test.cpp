@@ -365,8 +365,9 @@ TEST(Texture_atlas, is_valid_when_the_time_is_over)
       const SMT::Texture_atlas_result result = SMT::build_texture_atlas(mesh, options);
       ASSERT_EQ(result.error, "") << name << ", " << limit;
       EXPECT_EQ(error_in_atlas(mesh, result.atlas), "") << name << ", " << limit << seed_text;
-      if(limit < 1e-3)
+      if(limit < 1e-3) {
         EXPECT_TRUE(result.report.stopped_early) << name;
+      }
       if(limit > 1e3) {
         EXPECT_TRUE(are_equal(result.atlas, best.atlas)) << name;
         EXPECT_FALSE(result.report.stopped_early) << name;

@@ -173,7 +173,7 @@ void refuse_to_overwrite(const fs::path& input, const fs::path& output)
 Output_files::Output_files()
 {
   Interruption::set_clean_up([this] {
-    std::lock_guard<std::mutex> lock(m_mutex);
+    m_mutex.lock(); // for good: the process ends, and no file shall be created before it has
     discard();
   });
 }

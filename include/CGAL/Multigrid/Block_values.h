@@ -20,13 +20,14 @@ namespace Multigrid {
 \ingroup PkgHLSCMMultigrid
 
 Small real blocks, such as the 2 x 2 ones of an elastic energy in the plane: the entries of a matrix
-are `Eigen::Matrix<Real, N, N>`, those of its vectors `Eigen::Matrix<Real, N, 1>`. A pin is a whole
-row of blocks that are 0. The members are those of the other specializations.
+are `Eigen::Matrix<Real, N, N>`, those of its vectors `Eigen::Matrix<Real, N, 1>`, or
+`Eigen::Matrix<Real, 1, N>` if the matrix is one of `Columns`. A pin is a whole row of blocks that are
+0. The members are those of the other specializations.
 */
 template <class Real_, int N, int Columns, int Options>
 struct Value_traits<Eigen::Matrix<Real_, N, Columns, Options, N, Columns>>
 {
-  static_assert(N > 0 && (Columns == N || Columns == 1), "a square block or its vector");
+  static_assert(N > 0 && (Columns == N || Columns == 1 || N == 1), "a square block or a vector");
 
   /// \cond SKIP_IN_MANUAL
   typedef Eigen::Matrix<Real_, N, Columns, Options, N, Columns> Block;
@@ -41,6 +42,7 @@ struct Value_traits<Eigen::Matrix<Real_, N, Columns, Options, N, Columns>>
   static constexpr bool is_complex = false;
   static constexpr std::size_t components = N * Columns;
   static constexpr int rows = N;
+  static constexpr int columns = Columns;
 
   template <class Other>
   static Block from(const Eigen::MatrixBase<Other>& x) { return x.template cast<Real>(); }
@@ -86,6 +88,48 @@ private:
     const Eigen::Matrix<double, N, 1> values = solver.eigenvalues().unaryExpr(f);
     return solver.eigenvectors() * values.asDiagonal() * solver.eigenvectors().transpose();
   }
+  /// \endcond
+};
+
+/*!
+\ingroup PkgHLSCMMultigrid
+
+The struct `Columns` is a real number as the entry of a matrix whose vectors have N columns: N
+right-hand sides, such as the coordinates of points, for which the matrix is read only once. The
+entries of its vectors are `Eigen::Matrix<Real, 1, N>`.
+*/
+template <class Real, int N>
+struct Columns
+{
+  Real value = Real(0); ///< the number
+
+  Columns() {}
+  /// Constructs it from a number.
+  explicit Columns(const Real& v) : value(v) {}
+  /// Returns the product with a row of a vector.
+  Eigen::Matrix<Real, 1, N> operator*(const Eigen::Matrix<Real, 1, N>& x) const { return value * x; }
+};
+
+template <class Real_, int N>
+struct Value_traits<Columns<Real_, N>>
+{
+  /// \cond SKIP_IN_MANUAL
+  typedef Real_ Real;
+  typedef Real Stored;
+  typedef Real Diagonal;
+  typedef Real Scalar;
+  typedef Eigen::Matrix<Real, 1, N> Vector_value;
+  typedef double Inner;
+  typedef double Double;
+  static constexpr bool is_complex = false;
+  static constexpr std::size_t components = 1;
+  static constexpr int rows = 1;
+  static constexpr int columns = 1;
+
+  static bool is_zero(const Columns<Real, N>& v) { return v.value == Real(0); }
+  static Columns<Real, N> adjoint(const Columns<Real, N>& v) { return v; }
+  static double modulus(const Columns<Real, N>& v) { return std::abs(double(v.value)); }
+  static double coefficient(const Columns<Real, N>& v, int, int) { return double(v.value); }
   /// \endcond
 };
 

@@ -59,13 +59,15 @@ private:
   typedef typename Traits::Vector_value Vector_value;
   typedef typename Traits::Inner Inner;
   static constexpr int N = Traits::rows;
-  typedef Eigen::Matrix<Inner, 3 * N, 3 * N, Eigen::DontAlign> Block;
-  typedef Eigen::Matrix<Inner, 3 * N, 1, Eigen::DontAlign> Numbers;
+  static constexpr int columns = Value_traits<Vector_value>::columns;
+  // Of one size for all values: Eigen's classes are compiled once.
+  typedef Eigen::Matrix<Inner, Eigen::Dynamic, Eigen::Dynamic> Block;
+  typedef std::array<Inner, 3 * N * columns> Numbers; // of three unknowns, each column by column
 
   struct Patch
   {
     std::array<std::uint32_t, 3> unknown, slot;
-    Block inverse; // of the part of the matrix; 0 in rows and columns of pins
+    std::array<Inner, 9 * N * N> inverse; // of the part of the matrix; 0 in rows and columns of pins
   };
 
   template <class Entry>
@@ -76,16 +78,23 @@ private:
         block(N * i + r, N * j + c) = Traits::coefficient(entry, r, c);
   }
 
-  // The numbers of entry i, from and to a vector of all numbers.
-  static Vector_value part(const Numbers& d, int i)
-  {
-    return Value_traits<Vector_value>::from_coefficients(d.data() + N * i);
-  }
-
   static void take(const Vector_value& value, int i, Numbers& b)
   {
-    for(int r = 0; r < N; ++r)
-      b[N * i + r] = Value_traits<Vector_value>::coefficient(value, r, 0);
+    for(int c = 0; c < columns; ++c)
+      for(int r = 0; r < N; ++r)
+        b[N * (columns * i + c) + r] = Value_traits<Vector_value>::coefficient(value, r, c);
+  }
+
+  // Entry i of the inverse times b
+  static Vector_value step(const Patch& patch, int i, const Numbers& b)
+  {
+    std::array<Inner, N * columns> d = {};
+    for(int j = 0; j < 3; ++j)
+      for(int c = 0; c < columns; ++c)
+        for(int r = 0; r < N; ++r)
+          for(int k = 0; k < N; ++k)
+            d[N * c + r] += patch.inverse[3 * N * (N * i + r) + N * j + k] * b[N * (columns * j + c) + k];
+    return Value_traits<Vector_value>::from_coefficients(d.data());
   }
 
   std::vector<Patch> m_patches;
@@ -97,7 +106,7 @@ void Patch_corrections<Value>::add(const Matrix& h, const std::array<std::uint32
   constexpr double rounding = 1e-14;
   Patch patch;
   patch.unknown = unknowns;
-  Block block = Block::Identity(), is_free = Block::Identity();
+  Block block = Block::Identity(3 * N, 3 * N), is_free = block;
   const auto is_pin = [&](int i) {
     return Value_traits<typename Traits::Diagonal>::is_zero(h.diagonal()[unknowns[i]]);
   };
@@ -121,7 +130,10 @@ void Patch_corrections<Value>::add(const Matrix& h, const std::array<std::uint32
   const Eigen::LLT<Block> factorization(block);
   if(factorization.info() != Eigen::Success)
     return;
-  patch.inverse = is_free * factorization.solve(is_free);
+  const Block inverse = is_free * factorization.solve(is_free);
+  for(int r = 0; r < 3 * N; ++r)
+    for(int c = 0; c < 3 * N; ++c)
+      patch.inverse[3 * N * r + c] = inverse(r, c);
   m_patches.push_back(patch);
 }
 
@@ -129,17 +141,16 @@ template <class Value>
 void Patch_corrections<Value>::correct_forward(const Matrix& h, Vector& r, Vector& x) const
 {
   set_zero(r.size(), x);
-  Numbers b, d;
+  Numbers b;
   for(const Patch& patch : m_patches) {
     for(int i = 0; i < 3; ++i)
       take(r[patch.unknown[i]], i, b);
-    d.noalias() = patch.inverse * b;
     for(int i = 0; i < 3; ++i) {
-      const Vector_value step = part(d, i);
-      x[patch.unknown[i]] += step;
-      r[patch.unknown[i]] -= h.diagonal()[patch.unknown[i]] * step;
+      const Vector_value d = step(patch, i, b);
+      x[patch.unknown[i]] += d;
+      r[patch.unknown[i]] -= h.diagonal()[patch.unknown[i]] * d;
       h.for_each_entry(patch.slot[i], [&](std::uint32_t j, const Value& value) {
-        r[j] -= Traits::adjoint(value) * step;
+        r[j] -= Traits::adjoint(value) * d;
       });
     }
   }
@@ -148,7 +159,7 @@ void Patch_corrections<Value>::correct_forward(const Matrix& h, Vector& r, Vecto
 template <class Value>
 void Patch_corrections<Value>::correct_backward(const Matrix& h, const Vector& f, Vector& x) const
 {
-  Numbers b, d;
+  Numbers b;
   for(std::size_t k = m_patches.size(); k-- > 0;) {
     const Patch& patch = m_patches[k];
     for(int i = 0; i < 3; ++i) {
@@ -158,9 +169,8 @@ void Patch_corrections<Value>::correct_backward(const Matrix& h, const Vector& f
                        [&](std::uint32_t j, const Value& value) { r -= value * x[j]; });
       take(r, i, b);
     }
-    d.noalias() = patch.inverse * b;
     for(int i = 0; i < 3; ++i)
-      x[patch.unknown[i]] += part(d, i);
+      x[patch.unknown[i]] += step(patch, i, b);
   }
 }
 

@@ -116,8 +116,9 @@ class Slice_sums
 {
 public:
   typedef typename Value_traits<Value>::Vector_value Sum;
+  typedef typename Value_traits<Value>::Stored Stored;
 
-  void add(const std::uint32_t* column, const Value* entry, std::size_t width, const Sum* x)
+  void add(const std::uint32_t* column, const Stored* entry, std::size_t width, const Sum* x)
   {
     for(int r = 0; r < slice_rows; ++r)
       m_sum[r] = Value_traits<Sum>::zero();

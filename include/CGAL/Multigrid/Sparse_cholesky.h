@@ -112,11 +112,11 @@ public:
 
 private:
   typedef typename Factorization::Scalar Scalar;
-  typedef Eigen::Matrix<Scalar, Eigen::Dynamic, 1> Dense_vector;
+  typedef Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic> Dense_matrix;
 
   Factorization m_factorization;
   std::vector<std::uint32_t> m_free; // the rows that are not pinned
-  Dense_vector m_right, m_left;
+  Dense_matrix m_right, m_left;
   bool m_is_factorized = false;
 };
 
@@ -191,7 +191,6 @@ bool Sparse_cholesky<Factorization>::factorize(const Self_adjoint_matrix<Value>&
   m_is_factorized = m_free.empty();
   if(m_is_factorized)
     return true;
-  m_right.resize(a.rows());
   m_is_factorized = factorize_sparse(m_factorization, a);
   return m_is_factorized;
 }
@@ -202,16 +201,21 @@ void Sparse_cholesky<Factorization>::solve(const std::vector<V>& f, std::vector<
 {
   CGAL_precondition(is_factorized());
   typedef Value_traits<V> Traits;
-  constexpr std::size_t rows = Traits::rows;
+  constexpr int rows = Traits::rows, columns = Traits::columns;
   x.assign(f.size(), Traits::zero());
   if(m_free.empty() || !m_is_factorized)
     return;
+  m_right.resize(rows * m_free.size(), columns);
   for(std::size_t i = 0; i < m_free.size(); ++i)
-    for(std::size_t r = 0; r < rows; ++r)
-      m_right[rows * i + r] = Traits::coefficient(f[m_free[i]], int(r), 0);
+    for(int c = 0; c < columns; ++c)
+      for(int r = 0; r < rows; ++r)
+        m_right(rows * i + r, c) = Traits::coefficient(f[m_free[i]], r, c);
   solve_sparse(m_factorization, m_right, m_left);
-  for(std::size_t i = 0; i < m_free.size(); ++i)
-    x[m_free[i]] = Traits::from_coefficients(m_left.data() + rows * i);
+  Eigen::Matrix<Scalar, rows, columns> numbers;
+  for(std::size_t i = 0; i < m_free.size(); ++i) {
+    numbers = m_left.template middleRows<rows>(rows * i);
+    x[m_free[i]] = Traits::from_coefficients(numbers.data());
+  }
 }
 
 } // namespace Multigrid

@@ -23,8 +23,8 @@ namespace Multigrid {
 
 The struct `Value_traits` says what the multigrid layer has to know of the entries of matrices and
 vectors. There are specializations for `float`, `double`, `std::complex<float>`,
-`std::complex<double>`, and for small square matrices of Eigen, with vectors of as many numbers, in
-`Block_values.h`.
+`std::complex<double>`, and in `Block_values.h` for small square matrices of Eigen, with vectors of as
+many numbers, and for `Columns`.
 
 Members, for an entry \f$ v \f$ of a matrix or vector:
 - `Real`: the numbers that it consists of, `components` of them one after the other in memory
@@ -38,8 +38,8 @@ Members, for an entry \f$ v \f$ of a matrix or vector:
 - `modulus(v)`: \f$ (v v^H)^{1/2} \f$ in double precision
 - `is_positive(d)`: whether a diagonal entry is; `inverse(d)`: the inverse of one in double precision, 0 if it is not
   positive; `quotient(x, d)`: \f$ d^{-1} x \f$ for an entry of a vector
-- `rows`, `coefficient(v, r, c)`: the numbers of an entry as a dense matrix or vector;
-  `from_coefficients(p)`: the entry of a vector with the numbers `p[0]`, `p[1]`...
+- `rows`, `columns`, `coefficient(v, r, c)`: the numbers of an entry as a dense matrix or vector;
+  `from_coefficients(p)`: the entry with the numbers `p[0]`, `p[1]`..., column by column
 */
 template <class Value>
 struct Value_traits;
@@ -60,6 +60,7 @@ struct Number_traits
   static constexpr bool is_complex = !std::is_same_v<Number, Real>;
   static constexpr std::size_t components = is_complex ? 2 : 1;
   static constexpr int rows = 1;
+  static constexpr int columns = 1;
 
   template <class Other>
   static Number from(const Other& x) { return Number(x); }

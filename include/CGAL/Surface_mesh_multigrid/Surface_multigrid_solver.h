@@ -47,7 +47,9 @@ The result does not depend on the number of threads.
 
 \tparam Value an entry of \f$ A \f$: `double`, `float`, `std::complex<double>`, `Eigen::Matrix2d` or
         `Eigen::Matrix3d`; entries of vectors are then `double`, `float`, `std::complex<double>`,
-        `Eigen::Vector2d` or `Eigen::Vector3d`
+        `Eigen::Vector2d` or `Eigen::Vector3d`. With `Multigrid::Columns<double, N>` \f$ A \f$ is a
+        matrix of numbers for N right-hand sides at once, the tolerance is that of all together, and
+        entries of vectors are `Eigen::Matrix<double, 1, N>`
 \tparam ConcurrencyTag `Sequential_tag`, `Parallel_tag` or `Parallel_if_available_tag`; by default
         what the caller's `Blocked_execution::Thread_scope` allows
 
@@ -138,7 +140,7 @@ public:
   Surface_multigrid_report solve(const B& b, X& x);
 
   /// Solves for several right-hand sides, one after the other; returns the worst report. `x` has as
-  /// many vectors as `b`.
+  /// many vectors as `b`. With `Multigrid::Columns` they are solved for at once, in less time.
   template <class Bs, class Xs>
   Surface_multigrid_report solve_all(const Bs& b, Xs& x);
 

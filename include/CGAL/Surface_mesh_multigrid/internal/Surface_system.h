@@ -36,6 +36,8 @@ template <class Real>
 struct Single<std::complex<Real>> { typedef std::complex<float> type; };
 template <class Real, int N>
 struct Single<Eigen::Matrix<Real, N, N>> { typedef Eigen::Matrix<float, N, N> type; };
+template <class Real, int N>
+struct Single<Multigrid::Columns<Real, N>> { typedef Multigrid::Columns<float, N> type; };
 
 // A matrix on the vertices of a surface with fixed unknowns, and its products with the prolongations
 // on the coarser levels. Vectors are in the order of the hierarchy.
@@ -270,9 +272,11 @@ double Surface_system<Value>::remove_mean(Vector& f) const
 #ifdef CGAL_HLSCM_SOURCE
 template class Surface_system<double>;
 template class Surface_system<std::complex<double>>;
+template class Surface_system<Multigrid::Columns<double, 3>>;
 #else
 extern template class Surface_system<double>;
 extern template class Surface_system<std::complex<double>>;
+extern template class Surface_system<Multigrid::Columns<double, 3>>;
 #endif
 #endif
 
