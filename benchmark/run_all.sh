@@ -147,6 +147,12 @@ mapfile -t large < <(find "$charts" -maxdepth 1 -name '*_1[0-9][0-9][0-9]k.ply' 
 "$HLSCM_BIN/live_map" "${large[@]}" > "$out/live_map.csv"
 "$HLSCM_BIN/pins" "$charts"/pins/*.ply "${large[@]}" > "$out/pins.csv"
 "$HLSCM_BIN/low_stretch_benchmark" "${large[@]}" > "$out/low_stretch.csv"
+"$HLSCM_BIN/signals" --size 256 512 --weight 1 2 4 8 16 -- \
+  "$HLSCM_DATA_DIR"/{armadillo,blade,bunny00,camel,cow,diplodocus,fandisk,hand,homer,mannequin-devil}.off \
+  > "$out/signals_tuning.csv"
+"$HLSCM_BIN/signals" --size 256 512 -- \
+  "$HLSCM_DATA_DIR"/{bear,bull,cactus,ChineseDragon-10kv,dino,elephant,femur,head,lion-head,retinal}.off \
+  > "$out/signals.csv"
 "$HLSCM_BIN/decimate" "${large[@]}" > "$out/decimate.csv"
 "$HLSCM_BIN/equations" > "$out/equations.csv"
 "$HLSCM_BIN/equations" --vertices 1000000 >> "$out/equations.csv"

@@ -9,7 +9,9 @@ nothing is written, and the exit status is 1 if a table is not what the CSV file
 
 import argparse
 import csv
+import math
 import pathlib
+import statistics
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -310,6 +312,41 @@ def low_stretch():
     return table(["chart", "faces", "tolerance 1e-2", "1e-3", "1e-4", "1e-3, two threads"], lines)
 
 
+def signals():
+    """Mean and 95 % angle of normal maps by the map of the surface."""
+    maps = ["conformal", "conformal to the signal", "low-stretch", "low-stretch to the signal"]
+    models = {}
+    for row in read("signals.csv"):
+        models.setdefault((row["size"], row["model"]), {})[row["map"]] = row
+    lines = []
+    for size in ("256", "512"):
+        part = {model: rows for (s, model), rows in models.items() if s == size}
+        for model, rows in part.items():
+            lines.append([model, size, f"{100 * float(rows[maps[0]]['points']):.0f} %"]
+                         + [f"{number(rows[m], 'mean_angle', 3)}, {number(rows[m], 'angle_95', 3)}"
+                            for m in maps])
+        means = [[math.exp(sum(math.log(float(rows[m + " to the signal"][angle]) / float(rows[m][angle]))
+                               for rows in part.values()) / len(part))
+                  for angle in ("mean_angle", "angle_95")] for m in ("conformal", "low-stretch")]
+        lines.append(["_geometric mean of the ratios_", size, "", "",
+                      f"_{means[0][0]:.2f}, {means[0][1]:.2f}_", "",
+                      f"_{means[1][0]:.2f}, {means[1][1]:.2f}_"])
+    return table(["model", "texture", "points"] + maps, lines)
+
+
+def which_map():
+    """What each kind of map keeps: medians over the models."""
+    rows = [row for row in read("signals.csv") if row["size"] == "256"]
+    columns = ["quasi_conformal_mean", "stretch_L2", "mean_angle", "angle_95"]
+    lines = []
+    for kind in dict.fromkeys(row["map"] for row in rows):
+        of_kind = [row for row in rows if row["map"] == kind]
+        lines.append([kind] + [f"{statistics.median(float(row[c]) for row in of_kind):.2f}"
+                               for c in columns])
+    return table(["map", "angles: quasi-conformal ratio", "areas: stretch L2",
+                  "normal map: mean error", "normal map: 95 %"], lines)
+
+
 def memory_of_commands():
     """Bytes a face of each command at a million faces."""
     rows = [row for row in read("memory.csv") if row["chart"] == "terrain_1000k"]
@@ -321,7 +358,8 @@ def memory_of_commands():
 
 TABLES = {table.__name__: table for table in (
     million_faces, ratios, scaling, growth, stages, stages_two_threads, atlases,
-    atlases_beside_paper, atlases_short, live, levels, compile_time, reading, low_stretch, memory_of_commands)}
+    atlases_beside_paper, atlases_short, live, levels, compile_time, reading, low_stretch, signals,
+    which_map, memory_of_commands)}
 BEGIN, END = "<!-- table ", "<!-- end of table -->"
 
 

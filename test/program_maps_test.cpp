@@ -339,6 +339,74 @@ TEST_F(Program, maps_with_low_stretch)
   EXPECT_EQ(result.uv[39], (std::array<double, 2>{0, 5}));
 }
 
+// As text, red in one half of the columns.
+std::string coloured_ply(const Soup& soup)
+{
+  std::string text = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(soup.points.size())
+                   + "\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n"
+                     "property uchar green\nproperty uchar blue\nelement face "
+                   + std::to_string(soup.faces.size())
+                   + "\nproperty list uchar int vertex_indices\nend_header\n";
+  for(const auto& p : soup.points) {
+    text += std::to_string(p[0]) + " " + std::to_string(p[1]) + " " + std::to_string(p[2])
+          + (p[0] < 0.5 ? " 255 0 0\n" : " 0 0 0\n");
+  }
+  for(const auto& face : soup.faces) {
+    text += std::to_string(face.size());
+    for(const std::size_t v : face) {
+      text += " " + std::to_string(v);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+TEST_F(Program, adapts_maps_to_a_signal)
+{
+  const Soup soup = grid(30, hilly);
+  const std::string in = write("in.ply", coloured_ply(soup));
+  std::string numbers;
+  for(std::size_t f = 0; f < soup.faces.size(); ++f) {
+    numbers += f % 7 == 0 ? "1 " : "0\n";
+  }
+  const std::string importance = write("importance.txt", numbers);
+  const Json without = report(in, {"--method", "low-stretch"});
+  EXPECT_FALSE(without.contains("signal"));
+  for(const std::string& signal : {std::string("normals"), std::string("colors"), importance}) {
+    const Json json = report(in, {"--method", "low-stretch", "--signal", signal});
+    ASSERT_TRUE(json.is_object()) << signal;
+    EXPECT_EQ(json["signal"]["of"], signal);
+    EXPECT_EQ(json["signal"]["weight"], 4);
+    EXPECT_EQ(json["flips"], 0) << signal;
+    EXPECT_NE(json["distortion"]["stretch_L2"], without["distortion"]["stretch_L2"]) << signal;
+  }
+  const Json none
+      = report(in, {"--method", "low-stretch", "--signal", "normals", "--signal-weight", "0"});
+  EXPECT_EQ(none["distortion"], without["distortion"]);
+  const Json conformal = report(in, {"--signal", "colors", "--signal-weight", "9"});
+  EXPECT_GT(conformal["distortion"]["quasi_conformal_max"].get<double>(), 1.5);
+}
+
+TEST_F(Program, says_what_is_wrong_with_a_signal)
+{
+  const std::string in = write("in.off", off(grid(6, hilly)));
+  const auto expect = [&](const std::string& signal, const std::string& file, const Texts& words) {
+    const Outcome outcome
+        = parameterize(in, "out.obj", {"--method", "low-stretch", "--signal", signal});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_EQ(error_in_message(outcome.err, file, words), "");
+  };
+  expect("colors", in, {"no colours at its vertices"});
+  expect(path("missing.png"), in, {"no texture coordinates"});
+  expect(path("missing"), path("missing"), {"cannot be opened"});
+  const std::string few = write("few.txt", "1 2 3"), words = write("words.txt", "1 two 3");
+  expect(few, few, {"it has 3 numbers"});
+  expect(words, words, {"word 2 is not a number"});
+  const Outcome conformal = parameterize(in, "out.obj", {"--signal", few});
+  EXPECT_EQ(error_in_message(conformal.err, few, {"--method low-stretch"}), "");
+  EXPECT_EQ(parameterize(in, "out.obj", {"--signal-weight", "2"}).exit_code, 2);
+}
+
 TEST_F(Program, says_so_when_it_does_not_converge)
 {
   const std::string in = write("in.off", off(grid(60, hilly)));

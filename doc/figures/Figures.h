@@ -16,6 +16,7 @@ std::string draw_bump_figure(const std::filesystem::path& file);
 std::string draw_monogrid_figure(const Chart& chart, const std::filesystem::path& file);
 std::string draw_levels_figure(const Chart& chart, const std::filesystem::path& file);
 std::string draw_checker_figure(const Chart& chart, const std::filesystem::path& file);
+std::string draw_signal_figure(const Chart& chart, const std::filesystem::path& file);
 
 } // namespace figures
 

@@ -6,7 +6,8 @@
 // Usage: hlscm_figures FOLDER [MESH]
 //
 // MESH: a surface with a border, or a closed one of genus 0, which is cut open. By default
-// bunny00.off of Debian's libcgal-demo in the folder HLSCM_DATA_DIR; hills if that is not there.
+// bunny00.off, and lion-head.off for maps adapted to a signal, of Debian's libcgal-demo in the folder
+// HLSCM_DATA_DIR; hills if they are not there.
 
 #include "Figures.h"
 #include "surfaces.h"
@@ -36,12 +37,12 @@ figures::Chart read_chart(const std::filesystem::path& file)
   return result;
 }
 
-figures::Chart choose_chart(int argc, char** argv)
+figures::Chart choose_chart(int argc, char** argv, const char* name)
 {
   if(argc > 2)
     return read_chart(argv[2]);
   if(const char* folder = std::getenv("HLSCM_DATA_DIR"); folder != nullptr) {
-    const std::filesystem::path file = std::filesystem::path(folder) / "bunny00.off";
+    const std::filesystem::path file = std::filesystem::path(folder) / name;
     if(std::filesystem::exists(file))
       return read_chart(file);
   }
@@ -55,7 +56,8 @@ void write_caption(std::ostream& out, const std::string& name, const std::string
   std::cout << name << ".png: " << text << "\n\n";
 }
 
-void make_figures(const std::filesystem::path& folder, const figures::Chart& chart)
+void make_figures(const std::filesystem::path& folder, const figures::Chart& chart,
+                  const figures::Chart& uneven)
 {
   std::filesystem::create_directories(folder);
   std::ofstream captions(folder / "captions.md");
@@ -65,6 +67,7 @@ void make_figures(const std::filesystem::path& folder, const figures::Chart& cha
                 figures::draw_monogrid_figure(chart, folder / "monogrid.png"));
   write_caption(captions, "levels", figures::draw_levels_figure(chart, folder / "levels.png"));
   write_caption(captions, "checker", figures::draw_checker_figure(chart, folder / "checker.png"));
+  write_caption(captions, "signal", figures::draw_signal_figure(uneven, folder / "signal.png"));
   captions.close();
   if(!captions)
     throw std::runtime_error("cannot write " + (folder / "captions.md").string());
@@ -79,7 +82,8 @@ int main(int argc, char** argv)
     return 2;
   }
   try {
-    make_figures(argv[1], choose_chart(argc, argv));
+    make_figures(argv[1], choose_chart(argc, argv, "bunny00.off"),
+                 choose_chart(argc, argv, "lion-head.off"));
   } catch(const std::exception& error) {
     std::cerr << "hlscm_figures: " << error.what() << '\n';
     return 1;

@@ -3,6 +3,7 @@
 
 #include "commands/Atlas_building.h"
 
+#include "commands/Signal.h"
 #include "reading/Given_charts.h"
 #include "common/Interruption.h"
 #include "common/Program_error.h"
@@ -66,6 +67,7 @@ Built_atlas build_atlas(const Input_surface& surface, const Program_options& opt
   library.packing.padding = options.atlas.padding;
   library.packing.mip_levels = options.atlas.mip_levels;
   library.packing.max_pages = options.atlas.pages;
+  library.metric = metric_of_signal(surface, options);
   if(surface.surface.repairs.triangulated) {
     library.no_seams = surface.surface.diagonals;
   }

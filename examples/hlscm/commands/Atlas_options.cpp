@@ -52,6 +52,7 @@ void add_atlas_options(CLI::App& app, Program_options& o)
       atlas.method,
       "how charts are mapped; border-first: with the least change of areas; the others are those of "
       "parameterize (default border-first)");
+  add_signal(app, o);
   add_threads(app, o.library.threads);
   app.add_flag("--ply", atlas.writes_ply, "write binary PLY, too");
 }
@@ -130,6 +131,10 @@ void check_bake(const Program_options& options)
                      + int(!options.bake.target.empty());
   if(models != 1) {
     throw CLI::ValidationError("bake", "give one of --faces, --error and --target");
+  }
+  if(!options.signal.empty() && !options.bake.target.empty()) {
+    throw CLI::ValidationError("--signal", "the light model of --target has its texture coordinates, "
+                                           "leave that out");
   }
 }
 

@@ -36,10 +36,12 @@ SMP::Conformal_map
 map_with_low_stretch(const Program_options& options,
                      const CGAL::Indexed_mesh::Indexed_triangle_mesh& component,
                      const std::vector<SMP::HLSCM_pin>& pins,
+                     std::vector<CGAL::Indexed_mesh::Space_tensor> metric,
                      SMP::Low_stretch_report& stretch, Progress_bar& progress)
 {
   SMP::Low_stretch_options library;
   library.pins = pins;
+  library.metric = std::move(metric);
   if(options.is_tolerance_given) {
     library.tolerance = options.library.tolerance;
   }

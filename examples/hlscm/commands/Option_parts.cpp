@@ -72,6 +72,20 @@ void add_threads(CLI::App& app, unsigned int& threads)
             "result does not depend on it");
 }
 
+void add_signal(CLI::App& app, Program_options& options)
+{
+  app.add_option("--signal", options.signal,
+                 "give more of the plane to where something changes fast: the normals of the "
+                 "surface, the colours of its vertices (.ply), a picture on its texture "
+                 "coordinates (.png, .jpg, .bmp, .tga); or, from any other file, to faces of a "
+                 "larger number")
+      ->type_name("normals|colors|FILE");
+  app.add_option("--signal-weight", options.signal_weight,
+                 "how many times as much as the surface that counts (default 4)")
+      ->check(CLI::Range(0., 1e6, "NUMBER"))
+      ->needs("--signal");
+}
+
 void add_weld(CLI::App& app, Program_options& options)
 {
   app.add_option_function<std::string>(

@@ -67,6 +67,9 @@ method_names(const std::string& other = {});
 
 void add_threads(CLI::App& app, unsigned int& threads);
 
+/// Adds what a map is adapted to.
+void add_signal(CLI::App& app, Program_options& options);
+
 /// Adds what may be done to a mesh before all else.
 void add_weld(CLI::App& app, Program_options& options);
 

@@ -153,6 +153,7 @@ void add_parameterize(CLI::App& app, Program_options& o)
                       "what --method low-stretch makes small: the change of lengths, either way "
                       "(default); that of angles alone; the distance from a rotation, with a "
                       "barrier; that of areas more than that of angles");
+  add_signal(*run, o);
   run->add_option("--pictures", o.pictures,
                   "a folder for domain.png, isolines.png, checker.png and levels.png")
       ->type_name("DIR");

@@ -99,6 +99,10 @@ Baking_input prepare(const Input_surface& surface, const Program_options& option
   input.pages = atlas.number_of_pages;
   input.fine = to_sheet(atlas.mesh, pages_of_triangles(atlas), atlas.number_of_pages);
   input.light = make_level(input.fine, options, progress, report);
+  if(!options.signal.empty()) { // the map changes too fast for equal coordinates to be equal places
+    input.fine.wedges.clear();
+    input.fine.uv.clear();
+  }
   return input;
 }
 

@@ -33,6 +33,9 @@ struct Run_files
   {
     for(const std::string& name : {options.output, options.report}) {
       refuse_to_overwrite(options.input, name);
+      if(!options.signal.empty()) {
+        refuse_to_overwrite(options.signal, name);
+      }
     }
     if(!options.pictures.empty()) {
       pictures.emplace(all, options.pictures);

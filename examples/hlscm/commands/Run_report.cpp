@@ -204,6 +204,9 @@ std::string to_json(const Run_report& report, const Program_options& options)
                  {"write", report.seconds_write}}},
                {"peak_memory_mb", report.peak_memory_mb},
                {"warnings", report.warnings}};
+  if(!options.signal.empty()) {
+    json["signal"] = {{"of", options.signal}, {"weight", options.signal_weight}};
+  }
   if(report.stretch) {
     json["stretch"] = {{"energy", number(report.stretch->energy)},
                        {"energy_gap_estimate", number(report.stretch->energy_gap)}};
@@ -233,6 +236,10 @@ std::string to_table(const Run_report& report, const Program_options& options)
               s.converged       ? "converged"
               : s.stopped_early ? "stopped early since the time was up"
                                 : "tolerance not reached");
+  }
+  if(!options.signal.empty()) {
+    table.add("signal", options.signal, ", counts ", options.signal_weight,
+              " times as much as the surface");
   }
   table.add("levels", levels_text(report));
   table.add("pins", pins_text(report));

@@ -4,6 +4,7 @@
 #include "commands/Surface_mapping.h"
 
 #include "commands/Low_stretch.h"
+#include "commands/Signal.h"
 
 #include "common/Interruption.h"
 #include "common/Program_error.h"
@@ -94,7 +95,8 @@ SMP::Conformal_map map_component(const Program_options& options, SMP::HLSCM_opti
 {
   if(!options.method) {
     stretch.emplace_back();
-    return map_with_low_stretch(options, component, pins, stretch.back(), progress);
+    return map_with_low_stretch(options, component, pins, std::move(library.metric), stretch.back(),
+                                progress);
   }
   Mesh mesh = build_mesh(component);
   const Uv_map uv = mesh.add_property_map<Mesh::Vertex_index, Kernel::Point_2>("v:uv").first;
@@ -252,9 +254,11 @@ void choose_component(Input_surface& input, const Program_options& options)
   input.surface = part_of(input.surface, is_chosen);
 }
 
-Mapped_surface map_input(const Input_surface& input, const Program_options& options,
+Mapped_surface map_input(const Input_surface& input, const Program_options& given,
                          Level_snapshots* snapshots, Progress_bar& progress)
 {
+  Program_options options = given;
+  options.library.metric = metric_of_signal(input, given);
   std::vector<SMP::HLSCM_pin> pins
       = checked_pins(options, input.file.soup.number_of_vertices());
   for(SMP::HLSCM_pin& pin : pins) {

@@ -94,6 +94,10 @@ struct Program_options
   std::optional<CGAL::Surface_mesh_parameterization::Conformal_method> method
       = CGAL::Surface_mesh_parameterization::Conformal_method::HLSCM;
   Stretch stretch = Stretch::SYMMETRIC_DIRICHLET; ///< what is then small
+  /// What the map is adapted to: "normals", "colors", an image or a file with a number for each face;
+  /// empty: nothing
+  std::string signal;
+  double signal_weight = 4; ///< how much that counts
   bool repairs_flips = false; ///< of the map
   Engine engine = Engine::FLAT;
 

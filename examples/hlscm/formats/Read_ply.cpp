@@ -62,6 +62,9 @@ public:
       }
     }
     take_uv();
+    if(m_mesh.colours.size() != m_mesh.soup.points.size()) {
+      m_mesh.colours.clear();
+    }
     m_mesh.warnings.insert(m_mesh.warnings.end(), m_header.warnings.begin(),
                            m_header.warnings.end());
     warn_of_end();
@@ -74,27 +77,36 @@ private:
   /// The properties of vertices that are of use, by their places in the element.
   struct Vertex_properties
   {
-    std::array<std::size_t, 5> places; // of x, y, z, u, v
+    std::array<std::size_t, 8> places; // of x, y, z, u, v, red, green, blue
     bool has_uv;
+    bool has_colour;
   };
 
   Vertex_properties properties_of_vertices(const Element& element) const
   {
     const Vertex_properties p{{element.index_of({"x"}), element.index_of({"y"}),
                                element.index_of({"z"}), element.index_of({"texture_u", "s", "u"}),
-                               element.index_of({"texture_v", "t", "v"})},
+                               element.index_of({"texture_v", "t", "v"}),
+                               element.index_of({"red", "diffuse_red", "r"}),
+                               element.index_of({"green", "diffuse_green", "g"}),
+                               element.index_of({"blue", "diffuse_blue", "b"})},
+                              false,
                               false};
     if(*std::max_element(p.places.begin(), p.places.begin() + 3) == element.properties.size()) {
       m_source.fail("the vertices have no properties x, y and z, export the mesh again");
     }
-    return {p.places, std::max(p.places[3], p.places[4]) < element.properties.size()};
+    return {p.places, std::max(p.places[3], p.places[4]) < element.properties.size(),
+            std::max({p.places[5], p.places[6], p.places[7]}) < element.properties.size()};
   }
 
-  void add_vertex(const std::array<double, 5>& values, bool has_uv)
+  void add_vertex(const std::array<double, 8>& values, const Vertex_properties& of_use)
   {
     m_mesh.soup.points.emplace_back(values[0], values[1], values[2]);
-    if(has_uv) {
+    if(of_use.has_uv) {
       m_mesh.soup.uv.emplace_back(values[3], values[4]);
+    }
+    if(of_use.has_colour) {
+      m_mesh.colours.push_back({float(values[5]), float(values[6]), float(values[7])});
     }
   }
 
@@ -103,7 +115,7 @@ private:
     const Vertex_properties of_use = properties_of_vertices(element);
     m_mesh.soup.points.reserve(element.count);
     const std::size_t done = read_vertices_at_once(element, of_use);
-    std::array<double, 5> values{};
+    std::array<double, 8> values{};
     read_items(
         m_source, element, m_reader, done,
         [&](std::size_t property, double value) {
@@ -111,7 +123,7 @@ private:
             values[i] = property == of_use.places[i] ? value : values[i];
           }
         },
-        [&](std::size_t) { add_vertex(values, of_use.has_uv); });
+        [&](std::size_t) { add_vertex(values, of_use); });
   }
 
   // Vertices of a binary file that all have the same size, if they all are there; returns how many
@@ -126,20 +138,27 @@ private:
     if(has_list || !m_reader.is_little_endian() || m_reader.bytes_left() / size < element.count) {
       return 0;
     }
-    std::array<std::pair<Type, std::size_t>, 5> wanted; // types and offsets
-    const std::size_t number = of_use.has_uv ? 5 : 3;
-    for(std::size_t i = 0; i < number; ++i) {
-      const Property* property = properties + of_use.places[i];
-      wanted[i] = {property->type, size_of(properties, property)};
+    struct Wanted
+    {
+      std::size_t value, offset;
+      Type type;
+    };
+    std::array<Wanted, 8> wanted;
+    std::size_t number = 0;
+    for(std::size_t i = 0; i < of_use.places.size(); ++i) {
+      if(i < 3 || (i < 5 ? of_use.has_uv : of_use.has_colour)) {
+        const Property* property = properties + of_use.places[i];
+        wanted[number++] = {i, size_of(properties, property), property->type};
+      }
     }
-    std::array<double, 5> values{};
+    std::array<double, 8> values{};
     for(std::size_t v = 0; v < element.count; ++v, m_reader.skip(size)) {
       m_source.advance(m_reader.position(), v);
       for(std::size_t i = 0; i < number; ++i) {
-        values[i] = decode(wanted[i].first, Encoding::LITTLE_ENDIAN_BINARY,
-                           m_reader.position() + wanted[i].second);
+        values[wanted[i].value] = decode(wanted[i].type, Encoding::LITTLE_ENDIAN_BINARY,
+                                         m_reader.position() + wanted[i].offset);
       }
-      add_vertex(values, of_use.has_uv);
+      add_vertex(values, of_use);
     }
     return element.count;
   }

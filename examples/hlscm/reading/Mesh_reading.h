@@ -8,6 +8,7 @@
 
 #include <CGAL/Indexed_mesh/Polygon_soup.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -31,6 +32,7 @@ struct Read_mesh
   Polygon_soup soup;
   std::vector<Polygon_soup::Point_3> normals; ///< of OBJ files; may be empty
   std::vector<std::uint32_t> normal_corners;  ///< of each corner one of `normals`, or empty
+  std::vector<std::array<float, 3>> colours;  ///< of each point, of PLY files; may be empty
   std::vector<Mesh_line> lines;               ///< in the order of the file; of OBJ and glTF
   std::vector<std::string> warnings;
 };

@@ -81,6 +81,7 @@ Read_mesh read_and_weld(const std::string& input, const Program_options& options
     mesh.warnings.push_back(
         "vertices merged with others: "
         + std::to_string(CGAL::Indexed_mesh::weld_points(mesh.soup, distance)));
+    mesh.colours.clear(); // which of the merged ones is not known
   }
   return mesh;
 }

@@ -4,6 +4,7 @@
 #ifndef CGAL_INDEXED_MESH_MESH_ERROR_H
 #define CGAL_INDEXED_MESH_MESH_ERROR_H
 
+#include <CGAL/Indexed_mesh/Space_tensor.h>
 #include <CGAL/Indexed_mesh/Vertex_rings.h>
 
 #include <cmath>
@@ -123,6 +124,40 @@ std::string mesh_error(const Mesh& mesh, const std::string& name = {})
     return (name.empty() ? "the mesh" : name) + " has no triangles";
   const std::string error = index_error(mesh.triangles, mesh.points.size(), name);
   return error.empty() ? point_error(mesh.points, name) : error;
+}
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// Says whether a metric has another number of tensors than there are triangles.
+inline std::string metric_size_error(std::size_t tensors, std::size_t triangles)
+{
+  return tensors == triangles ? std::string()
+                              : "the metric has " + std::to_string(tensors) + " tensors, but there are "
+                                  + std::to_string(triangles) + " triangles";
+}
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// Says whether a metric, unless it is empty, has not a tensor for each triangle, or which triangle
+/// gets no lengths or no area by its tensor, though it has them in space. `number` has for each triangle
+/// its number in the input; without, they are the same.
+inline std::string metric_error(const Indexed_triangle_mesh& mesh,
+                                const std::vector<Space_tensor>& metric,
+                                const std::vector<Triangle_index>& number = {})
+{
+  const auto is_good = [](double in_metric, double in_space) {
+    return std::isfinite(in_metric) && (in_metric > 0. || !(in_space > 0.));
+  };
+  if(!metric.empty() && metric.size() != mesh.triangles.size())
+    return metric_size_error(metric.size(), mesh.triangles.size());
+  for(std::size_t t = 0; t < metric.size(); ++t) {
+    const Triangle_indices& v = mesh.triangles[t];
+    const auto a = mesh.points[v[1]] - mesh.points[v[0]], b = mesh.points[v[2]] - mesh.points[v[0]];
+    const auto n = cross_product(a, b);
+    if(!is_good(metric[t].product(a, a), a * a) || !is_good(metric[t].product(b, b), b * b)
+       || !is_good(metric[t].plane_determinant(n), n * n))
+      return "the metric of triangle " + std::to_string(number.empty() ? t : number[t])
+           + " is not positive definite, or not finite";
+  }
+  return {};
 }
 
 /// \ingroup PkgHLSCMIndexedMesh

@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_MULTIGRID_FLAT_TRIANGLE_H
 
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
+#include <CGAL/Indexed_mesh/Space_tensor.h>
 
 #include <algorithm>
 #include <array>
@@ -40,6 +41,10 @@ public:
   /// \param mean_edge the mean edge length of the mesh, the measure of mollification
   Flat_triangle(const Point_3& p0, const Point_3& p1, const Point_3& p2, double mean_edge = 1.);
 
+  /// Constructs the triangle with the metric `metric` instead of that of space.
+  Flat_triangle(const Point_3& p0, const Point_3& p1, const Point_3& p2,
+                const Indexed_mesh::Space_tensor& metric, double mean_edge = 1.);
+
   /// Returns the area, after mollification.
   double area() const { return m_area; }
 
@@ -57,6 +62,7 @@ public:
   }
 
 private:
+  void lay_out(const std::array<double, 3>& ll, double dot, double twice_area, double mean_edge);
   void lay_out(double a, double b, double c);
 
   std::array<Complex, 3> m_edge; // W_j
@@ -77,9 +83,25 @@ inline Flat_triangle::Flat_triangle(const Point_3& p0, const Point_3& p1, const 
   const std::array<double, 3> n = {e[1][1] * e[2][2] - e[1][2] * e[2][1],
                                    e[1][2] * e[2][0] - e[1][0] * e[2][2],
                                    e[1][0] * e[2][1] - e[1][1] * e[2][0]};
-  const double ll[3] = {dot(e[0], e[0]), dot(e[1], e[1]), dot(e[2], e[2])};
+  lay_out({dot(e[0], e[0]), dot(e[1], e[1]), dot(e[2], e[2])}, dot(e[1], e[2]),
+          std::sqrt(dot(n, n)), mean_edge);
+}
+
+inline Flat_triangle::Flat_triangle(const Point_3& p0, const Point_3& p1, const Point_3& p2,
+                                    const Indexed_mesh::Space_tensor& metric, double mean_edge)
+{
+  const auto e0 = p2 - p1, e1 = p0 - p2, e2 = p1 - p0;
+  lay_out({metric.product(e0, e0), metric.product(e1, e1), metric.product(e2, e2)},
+          metric.product(e1, e2), std::sqrt(metric.plane_determinant(cross_product(e1, e2))),
+          mean_edge);
+}
+
+// Lays a triangle out with the squared lengths of W_0, W_1, W_2, the product of W_1 and W_2, and twice
+// the area.
+inline void Flat_triangle::lay_out(const std::array<double, 3>& ll, double dot, double twice_area,
+                                   double mean_edge)
+{
   const double longest = (std::max)({ll[0], ll[1], ll[2]});
-  const double twice_area = std::sqrt(dot(n, n));
   if(!(twice_area > 1e-9 * longest)) {
     const double extra = mollification * mean_edge;
     m_is_mollified = true;
@@ -90,7 +112,7 @@ inline Flat_triangle::Flat_triangle(const Point_3& p0, const Point_3& p1, const 
   const double length = std::sqrt(ll[2]);
   m_area = 0.5 * twice_area;
   m_edge[2] = Complex(length, 0.);
-  m_edge[1] = Complex(dot(e[1], e[2]) / length, -twice_area / length);
+  m_edge[1] = Complex(dot / length, -twice_area / length);
   m_edge[0] = -(m_edge[1] + m_edge[2]);
 }
 

@@ -18,6 +18,7 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_parameterization {
@@ -143,6 +144,15 @@ conformal_triangle(const Indexed_mesh::Indexed_triangle_mesh& mesh, std::size_t 
   return Conformal_triangle(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]);
 }
 
+// The triangle in another metric.
+inline Conformal_triangle
+conformal_triangle(const Indexed_mesh::Indexed_triangle_mesh& mesh, std::size_t t,
+                   const Indexed_mesh::Space_tensor& metric)
+{
+  const auto& v = mesh.triangles[t];
+  return Conformal_triangle(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], metric);
+}
+
 inline std::array<double, 3> half_cotangents(const Conformal_triangle& t)
 {
   return {0.5 * t.cotangent(0), 0.5 * t.cotangent(1), 0.5 * t.cotangent(2)};
@@ -157,14 +167,16 @@ struct Half_cotangents
 
   Half_cotangents() {}
 
-  // Those of the triangles as they lie in space.
-  explicit Half_cotangents(const Indexed_mesh::Indexed_triangle_mesh& mesh)
+  // Those of the triangles as they lie in space or, if there is a tensor for each, in that metric.
+  explicit Half_cotangents(const Indexed_mesh::Indexed_triangle_mesh& mesh,
+                           const std::vector<Indexed_mesh::Space_tensor>& metric = {})
     : value(3 * mesh.triangles.size())
   {
     const auto fill = [&](std::size_t begin, std::size_t end) {
       std::size_t count = 0;
       for(std::size_t t = begin; t < end; ++t) {
-        const Conformal_triangle triangle = conformal_triangle(mesh, t);
+        const Conformal_triangle triangle = metric.empty() ? conformal_triangle(mesh, t)
+                                                           : conformal_triangle(mesh, t, metric[t]);
         set(t, half_cotangents(triangle));
         count += triangle.is_mollified() ? 1 : 0;
       }

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_HLSCM_OPTIONS_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_HLSCM_OPTIONS_H
 
+#include <CGAL/Indexed_mesh/Space_tensor.h>
 #include <CGAL/Multigrid/Schedule.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/Prolongation.h>
@@ -106,6 +107,10 @@ struct HLSCM_options
   double angular_defect_bound = 70.;
   /// Which energy is minimised.
   Conformal_weights weights = Conformal_weights::EXACT;
+  /// The metric in which the map is conformal, a tensor for each face, in the order of the faces, such
+  /// as that of `signal_metric()`; empty: that of the surface. Only with `Conformal_weights::EXACT`.
+  /// `Hierarchical_conformal_map` knows no other than that of the surface.
+  std::vector<Indexed_mesh::Space_tensor> metric;
   /// What mends flipped faces of the map, at the price of a little energy, such as
   /// `Flip_repairer()` of `<CGAL/Surface_mesh_parameterization/repair_flipped_faces.h>`; nothing by
   /// default. The time limit and cancelling hold for it, too.

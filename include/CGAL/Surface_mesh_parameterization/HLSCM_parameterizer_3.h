@@ -300,7 +300,7 @@ parameterize(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvma
     run.make_room_for_repair();
   internal::Prepared_chart prepared = {{}, run.status()};
   if(run.status().is_ok())
-    prepared = internal::extract_chart(mesh, bhd);
+    prepared = internal::extract_chart(mesh, bhd, m_options.metric);
   const internal::Wanted_pins wanted
     = wanted_pins(mesh, bhd, uvmap, vimap, vpmap, prepared.chart, prepared.status);
   internal::Chart_map map

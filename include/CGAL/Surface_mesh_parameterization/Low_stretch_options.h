@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_LOW_STRETCH_OPTIONS_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_LOW_STRETCH_OPTIONS_H
 
+#include <CGAL/Indexed_mesh/Space_tensor.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
 
 #include <cstddef>
@@ -24,6 +25,9 @@ struct Low_stretch_options
   std::size_t maximal_iterations = 50; ///< of Newton's method, on the surface itself
   /// Vertices and where they are held, different vertices; any number. The unit is that of the mesh.
   std::vector<HLSCM_pin> pins;
+  /// The metric from which the stretch is measured, a tensor for each triangle, such as that of
+  /// `signal_metric()`; empty: that of the surface.
+  std::vector<Indexed_mesh::Space_tensor> metric;
   double time_limit = 0.;              ///< seconds after which nothing more is improved; 0: none
   unsigned int threads = 0;    ///< of a parallel parameterizer; 0: as many as there are processors
   /// Told the part done in [0, 1] from time to time. When it returns false, or the time is over, the
@@ -49,7 +53,7 @@ struct Low_stretch_report
   double energy_gap = 0.;      ///< estimate of what the energy has still to lose, in parts of it
   bool converged = false;      ///< whether the tolerance is met, as far as can be estimated
   bool is_cut_short = false;   ///< whether `progress` or the time limit ended it early
-  double area = 0.;            ///< of the surface
+  double area = 0.;            ///< of the surface, in the metric of the options
   std::size_t borders = 0;     ///< the number of borders
   std::vector<Low_stretch_level_report> levels; ///< the levels, the coarsest first
   std::size_t iterations = 0;  ///< steps of Newton's method on the surface itself

@@ -128,7 +128,7 @@ parameterize(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvma
   typedef typename Kernel::FT FT;
   const Blocked_execution::Thread_scope threads(is_parallel ? m_options.threads : 1);
   *m_result = Low_stretch_map();
-  internal::Prepared_chart prepared = internal::extract_chart(mesh, bhd);
+  internal::Prepared_chart prepared = internal::extract_chart(mesh, bhd, m_options.metric);
   const Error_code error = prepared.status.error;
   const auto rank = Indexed_mesh::ranks(prepared.chart.source, num_vertices(mesh));
   internal::map_chart(std::move(prepared), num_vertices(mesh), m_options, m_energy, *m_result);

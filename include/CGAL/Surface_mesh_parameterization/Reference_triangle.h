@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_REFERENCE_TRIANGLE_H
 
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
+#include <CGAL/Indexed_mesh/Space_tensor.h>
 
 #include <algorithm>
 #include <array>
@@ -104,6 +105,17 @@ public:
                               a[0] * b[0] + a[1] * b[1] + a[2] * b[2],
                               b[0] * b[0] + b[1] * b[1] + b[2] * b[2],
                               sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]));
+  }
+
+  /// Constructs the triangle of three points of space with the metric `metric`.
+  static Reference_triangle of_points(const Point_3& p0, const Point_3& p1, const Point_3& p2,
+                                      const Indexed_mesh::Space_tensor& metric)
+  {
+    using std::sqrt;
+    const auto a = p1 - p0, b = p2 - p0;
+    return Reference_triangle(FT(metric.product(a, a)), FT(metric.product(a, b)),
+                              FT(metric.product(b, b)),
+                              sqrt(FT(metric.plane_determinant(cross_product(a, b)))));
   }
 
   /// Constructs a triangle without extent.

@@ -39,7 +39,7 @@ CGAL_HLSCM_INLINE Conformal_map map_arrays(Indexed_mesh::Indexed_triangle_mesh m
   Run_control run(options, result.report);
   Prepared_chart prepared = {{}, run.status()};
   if(run.status().is_ok())
-    prepared = chart_of_arrays(std::move(mesh));
+    prepared = chart_of_arrays(std::move(mesh), options.metric);
   const Chart_map map
     = map_chart_conformally(std::move(prepared), n, wanted, Coarsest_solver(), run);
   if(!run.is_stopped())

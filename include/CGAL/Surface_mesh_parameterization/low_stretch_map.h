@@ -73,6 +73,7 @@ void map_chart(Prepared_chart prepared, std::size_t n, const Low_stretch_options
 {
   using Indexed_mesh::Mesh_status;
   if(result.fail(Mesh_status::BAD_OPTIONS, options_error(options))
+     || result.fail(Mesh_status::BAD_OPTIONS, prepared.chart.metric_error)
      || result.fail(Mesh_status::BAD_MESH, prepared.status.message))
     return;
   Chart& chart = prepared.chart;
@@ -82,7 +83,8 @@ void map_chart(Prepared_chart prepared, std::size_t n, const Low_stretch_options
     return;
   Low_stretch_solver<Energy> solver(options, energy);
   const std::vector<Plane_point> places
-    = solver.run(std::move(chart.mesh), std::move(chart.rings), std::move(held));
+    = solver.run(std::move(chart.mesh), std::move(chart.rings), std::move(held),
+                 std::move(chart.metric));
   result.report = solver.report();
   result.report.area = std::ldexp(result.report.area, 2 * exponent);
   result.report.borders = chart.borders.size();
@@ -135,7 +137,8 @@ Low_stretch_map low_stretch_map(Indexed_mesh::Indexed_triangle_mesh mesh,
 {
   Low_stretch_map result;
   const std::size_t n = mesh.points.size();
-  internal::map_chart(internal::chart_of_arrays(std::move(mesh)), n, options, energy, result);
+  internal::map_chart(internal::chart_of_arrays(std::move(mesh), options.metric), n, options, energy,
+                      result);
   return result;
 }
 

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_TEXTURE_ATLAS_H
 #define CGAL_SURFACE_MESH_TEXTURING_TEXTURE_ATLAS_H
 
+#include <CGAL/Indexed_mesh/Space_tensor.h>
 #include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/Distortion_measures.h>
 #include <CGAL/Surface_mesh_texturing/Chart_distortion.h>
@@ -44,6 +45,10 @@ struct Texture_atlas_options
   /// For each triangle the texels that it is to have along a unit of length, relative to others; a
   /// chart gets the mean over its area. Empty for equal texel density.
   std::vector<float> density;
+  /// The metric to which charts are adapted, a tensor for each triangle, such as that of
+  /// `signal_metric()`. A chart is mapped by `low_stretch_map()` in that metric if that is one-to-one,
+  /// otherwise it gets its area in it; the bound of distortion holds before. Empty for none.
+  std::vector<Indexed_mesh::Space_tensor> metric;
   /// Edges that shall not be seams; see `Segmentation_options::no_seams`. They are kept free of seams
   /// by `Chart_growth_segmenter`, and where charts are cut again, as far as charts can be disks with
   /// one-to-one maps: `Texture_atlas_report::unwanted_seams`. Empty for none.

@@ -125,6 +125,9 @@ private:
     for(const Pin& pin : m_options.pins)
       if(pin.vertex >= m_mesh.points.size())
         return "there is no vertex " + std::to_string(pin.vertex) + " that could be pinned";
+    const auto& metric = m_options.solver.metric;
+    if(!metric.empty() && metric.size() != m_mesh.triangles.size())
+      return Indexed_mesh::metric_size_error(metric.size(), m_mesh.triangles.size());
     const std::vector<std::uint8_t>& no_seams = m_options.no_seams;
     return no_seams.empty() ? std::string() : foreign_seams_error(m_mesh, no_seams).error;
   }
@@ -132,9 +135,7 @@ private:
   // Cuts what cannot be laid out in the plane.
   void cut(const Triangle_adjacency& adjacency)
   {
-    const auto needs_cut = [](const Chart_topology& topology) {
-      return topology.borders == 0 || topology.genus() > 0;
-    };
+    const auto needs_cut = [](const Chart_topology& t) { return t.borders == 0 || t.genus() > 0; };
     Face_charts& charts = m_result.charts;
     charts = charts_between(adjacency, std::vector<std::uint8_t>(m_mesh.triangles.size()));
     for(const Chart_topology& topology : chart_topologies(adjacency, charts)) {
@@ -175,8 +176,8 @@ private:
 
   bool is_tried(std::size_t c) const
   {
-    const Mapped_component& component = m_result.components[c];
-    return component.borders == 0 && m_options.cut.extremities > 0 && m_options.least_gain > 0.;
+    return m_result.components[c].borders == 0 && m_options.cut.extremities > 0
+        && m_options.least_gain > 0.;
   }
 
   // The seams that make a disk of a component, of which `mesh` may be a coarser one.
@@ -218,7 +219,7 @@ private:
     return part;
   }
 
-  // The pins of a component, in their order: of several vertices on a seam the first one has the pin.
+  // The pins of a component, in their order: of several vertices on a seam the first has the pin.
   std::vector<Pin> pins_of(const Chart_mesh& part)
   {
     std::vector<Pin> result;
@@ -238,6 +239,9 @@ private:
     typedef Surface_mesh_parameterization::Conformal_method Method;
     const std::size_t faces = m_parts[c].triangles.size();
     Surface_mesh_parameterization::HLSCM_options options = m_options.solver;
+    options.metric.resize((std::min)(options.metric.size(), faces));
+    for(std::size_t i = 0; i < options.metric.size(); ++i)
+      options.metric[i] = m_options.solver.metric[m_parts[c].triangles[i]];
     if(options.method == Method::HLSCM && m_result.components[c].is_cut && !has_pins)
       options.method = Method::SPECTRAL;
     else if(options.method == Method::HLSCM && m_parts.size() > 1 && faces < m_options.direct_faces)
@@ -273,12 +277,11 @@ private:
     if(component.report.flip_repair)
       for(std::size_t& face : component.report.flip_repair->unmended_faces)
         face = part.triangles[face];
+    component.is_mapped = map.uv.size() == part.mesh.points.size();
     if(component.report.cancelled)
       m_result.cancel();
-    else if(map.uv.size() != part.mesh.points.size()
-            && (m_parts.size() == 1 || !pins.empty()))
+    else if(!component.is_mapped && (m_parts.size() == 1 || !pins.empty()))
       m_result.fail(Mesh_status::FAILED, component.report.message);
-    component.is_mapped = map.uv.size() == part.mesh.points.size();
     if(!component.is_mapped)
       map.uv.assign(part.mesh.points.size(), Point_2(0., 0.));
     m_uv.push_back(std::move(map.uv));

@@ -8,6 +8,7 @@
 #include <CGAL/Surface_mesh_multiresolution/Mesh_hierarchy.h>
 #include <CGAL/Surface_mesh_parameterization/Low_stretch_options.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Newton_steps.h>
+#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Stretch_metric.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Vertex_insertion.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/circle_map.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/collapse_to_few.h>
@@ -23,17 +24,6 @@
 namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
-
-// The triangle of three vertices of a surface.
-struct Surface_metric
-{
-  const std::vector<Indexed_mesh::Indexed_triangle_mesh::Point_3>& points;
-
-  Reference_triangle<double> operator()(Vertex_index a, Vertex_index b, Vertex_index c) const
-  {
-    return Reference_triangle<double>::of_points(points[a], points[b], points[c]);
-  }
-};
 
 // From a few vertices to all: on each level vertices are put into the map of the level before, and
 // Newton's method goes as far as pays off.
@@ -52,10 +42,13 @@ public:
   // is rare; if it happens, all is done again with collapses after which it cannot.
   //
   // The vertices of `held`, different ones, are held at their places. If they do not get there without
-  // a triangle that turns over, there is no map, and `misses_pins()`.
+  // a triangle that turns over, there is no map, and `misses_pins()`. `metric` has a tensor for each
+  // triangle, or none if the metric is that of the surface.
   std::vector<Plane_point> run(Indexed_mesh::Indexed_triangle_mesh mesh,
-                               Indexed_mesh::Vertex_rings rings, std::vector<Held_vertex> held)
+                               Indexed_mesh::Vertex_rings rings, std::vector<Held_vertex> held,
+                               std::vector<Indexed_mesh::Space_tensor> metric)
   {
+    m_metric = std::move(metric);
     m_held = std::move(held);
     m_is_fixed.assign(m_held.empty() ? 0 : mesh.points.size(), false);
     for(const Held_vertex& h : m_held)
@@ -122,6 +115,8 @@ private:
   Surface_mesh_multiresolution::Progressive_mesh m_collapses;
   Indexed_mesh::Vertex_rings m_rings;
   std::vector<Mesh_level> m_levels;
+  std::vector<Indexed_mesh::Space_tensor> m_metric; // of the triangles of the finest level
+  Vertex_tensors m_tensors;
   Newton_steps m_newton;
   std::vector<Held_vertex> m_held;
   std::vector<bool> m_is_fixed; // empty without pins
@@ -147,6 +142,8 @@ Low_stretch_solver<Energy>::run_with(Indexed_mesh::Indexed_triangle_mesh mesh,
   const std::size_t coarsest = coarsest_size + m_held.size();
   m_collapses = collapse_to_few(mesh, std::move(rings), m_is_fixed, coarsest, rule, collapsing,
                                 m_rings);
+  m_tensors = Vertex_tensors(mesh, m_metric);
+  m_tensors.collapse(m_collapses.collapses);
   SMM::Hierarchy_options shape;
   shape.ratio = ratio;
   shape.coarsest_size = coarsest;
@@ -156,8 +153,10 @@ Low_stretch_solver<Energy>::run_with(Indexed_mesh::Indexed_triangle_mesh mesh,
   if(!start(m_levels[0], places))
     return {};
   std::size_t collapsed = n - m_levels[0].vertices.size();
-  for(std::size_t i = m_collapses.collapses.size(); i-- > collapsed;) // before the coarsest level
+  for(std::size_t i = m_collapses.collapses.size(); i-- > collapsed;) { // before the coarsest level
     m_rings.split(m_collapses.collapses[i].removed, m_collapses.collapses[i].kept);
+    m_tensors.undo(m_collapses.collapses[i]);
+  }
   for(std::size_t l = 0; l < m_levels.size(); ++l) {
     const std::size_t still = n - m_levels[l].vertices.size();
     if(!insert(still, collapsed, places))
@@ -206,12 +205,14 @@ template <class Energy>
 bool Low_stretch_solver<Energy>::insert(std::size_t first, std::size_t last,
                                         std::vector<Plane_point>& places)
 {
-  const Surface_metric metric = {m_levels.back().mesh.points};
+  const Surface_metric metric = {m_levels.back().mesh.points, m_tensors};
   Vertex_insertion<Surface_metric, Coarse_energy> insertion(m_rings, places, m_is_fixed, metric,
                                                             m_coarse_energy);
-  for(std::size_t i = last; i-- > first;)
+  for(std::size_t i = last; i-- > first;) {
+    m_tensors.undo(m_collapses.collapses[i]);
     if(!insertion(m_collapses.collapses[i], m_mean))
       return false;
+  }
   return true;
 }
 
@@ -285,10 +286,15 @@ void Low_stretch_solver<Energy>::minimize(std::size_t l, const Level_energy& ene
   std::vector<Plane_point> z(here.vertices.size());
   for(std::size_t v = 0; v < z.size(); ++v)
     z[v] = places[here.vertices[v]];
-  const Surface_metric metric = {here.mesh.points};
+  const Surface_metric metric = {m_levels.back().mesh.points, m_tensors};
   const auto reference = [&](std::size_t t) {
     const Triangle_indices& v = here.mesh.triangles[t];
-    return metric(v[0], v[1], v[2]);
+    const auto& p = here.mesh.points;
+    if(m_metric.empty())
+      return Reference_triangle<double>::of_points(p[v[0]], p[v[1]], p[v[2]]);
+    if(is_finest)
+      return Reference_triangle<double>::of_points(p[v[0]], p[v[1]], p[v[2]], m_metric[t]);
+    return metric(here.vertices[v[0]], here.vertices[v[1]], here.vertices[v[2]]);
   };
   if(l == 0 && !m_held.empty() && !hold_pins(here, reference, energy, z))
     return;

@@ -7,10 +7,12 @@
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Blocked_execution/memory.h>
+#include <CGAL/Indexed_mesh/Space_tensor.h>
 #include <CGAL/Indexed_mesh/Vertex_rings.h>
 
 #ifdef CGAL_HLSCM_DEFINITIONS
 #include <CGAL/Indexed_mesh/border_loops.h>
+#include <CGAL/Surface_mesh_parameterization/internal/solver/sort_metric.h>
 #endif
 
 #include <CGAL/Surface_mesh_parameterization/Error_code.h>
@@ -75,12 +77,15 @@ struct Chart
 {
   typedef Indexed_mesh::Indexed_triangle_mesh Mesh;
   typedef Indexed_mesh::Vertex_index Vertex_index;
+  typedef std::vector<Indexed_mesh::Space_tensor> Metric;
 
   Mesh mesh;                              // normalized, in spatial order
   std::vector<std::uint32_t> source;      // for each vertex its position in vertices(mesh)
   Indexed_mesh::Vertex_rings rings;
   std::vector<std::vector<Vertex_index>> borders;
   double scale = 1.;                      // lengths of `mesh` to those of the input
+  Metric metric;                          // of each triangle; empty: that of the points
+  std::string metric_error;               // what is wrong with it
 };
 
 inline void check_point(const Chart::Mesh::Point_3& p, std::size_t vertex, Status& status)
@@ -94,7 +99,7 @@ inline void check_point(const Chart::Mesh::Point_3& p, std::size_t vertex, Statu
 CGAL_HLSCM_INLINE void check_points(const Chart& chart, Status& status);
 
 // Takes the arrays of `chart.mesh` with `chart.source` set, and of it the component of the vertex at
-// position `seed`; without a seed all must be one component.
+// position `seed`; without a seed all must be one component. `chart.metric` goes with its triangles.
 CGAL_HLSCM_INLINE void prepare_chart(Chart& chart, std::uint32_t seed, Status& status);
 
 // Calls `body(i)` for i in [0, n). Numbers that are objects may not be read by several threads.
@@ -175,8 +180,8 @@ inline void number_sources(Chart& chart)
   std::iota(chart.source.begin(), chart.source.end(), 0u);
 }
 
-// A connected mesh that is two arrays.
-CGAL_HLSCM_INLINE Prepared_chart chart_of_arrays(Chart::Mesh mesh);
+// A connected mesh that is two arrays, with the metric of its triangles, if that is not their own.
+CGAL_HLSCM_INLINE Prepared_chart chart_of_arrays(Chart::Mesh mesh, const Chart::Metric& metric = {});
 
 // The parameters of the `n` vertices of the input; (0, 0) of those that are not in the chart.
 inline std::vector<Simple_cartesian<double>::Point_2>
@@ -209,15 +214,18 @@ Status check_border(const TriangleMesh& mesh,
   return status;
 }
 
-// The connected component of `mesh` that has the border halfedge `bhd`.
+// The connected component of `mesh` that has the border halfedge `bhd`, with the metric of the faces
+// of `mesh`, if that is not their own.
 template <class TriangleMesh>
 Prepared_chart extract_chart(const TriangleMesh& mesh,
-                             typename boost::graph_traits<TriangleMesh>::halfedge_descriptor bhd)
+                             typename boost::graph_traits<TriangleMesh>::halfedge_descriptor bhd,
+                             const Chart::Metric& metric = {})
 {
   Prepared_chart result;
   result.status = check_border(mesh, bhd);
   if(!result.status.is_ok())
     return result;
+  result.chart.metric = metric;
   copy_faces(mesh, result.chart, result.status);
   number_sources(result.chart);
   std::uint32_t seed = 0;
@@ -319,7 +327,8 @@ inline void check_topology(const Chart& chart, Status& status)
                + std::to_string(twice_genus / 2) + "; cut its handles first");
 }
 
-CGAL_HLSCM_INLINE void prepare_chart(Chart& chart, std::uint32_t seed, Status& status)
+// The same without its metric.
+inline void prepare_surface(Chart& chart, std::uint32_t seed, Status& status)
 {
   if(!status.is_ok())
     return;
@@ -356,11 +365,25 @@ CGAL_HLSCM_INLINE void prepare_chart(Chart& chart, std::uint32_t seed, Status& s
   check_topology(chart, status);
 }
 
-CGAL_HLSCM_INLINE Prepared_chart chart_of_arrays(Chart::Mesh mesh)
+CGAL_HLSCM_INLINE void prepare_chart(Chart& chart, std::uint32_t seed, Status& status)
+{
+  if(chart.metric.empty())
+    return prepare_surface(chart, seed, status);
+  const std::vector<Indexed_mesh::Triangle_indices> input = chart.mesh.triangles;
+  const std::size_t n = chart.mesh.points.size();
+  prepare_surface(chart, seed, status);
+  if(status.is_ok())
+    chart.metric_error = sort_metric(input, n, chart.mesh, chart.source, chart.metric);
+  if(!chart.metric_error.empty())
+    status.fail(ERROR_WRONG_PARAMETER, chart.metric_error);
+}
+
+CGAL_HLSCM_INLINE Prepared_chart chart_of_arrays(Chart::Mesh mesh, const Chart::Metric& metric)
 {
   Prepared_chart result;
   Chart& chart = result.chart;
   chart.mesh = std::move(mesh);
+  chart.metric = metric;
   number_sources(chart);
   check_indices(chart.mesh, result.status);
   check_points(chart, result.status);

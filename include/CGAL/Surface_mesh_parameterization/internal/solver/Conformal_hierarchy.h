@@ -12,6 +12,7 @@
 #include <CGAL/Surface_mesh_parameterization/Solver_traits_cholesky.h>
 #include <CGAL/Surface_mesh_parameterization/internal/solver/Pins.h>
 #include <CGAL/Surface_mesh_parameterization/internal/solver/coarse_cotangents.h>
+#include <CGAL/Surface_mesh_parameterization/internal/solver/level_weights.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,34 +26,6 @@
 namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
-
-// The weights of the triangles of each level, from those of the finest; none if those are empty.
-// Coarse triangles get the mean weight of the fine ones that they stand for, so that the energy of
-// a level resembles that of the finest.
-inline std::vector<std::vector<double>>
-level_weights(const std::vector<Surface_mesh_multiresolution::Mesh_level>& levels,
-              std::vector<double> finest)
-{
-  std::vector<std::vector<double>> weights(levels.size());
-  if(finest.empty())
-    return weights;
-  weights.back() = std::move(finest);
-  const auto& triangles = levels.back().mesh.triangles;
-  // Weight and number of the triangles at each vertex
-  Multigrid::Complex_vector<double> density(levels.back().vertices.size(), 0.), coarse;
-  for(std::size_t t = 0; t < triangles.size(); ++t)
-    for(const auto v : triangles[t])
-      density[v] += std::complex<double>(weights.back()[t], 1.);
-  for(std::size_t l = levels.size() - 1; l-- > 0;) {
-    levels[l + 1].from_coarser.restrict_in_place(density, coarse);
-    density.swap(coarse);
-    for(const auto& t : levels[l].mesh.triangles) {
-      const std::complex<double> sum = density[t[0]] + density[t[1]] + density[t[2]];
-      weights[l].push_back(sum.real() / sum.imag());
-    }
-  }
-  return weights;
-}
 
 // The levels of a chart, the conformal operator of each, under pins, and the cycle over them. Level
 // 0 is the coarsest.
@@ -73,7 +46,12 @@ public:
   Conformal_hierarchy(const Conformal_hierarchy&) = delete; // the cycle refers to the operators
   Conformal_hierarchy& operator=(const Conformal_hierarchy&) = delete;
 
-  void set_levels(std::vector<Level> levels) { m_levels = std::move(levels); }
+  // `metric`: of the finest triangles; empty: that of their points.
+  void set_levels(std::vector<Level> levels, std::vector<Indexed_mesh::Space_tensor> metric = {})
+  {
+    m_levels = std::move(levels);
+    m_metric = std::move(metric);
+  }
   std::vector<Level>& levels() { return m_levels; }
   const std::vector<Level>& levels() const { return m_levels; }
   std::size_t number_of_levels() const { return m_levels.size(); }
@@ -173,6 +151,7 @@ private:
 
   Coarsest_solver m_solver;
   std::vector<Level> m_levels;
+  std::vector<Indexed_mesh::Space_tensor> m_metric;
   std::vector<Conformal_operator<float>> m_single;     // of the levels between; of all for a cycle
   Conformal_operator<double> m_coarsest, m_finest;     // those at the ends
   std::unique_ptr<Cycle> m_cycle;
@@ -200,7 +179,7 @@ void Conformal_hierarchy::build_operators(std::vector<double> triangle_weights,
     return Triangles_at_vertices(m_levels[l].mesh.triangles, m_levels[l].vertices.size());
   };
   Triangles_at_vertices at = corners(count - 1);
-  Half_cotangents cot(m_levels.back().mesh);
+  Half_cotangents cot(m_levels.back().mesh, m_metric);
   for(std::size_t l = count; l-- > 0;) {
     Level& level = m_levels[l];
     const auto assemble = [&](auto& op) {

@@ -199,7 +199,8 @@ inline void Conformal_system::build_levels(Chart& chart, Run_control& run)
       levels.ratio = m_parts.level_ratio;
     levels.coarsest_size = options.coarsest_size;
     levels.rule = options.prolongation;
-    hierarchy.set_levels(SMM::build_hierarchy(std::move(chart.mesh), pm, levels));
+    hierarchy.set_levels(SMM::build_hierarchy(std::move(chart.mesh), pm, levels),
+                         std::move(chart.metric));
   }
   if(options.keep_progressive_mesh)
     progressive_mesh = std::move(pm);

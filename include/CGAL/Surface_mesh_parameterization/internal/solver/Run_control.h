@@ -49,6 +49,8 @@ inline void check_options(const HLSCM_options& options, Status& status)
     status.fail(ERROR_WRONG_PARAMETER, "the uv tolerance and the time limit must not be negative");
   if(options.schedule && options.schedule->coarse_visits == 0)
     status.fail(ERROR_WRONG_PARAMETER, "the schedule must visit the coarse level at least once");
+  if(options.weights == Conformal_weights::CGAL_LSCM && !options.metric.empty())
+    status.fail(ERROR_WRONG_PARAMETER, "the weights of CGAL are those of the surface's own metric");
 }
 
 // A part of the work, and the stretch of the whole that progress is told for it.

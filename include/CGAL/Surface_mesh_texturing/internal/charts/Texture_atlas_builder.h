@@ -7,6 +7,7 @@
 #include <CGAL/Blocked_execution/Progress.h>
 #include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Surface_mesh_texturing/Chart_segmenters.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/adapt_chart.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/map_charts.h>
 
 #include <atomic>
@@ -194,6 +195,7 @@ inline bool Texture_atlas_builder::check()
     if(!std::isfinite(density[t]) || density[t] < 0.f)
       m_result.fail(Mesh_status::BAD_OPTIONS, "the density of triangle " + std::to_string(t)
                                                 + " is not a finite number from 0 on");
+  m_result.fail(Mesh_status::BAD_OPTIONS, Indexed_mesh::metric_error(m_mesh, m_options.metric));
   if(!m_options.no_seams.empty())
     m_result.fail(foreign_seams_error(m_mesh, m_options.no_seams));
   if(!std::isfinite(m_options.seconds) || m_options.seconds < 0.)
@@ -275,6 +277,10 @@ inline bool Texture_atlas_builder::map()
     constexpr double any = (std::numeric_limits<double>::max)();
     map_charts_within({any, any}, 0.6, 0.8);
   }
+  if(!m_options.metric.empty())
+    Blocked_execution::blocked_for(m_maps.size(), 1, [this](std::size_t chart, std::size_t) {
+      adapt_chart(m_options.metric, m_maps[chart]);
+    });
   for(Mapped_chart& chart : m_maps)
     scale_by_density(m_options.density, chart);
   m_result.report.seconds_map = watch.seconds();
