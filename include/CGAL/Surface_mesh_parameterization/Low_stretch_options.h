@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_LOW_STRETCH_OPTIONS_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_LOW_STRETCH_OPTIONS_H
 
+#include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
 
 #include <cstddef>
@@ -23,7 +24,14 @@ struct Low_stretch_options
   double tolerance = 1e-3;
   std::size_t maximal_iterations = 50; ///< of Newton's method, on the surface itself
   /// Vertices and where they are held, different vertices; any number. The unit is that of the mesh.
+  /// All vertices of a border: this border is prescribed.
   std::vector<HLSCM_pin> pins;
+  /// A map without flipped and degenerate faces to begin with, which is checked exactly: a parameter for
+  /// each vertex, in any unit and place. None is needed.
+  std::vector<Simple_cartesian<double>::Point_2> start;
+  /// What each face counts in the mean, beside its area: a positive number, of which only the ratios
+  /// matter. Empty: all count alike.
+  std::vector<double> face_weights;
   double time_limit = 0.;              ///< seconds after which nothing more is improved; 0: none
   unsigned int threads = 0;    ///< of a parallel parameterizer; 0: as many as there are processors
   /// Told the part done in [0, 1] from time to time. When it returns false, or the time is over, the

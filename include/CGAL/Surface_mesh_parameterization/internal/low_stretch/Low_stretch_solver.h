@@ -5,12 +5,11 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_LOW_STRETCH_SOLVER_H
 
 #include <CGAL/Blocked_execution/Progress.h>
-#include <CGAL/Surface_mesh_multiresolution/Mesh_hierarchy.h>
 #include <CGAL/Surface_mesh_parameterization/Low_stretch_options.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Newton_steps.h>
+#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Stretch_hierarchy.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Vertex_insertion.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/circle_map.h>
-#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/collapse_to_few.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/reach_pins.h>
 
 #include <algorithm>
@@ -24,17 +23,6 @@ namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
 
-// The triangle of three vertices of a surface.
-struct Surface_metric
-{
-  const std::vector<Indexed_mesh::Indexed_triangle_mesh::Point_3>& points;
-
-  Reference_triangle<double> operator()(Vertex_index a, Vertex_index b, Vertex_index c) const
-  {
-    return Reference_triangle<double>::of_points(points[a], points[b], points[c]);
-  }
-};
-
 // From a few vertices to all: on each level vertices are put into the map of the level before, and
 // Newton's method goes as far as pays off.
 template <class Energy>
@@ -42,42 +30,57 @@ class Low_stretch_solver
 {
 public:
   Low_stretch_solver(const Low_stretch_options& options, const Energy& energy)
-    : m_options(options), m_energy(energy), m_coarse_energy(coarse_energy(energy)), m_progress(options.progress)
+    : m_options(options), m_energy(energy), m_coarse_energy(coarse_energy(energy))
+    , m_progress(options.progress)
   {}
 
   // Maps a connected mesh of genus 0 with a border, normalized and in spatial order; returns the
   // place of each vertex, or none, if rounding leaves no place for one.
   //
   // A vertex inside has no place in the fan of a border vertex that goes around it once or more. That
-  // is rare; if it happens, all is done again with collapses after which it cannot.
+  // is rare; if it happens, all is done again with collapses after which it cannot. Where a border is
+  // held they are taken at once: others join its vertices by edges for which it may have no room.
   //
-  // The vertices of `held`, different ones, are held at their places. If they do not get there without
-  // a triangle that turns over, there is no map, and `misses_pins()`.
+  // If the held vertices do not get to their places without a triangle that turns over, there is no
+  // map, and `misses_pins()`.
   std::vector<Plane_point> run(Indexed_mesh::Indexed_triangle_mesh mesh,
-                               Indexed_mesh::Vertex_rings rings, std::vector<Held_vertex> held)
+                               Indexed_mesh::Vertex_rings rings, Stretch_task task)
   {
-    m_held = std::move(held);
-    m_is_fixed.assign(m_held.empty() ? 0 : mesh.points.size(), false);
-    for(const Held_vertex& h : m_held)
-      m_is_fixed[h.vertex] = true;
-    std::vector<Plane_point> places = run_with(std::move(mesh), std::move(rings), Border_rule::ANY);
-    if(!places.empty() || m_misses_pins)
+    std::vector<Plane_point> start = std::move(task.start);
+    m_levels.set_task(std::move(task), mesh.points.size());
+    const Border_rule rule = m_levels.holds_border(rings) ? Border_rule::ITS_OWN : Border_rule::ANY;
+    build_levels(std::move(mesh), std::move(rings), rule);
+    if(!start.empty())
+      return improve_start(std::move(start));
+    std::vector<Plane_point> places = insert_all();
+    if(!places.empty() || m_misses_pins || rule == Border_rule::ITS_OWN)
       return places;
-    mesh = std::move(m_levels.back().mesh);
+    mesh = m_levels.take_mesh();
     rings = Indexed_mesh::Vertex_rings(mesh);
-    return run_with(std::move(mesh), std::move(rings), Border_rule::ITS_OWN);
+    build_levels(std::move(mesh), std::move(rings), Border_rule::ITS_OWN);
+    return insert_all();
+  }
+
+  // Maps the mesh of the last run again, with other held vertices, from a map of it without a flip.
+  std::vector<Plane_point> run_again(std::vector<Plane_point> places, std::vector<Held_vertex> held)
+  {
+    m_watch.lap();
+    m_progress.restart();
+    m_report = Low_stretch_report();
+    m_misses_pins = false;
+    m_levels.set_held(std::move(held), places.size());
+    return improve(std::move(places));
   }
 
   bool misses_pins() const { return m_misses_pins; }
+  // Of the mesh of the last run.
+  const std::vector<Triangle_indices>& triangles() const { return m_levels.finest().mesh.triangles; }
   const Low_stretch_report& report() const { return m_report; }
 
 private:
-  typedef Surface_mesh_multiresolution::Mesh_level Mesh_level;
   // Coarse levels need a barrier: where triangles collapse there is no place for more of them.
   typedef std::conditional_t<Has_barrier<Energy>::value, Energy, Barrier_energy<Energy>> Coarse_energy;
 
-  static constexpr std::size_t coarsest_size = 40;
-  static constexpr double ratio = 3.;
   static constexpr std::size_t iterations = 5;   // of conjugate gradients, a Newton step
   static constexpr double residual = 1e-3;       // that ends them, of that before them
   static constexpr double share_of_decimation = 0.2, share_of_queue = 1.;
@@ -98,17 +101,22 @@ private:
     return !m_report.is_cut_short;
   }
 
-  std::vector<Plane_point> run_with(Indexed_mesh::Indexed_triangle_mesh mesh,
-                                    Indexed_mesh::Vertex_rings rings, Border_rule rule);
+  void build_levels(Indexed_mesh::Indexed_triangle_mesh mesh, Indexed_mesh::Vertex_rings rings,
+                    Border_rule rule);
+  std::vector<Plane_point> insert_all();
+  std::vector<Plane_point> improve_start(std::vector<Plane_point> places);
+  std::vector<Plane_point> improve(std::vector<Plane_point> places);
+  std::vector<Plane_point> finished(std::vector<Plane_point> places);
   static bool is_valid(const std::vector<Triangle_indices>& triangles,
                        const std::vector<Plane_point>& places);
-  bool start(const Mesh_level& coarsest, std::vector<Plane_point>& places);
+  bool start(std::vector<Plane_point>& places);
   bool insert(std::size_t first, std::size_t last, std::vector<Plane_point>& places);
-  template <class Level_energy, class Reference>
-  bool hold_pins(const Mesh_level& coarsest, const Reference& reference, const Level_energy& energy,
-                 std::vector<Plane_point>& z);
+  template <class Level_energy>
+  bool hold_pins(const Level_energy& energy, std::vector<Plane_point>& z);
   template <class Level_energy>
   void minimize(std::size_t l, const Level_energy& energy, std::vector<Plane_point>& places);
+  template <class Level>
+  void descend(Level& level, std::size_t l);
   std::size_t most_steps(std::size_t l) const;
   template <class Level>
   bool is_enough(const Level& level, std::size_t l, double gain);
@@ -119,64 +127,105 @@ private:
   Low_stretch_report m_report;
   Blocked_execution::Progress m_progress;
   Blocked_execution::Stopwatch m_watch;
-  Surface_mesh_multiresolution::Progressive_mesh m_collapses;
-  Indexed_mesh::Vertex_rings m_rings;
-  std::vector<Mesh_level> m_levels;
+  Stretch_hierarchy m_levels;
   Newton_steps m_newton;
-  std::vector<Held_vertex> m_held;
-  std::vector<bool> m_is_fixed; // empty without pins
+  std::vector<double> m_weights; // of the energy at vertices of the levels so far; empty: 1
   bool m_misses_pins = false;
   double m_mean = 0.; // energy an area of the last level
   double m_last_gain = 0.;
 };
 
 template <class Energy>
-std::vector<Plane_point>
-Low_stretch_solver<Energy>::run_with(Indexed_mesh::Indexed_triangle_mesh mesh,
-                                     Indexed_mesh::Vertex_rings rings, Border_rule rule)
+void Low_stretch_solver<Energy>::build_levels(Indexed_mesh::Indexed_triangle_mesh mesh,
+                                              Indexed_mesh::Vertex_rings rings, Border_rule rule)
 {
-  namespace SMM = Surface_mesh_multiresolution;
-  const std::size_t n = mesh.points.size();
-  m_newton = Newton_steps();
-  m_report.levels.clear();
   const double begin = m_watch.seconds();
-  const auto collapsing = [this](double part) {
+  m_levels.build(std::move(mesh), std::move(rings), rule, [this](double part) {
     m_report.is_cut_short = m_report.is_cut_short || !m_progress(0., share_of_decimation, part);
     return true; // without levels there is no map
-  };
-  const std::size_t coarsest = coarsest_size + m_held.size();
-  m_collapses = collapse_to_few(mesh, std::move(rings), m_is_fixed, coarsest, rule, collapsing,
-                                m_rings);
-  SMM::Hierarchy_options shape;
-  shape.ratio = ratio;
-  shape.coarsest_size = coarsest;
-  m_levels = SMM::build_hierarchy(std::move(mesh), m_collapses, shape);
+  });
   m_report.seconds_decimation += m_watch.seconds() - begin;
+}
+
+template <class Energy>
+std::vector<Plane_point> Low_stretch_solver<Energy>::insert_all()
+{
+  const std::size_t n = m_levels.finest().vertices.size(), finest = m_levels.number_of_levels() - 1;
+  m_newton = Newton_steps();
+  m_report.levels.clear();
+  m_weights.clear();
   std::vector<Plane_point> places(n);
-  if(!start(m_levels[0], places))
+  if(!start(places))
     return {};
   std::size_t collapsed = n - m_levels[0].vertices.size();
-  for(std::size_t i = m_collapses.collapses.size(); i-- > collapsed;) // before the coarsest level
-    m_rings.split(m_collapses.collapses[i].removed, m_collapses.collapses[i].kept);
-  for(std::size_t l = 0; l < m_levels.size(); ++l) {
+  const auto& collapses = m_levels.collapses().collapses;
+  for(std::size_t i = collapses.size(); i-- > collapsed;) // before the coarsest level
+    m_levels.rings().split(collapses[i].removed, collapses[i].kept);
+  for(std::size_t l = 0; l <= finest; ++l) {
     const std::size_t still = n - m_levels[l].vertices.size();
+    m_levels.add_weights(l, m_weights);
     if(!insert(still, collapsed, places))
       return {};
     collapsed = still;
-    if(l + 1 == m_levels.size()) { // all are back
-      m_rings = Indexed_mesh::Vertex_rings();
-      m_collapses = SMM::Progressive_mesh();
-    }
-    m_newton.add_level(l == 0 ? nullptr : &m_levels[l].from_coarser);
-    if(l + 1 < m_levels.size())
+    if(l == finest) // all are back
+      m_levels.forget_collapses();
+    m_newton.add_level(m_levels.from_coarser(l));
+    if(l < finest)
       minimize(l, m_coarse_energy, places);
     else
       minimize(l, m_energy, places);
     if(m_misses_pins)
       return {};
   }
+  return finished(std::move(places));
+}
+
+// Frees what only the way to the map needs; none if it is not valid.
+template <class Energy>
+std::vector<Plane_point> Low_stretch_solver<Energy>::finished(std::vector<Plane_point> places)
+{
+  m_newton = Newton_steps();
   m_report.seconds = m_watch.seconds();
-  return is_valid(m_levels.back().mesh.triangles, places) ? places : std::vector<Plane_point>();
+  return is_valid(m_levels.finest().mesh.triangles, places) ? places : std::vector<Plane_point>();
+}
+
+// Improves what is given to begin with: first it is brought to the best scale, and turned and moved
+// towards the pins.
+template <class Energy>
+std::vector<Plane_point> Low_stretch_solver<Energy>::improve_start(std::vector<Plane_point> places)
+{
+  m_levels.forget_collapses();
+  if(m_levels.has_held() && are_there(m_levels.held(), places))
+    return improve(std::move(places));
+  Stretch_level<Energy> level(m_levels.finest().mesh.triangles,
+                              m_levels.triangles_of(m_levels.number_of_levels() - 1),
+                              std::move(places), {}, m_energy);
+  if(!std::isfinite(level.value()))
+    return {};
+  level.scale();
+  places = level.places();
+  if(m_levels.has_held())
+    align(m_levels.held(), places);
+  return improve(std::move(places));
+}
+
+// Works on the finest level alone, of which coarser ones have the matrix.
+template <class Energy>
+std::vector<Plane_point> Low_stretch_solver<Energy>::improve(std::vector<Plane_point> places)
+{
+  const std::size_t finest = m_levels.number_of_levels() - 1;
+  m_newton = Newton_steps(Coarse_matrices::GALERKIN);
+  for(std::size_t l = 0; l <= finest; ++l)
+    m_newton.add_level(m_levels.from_coarser(l));
+  Stretch_level<Energy> level(m_levels.finest().mesh.triangles, m_levels.triangles_of(finest),
+                              std::move(places), m_levels.is_fixed(), m_energy);
+  if(!std::isfinite(level.value()))
+    return {};
+  m_misses_pins = !pull_pins(level, m_newton, m_levels.held());
+  if(m_misses_pins)
+    return {};
+  descend(level, finest);
+  return finished(level.places());
 }
 
 // Whether there is a map, without a flip.
@@ -191,13 +240,13 @@ bool Low_stretch_solver<Energy>::is_valid(const std::vector<Triangle_indices>& t
 }
 
 template <class Energy>
-bool Low_stretch_solver<Energy>::start(const Mesh_level& coarsest, std::vector<Plane_point>& places)
+bool Low_stretch_solver<Energy>::start(std::vector<Plane_point>& places)
 {
-  const std::vector<Plane_point> circle = Circle_map(coarsest.mesh).run();
-  if(!is_valid(coarsest.mesh.triangles, circle))
+  const std::vector<Plane_point> circle = Circle_map(m_levels[0].mesh).run();
+  if(!is_valid(m_levels[0].mesh.triangles, circle))
     return false;
   for(std::size_t v = 0; v < circle.size(); ++v)
-    places[coarsest.vertices[v]] = circle[v];
+    places[m_levels[0].vertices[v]] = circle[v];
   return true;
 }
 
@@ -206,11 +255,12 @@ template <class Energy>
 bool Low_stretch_solver<Energy>::insert(std::size_t first, std::size_t last,
                                         std::vector<Plane_point>& places)
 {
-  const Surface_metric metric = {m_levels.back().mesh.points};
-  Vertex_insertion<Surface_metric, Coarse_energy> insertion(m_rings, places, m_is_fixed, metric,
+  const Surface_metric metric = {m_levels.finest().mesh.points, m_weights};
+  Vertex_insertion<Surface_metric, Coarse_energy> insertion(m_levels.rings(), places,
+                                                            m_levels.is_fixed(), metric,
                                                             m_coarse_energy);
   for(std::size_t i = last; i-- > first;)
-    if(!insertion(m_collapses.collapses[i], m_mean))
+    if(!insertion(m_levels.collapses().collapses[i], m_mean))
       return false;
   return true;
 }
@@ -219,12 +269,11 @@ bool Low_stretch_solver<Energy>::insert(std::size_t first, std::size_t last,
 template <class Energy>
 std::size_t Low_stretch_solver<Energy>::most_steps(std::size_t l) const
 {
-  if(l + 1 == m_levels.size())
+  if(l + 1 == m_levels.number_of_levels())
     return m_options.maximal_iterations;
   if(l == 0)
     return 200;
-  const double size = double(m_levels.back().vertices.size()) / double(m_levels[l].vertices.size());
-  return std::size_t((std::min)(20., std::ceil(std::pow(size, 0.7))));
+  return std::size_t((std::min)(20., std::ceil(std::pow(m_levels.ratio_to_finest(l), 0.7))));
 }
 
 // Whether the energy that a level has still to lose is small enough: what it lost last goes on as a
@@ -243,7 +292,7 @@ bool Low_stretch_solver<Energy>::is_enough(const Level& level, std::size_t l, do
   m_report.energy_gap = expected * rate / (1. - rate) / level.value();
   if(l == 0)
     return m_report.energy_gap <= tolerance_of_coarsest;
-  if(l + 1 < m_levels.size())
+  if(l + 1 < m_levels.number_of_levels())
     return m_report.energy_gap <= tolerance_of_coarse;
   // Where all can be mapped with hardly any stretch, what there is counts more
   const double stretch = 1. - m_energy.value(2., 1.) / level.mean();
@@ -251,27 +300,37 @@ bool Low_stretch_solver<Energy>::is_enough(const Level& level, std::size_t l, do
       <= (std::max)(rounding, m_options.tolerance * (std::min)(1., 10. * stretch));
 }
 
-// Brings the pins of the coarsest level, which has all of them, to their places, from a map without
-// pins.
+// Brings the pins of the coarsest level, which has all of them, to their places: by Tutte's map if they
+// are a border that allows it, or else from a map without pins.
 template <class Energy>
-template <class Level_energy, class Reference>
-bool Low_stretch_solver<Energy>::hold_pins(const Mesh_level& coarsest, const Reference& reference,
-                                           const Level_energy& energy, std::vector<Plane_point>& z)
+template <class Level_energy>
+bool Low_stretch_solver<Energy>::hold_pins(const Level_energy& energy, std::vector<Plane_point>& z)
 {
   constexpr int steps = 100;
-  Stretch_level<Level_energy> level(coarsest.mesh.triangles, reference, std::move(z), {}, energy);
-  level.scale();
+  const std::vector<Triangle_indices>& triangles = m_levels[0].mesh.triangles;
+  const auto reference = m_levels.triangles_of(0);
+  const std::vector<Held_vertex> held = m_levels.held_of(0);
+  Circle_map tutte(m_levels[0].mesh);
+  const std::vector<Plane_point> border_map = tutte.run(held);
   Newton_steps newton;
   newton.add_level(nullptr);
-  m_last_gain = 0.;
-  for(int i = 0; i < steps; ++i)
-    if(is_enough(level, 0, newton(level, iterations, residual) + level.sweep(0.)))
-      break;
+  if(is_valid(triangles, border_map) && tutte.goes_around_once(border_map))
+    z = border_map;
+  else {
+    Stretch_level<Level_energy> level(triangles, reference, std::move(z), {}, energy);
+    level.scale();
+    m_last_gain = 0.;
+    for(int i = 0; i < steps; ++i)
+      if(is_enough(level, 0, newton(level, iterations, residual) + level.sweep(0.)))
+        break;
+    z = level.places();
+    if(border_map.empty() && reach_pins(triangles, reference, energy, held, z))
+      return true;
+    align(held, z);
+  }
+  Stretch_level<Level_energy> level(triangles, reference, std::move(z), m_levels.fixed_of(0), energy);
+  m_misses_pins = !std::isfinite(level.value()) || !pull_pins(level, newton, held);
   z = level.places();
-  std::vector<Held_vertex> held;
-  for(const Held_vertex& h : m_held)
-    held.push_back({Vertex_index(coarsest.position(h.vertex)), h.place});
-  m_misses_pins = !reach_pins(coarsest.mesh.triangles, reference, energy, held, z);
   return !m_misses_pins;
 }
 
@@ -280,26 +339,28 @@ template <class Level_energy>
 void Low_stretch_solver<Energy>::minimize(std::size_t l, const Level_energy& energy,
                                           std::vector<Plane_point>& places)
 {
-  const Mesh_level& here = m_levels[l];
-  const bool is_finest = l + 1 == m_levels.size();
-  std::vector<Plane_point> z(here.vertices.size());
+  const std::vector<Vertex_index>& vertices = m_levels[l].vertices;
+  std::vector<Plane_point> z(vertices.size());
   for(std::size_t v = 0; v < z.size(); ++v)
-    z[v] = places[here.vertices[v]];
-  const Surface_metric metric = {here.mesh.points};
-  const auto reference = [&](std::size_t t) {
-    const Triangle_indices& v = here.mesh.triangles[t];
-    return metric(v[0], v[1], v[2]);
-  };
-  if(l == 0 && !m_held.empty() && !hold_pins(here, reference, energy, z))
+    z[v] = places[vertices[v]];
+  if(l == 0 && m_levels.has_held() && !hold_pins(energy, z))
     return;
-  std::vector<bool> is_fixed(m_held.empty() ? 0 : z.size());
-  for(std::size_t v = 0; v < is_fixed.size(); ++v)
-    is_fixed[v] = m_is_fixed[here.vertices[v]];
-  Stretch_level<Level_energy> level(here.mesh.triangles, reference, std::move(z),
-                                    std::move(is_fixed), energy);
-  if(l == 0 && m_held.empty())
+  Stretch_level<Level_energy> level(m_levels[l].mesh.triangles, m_levels.triangles_of(l), std::move(z),
+                                    m_levels.fixed_of(l), energy);
+  if(l == 0 && !m_levels.has_held())
     level.scale();
-  const double size = double(here.vertices.size()) / double(m_levels.back().vertices.size());
+  descend(level, l);
+  for(std::size_t v = 0; v < vertices.size(); ++v)
+    places[vertices[v]] = level.places()[v];
+}
+
+// Lowers the energy of a level as far as pays off.
+template <class Energy>
+template <class Level>
+void Low_stretch_solver<Energy>::descend(Level& level, std::size_t l)
+{
+  const bool is_finest = l + 1 == m_levels.number_of_levels();
+  const double size = 1. / m_levels.ratio_to_finest(l);
   m_last_gain = 0.;
   std::size_t steps = 0;
   if(goes_on(0.5 * size)) {
@@ -312,11 +373,9 @@ void Low_stretch_solver<Energy>::minimize(std::size_t l, const Level_energy& ene
     }
   }
   m_mean = level.mean();
-  for(std::size_t v = 0; v < here.vertices.size(); ++v)
-    places[here.vertices[v]] = level.places()[v];
   m_report.area = level.area();
   m_report.energy = level.mean();
-  m_report.levels.push_back({here.vertices.size(), here.mesh.triangles.size(), steps});
+  m_report.levels.push_back({level.size(), m_levels[l].mesh.triangles.size(), steps});
   m_report.iterations = steps;
 }
 

@@ -140,16 +140,14 @@ public:
   // much the energy fell. `slope` is its derivative there.
   double go(const Places& direction, double slope);
 
-  // Moves vertices, all by the same part of the way, towards places, half as far as no triangle turns
-  // over; returns whether they are there.
+  // Moves along `direction`, whose end has each of the vertices `held` at its place, half as far as no
+  // triangle turns over; returns whether that is all the way.
   template <class Held_vertex>
-  bool move_towards(const std::vector<Held_vertex>& held)
+  bool move_towards(const std::vector<Held_vertex>& held, const Places& direction)
   {
-    Places direction(size()), target = m_places;
-    for(const Held_vertex& h : held) {
-      direction[h.vertex] = h.place - m_places[h.vertex];
+    Places target = moved(direction, 1.);
+    for(const Held_vertex& h : held)
       target[h.vertex] = h.place;
-    }
     const double limit = longest_step(direction);
     const bool is_there = limit > 1. && energy_at(target) < infinity;
     for(double t = (std::min)(0.5, 0.5 * limit); !is_there && t > 1e-6; t *= 0.5) {

@@ -1,0 +1,103 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_STRETCH_TASK_H
+#define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_STRETCH_TASK_H
+
+#include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
+#include <CGAL/Indexed_mesh/Vertex_rings.h>
+#include <CGAL/Surface_mesh_multiresolution/Mesh_hierarchy.h>
+#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/plane_geometry.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_parameterization {
+namespace internal {
+
+// A vertex that is held, and where.
+struct Held_vertex
+{
+  Vertex_index vertex;
+  Plane_point place;
+};
+
+// What a map of a chart is to be beside of little stretch.
+struct Stretch_task
+{
+  std::vector<Held_vertex> held;    // different vertices
+  std::vector<Plane_point> start;   // of all vertices, without a flip; empty: none is given
+  std::vector<double> face_weights; // of the triangles, with the mean 1 over the area; empty: 1
+};
+
+// The first vertex inside around which the triangles of a map, all of which are positive, go more than
+// once; the number of vertices if none.
+inline std::size_t first_branch_point(const std::vector<Triangle_indices>& triangles,
+                                      const Indexed_mesh::Vertex_rings& rings,
+                                      const std::vector<Plane_point>& places)
+{
+  std::vector<double> angle(rings.size(), 0.);
+  for(const Triangle_indices& t : triangles)
+    for(int c = 0; c < 3; ++c)
+      angle[t[c]] += angle_between(places[t[c]], places[t[(c + 1) % 3]], places[t[(c + 2) % 3]]);
+  std::size_t v = 0;
+  while(v < angle.size() && (rings.is_border(Vertex_index(v)) || angle[v] < 3. * CGAL_PI))
+    ++v;
+  return v;
+}
+
+// The triangle of three vertices of a surface.
+struct Surface_metric
+{
+  typedef Indexed_mesh::Indexed_triangle_mesh::Point_3 Point_3;
+
+  const std::vector<Point_3>& points;
+  const std::vector<double>& weights; // at the vertices; empty: 1
+
+  Reference_triangle<double> operator()(Vertex_index a, Vertex_index b, Vertex_index c) const
+  {
+    const auto t = Reference_triangle<double>::of_points(points[a], points[b], points[c]);
+    return weights.empty() ? t : t.weighted((weights[a] + weights[b] + weights[c]) / 3.);
+  }
+};
+
+// The weights of triangles as weights at the vertices of each level: means over areas, which go to
+// coarser levels as residuals do, so that nothing is lost. Empty without weights.
+inline std::vector<std::vector<double>>
+weights_at_vertices(const std::vector<Surface_mesh_multiresolution::Mesh_level>& levels,
+              const std::vector<double>& face_weights)
+{
+  std::vector<std::vector<double>> result(levels.size());
+  if(face_weights.empty())
+    return result;
+  const Indexed_mesh::Indexed_triangle_mesh& mesh = levels.back().mesh;
+  const std::vector<double> none;
+  const Surface_metric metric = {mesh.points, none};
+  std::vector<Eigen::Vector2d> sums(mesh.points.size(), Eigen::Vector2d::Zero()); // weighted area, area
+  for(std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Triangle_indices& v = mesh.triangles[t];
+    const double area = metric(v[0], v[1], v[2]).area();
+    for(const Vertex_index w : v)
+      sums[w] += Eigen::Vector2d(face_weights[t] * area, area);
+  }
+  for(std::size_t l = levels.size(); l-- > 0;) {
+    for(const Eigen::Vector2d& sum : sums)
+      result[l].push_back(sum[0] / sum[1]);
+    if(l > 0) {
+      std::vector<Eigen::Vector2d> coarse(levels[l - 1].vertices.size());
+      levels[l].from_coarser.restrict_in_place(sums, coarse);
+      sums.swap(coarse);
+    }
+  }
+  return result;
+}
+
+} // namespace internal
+} // namespace Surface_mesh_parameterization
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_STRETCH_TASK_H
