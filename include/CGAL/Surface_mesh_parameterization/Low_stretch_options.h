@@ -32,6 +32,9 @@ struct Low_stretch_options
   /// What each face counts in the mean, beside its area: a positive number, of which only the ratios
   /// matter. Empty: all count alike.
   std::vector<double> face_weights;
+  /// Whether no two parts of the map may overlap: its border is kept off itself, and holes off each other,
+  /// by an energy that grows without bound where they come near; checked exactly in the end.
+  bool is_one_to_one = false;
   double time_limit = 0.;              ///< seconds after which nothing more is improved; 0: none
   unsigned int threads = 0;    ///< of a parallel parameterizer; 0: as many as there are processors
   /// Told the part done in [0, 1] from time to time. When it returns false, or the time is over, the

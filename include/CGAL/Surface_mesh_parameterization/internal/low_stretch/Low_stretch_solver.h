@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -186,7 +187,10 @@ std::vector<Plane_point> Low_stretch_solver<Energy>::finished(std::vector<Plane_
 {
   m_newton = Newton_steps();
   m_report.seconds = m_watch.seconds();
-  return is_valid(m_levels.finest().mesh.triangles, places) ? places : std::vector<Plane_point>();
+  if(!is_valid(m_levels.finest().mesh.triangles, places)
+     || (m_levels.is_one_to_one() && !are_apart(m_levels.task().borders, places)))
+    places.clear();
+  return places;
 }
 
 // Improves what is given to begin with: first it is brought to the best scale, and turned and moved
@@ -219,6 +223,7 @@ std::vector<Plane_point> Low_stretch_solver<Energy>::improve(std::vector<Plane_p
     m_newton.add_level(m_levels.from_coarser(l));
   Stretch_level<Energy> level(m_levels.finest().mesh.triangles, m_levels.triangles_of(finest),
                               std::move(places), m_levels.is_fixed(), m_energy);
+  level.keep_apart(m_levels.borders_of(finest));
   if(!std::isfinite(level.value()))
     return {};
   m_misses_pins = !pull_pins(level, m_newton, m_levels.held());
@@ -256,9 +261,11 @@ bool Low_stretch_solver<Energy>::insert(std::size_t first, std::size_t last,
                                         std::vector<Plane_point>& places)
 {
   const Surface_metric metric = {m_levels.finest().mesh.points, m_weights};
-  Vertex_insertion<Surface_metric, Coarse_energy> insertion(m_levels.rings(), places,
-                                                            m_levels.is_fixed(), metric,
-                                                            m_coarse_energy);
+  std::optional<Border_guard> guard;
+  if(m_levels.is_one_to_one())
+    guard.emplace(m_levels.borders_after(last), places);
+  Vertex_insertion<Surface_metric, Coarse_energy> insertion(
+    m_levels.rings(), places, m_levels.is_fixed(), metric, m_coarse_energy, guard ? &*guard : nullptr);
   for(std::size_t i = last; i-- > first;)
     if(!insertion(m_levels.collapses().collapses[i], m_mean))
       return false;
@@ -319,16 +326,18 @@ bool Low_stretch_solver<Energy>::hold_pins(const Level_energy& energy, std::vect
   else {
     Stretch_level<Level_energy> level(triangles, reference, std::move(z), {}, energy);
     level.scale();
+    level.keep_apart(m_levels.borders_of(0));
     m_last_gain = 0.;
     for(int i = 0; i < steps; ++i)
       if(is_enough(level, 0, newton(level, iterations, residual) + level.sweep(0.)))
         break;
     z = level.places();
-    if(border_map.empty() && reach_pins(triangles, reference, energy, held, z))
+    if(border_map.empty() && !m_levels.is_one_to_one() && reach_pins(triangles, reference, energy, held, z))
       return true;
     align(held, z);
   }
   Stretch_level<Level_energy> level(triangles, reference, std::move(z), m_levels.fixed_of(0), energy);
+  level.keep_apart(m_levels.borders_of(0));
   m_misses_pins = !std::isfinite(level.value()) || !pull_pins(level, newton, held);
   z = level.places();
   return !m_misses_pins;
@@ -349,6 +358,7 @@ void Low_stretch_solver<Energy>::minimize(std::size_t l, const Level_energy& ene
                                     m_levels.fixed_of(l), energy);
   if(l == 0 && !m_levels.has_held())
     level.scale();
+  level.keep_apart(m_levels.borders_of(l));
   descend(level, l);
   for(std::size_t v = 0; v < vertices.size(); ++v)
     places[vertices[v]] = level.places()[v];

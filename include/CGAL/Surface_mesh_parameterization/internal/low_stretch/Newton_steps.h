@@ -12,6 +12,7 @@
 #include <CGAL/Surface_mesh_multigrid/galerkin_rows.h>
 #include <CGAL/Surface_mesh_multiresolution/Prolongation.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Stretch_level.h>
+#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/stretch_matrix.h>
 
 #include <Eigen/Core>
 
@@ -113,12 +114,12 @@ Newton_steps::Vectors Newton_steps::direction(Stretch_level<Energy>& level, cons
   typedef Eigen::Vector2d Vector; // a few very stiff triangles hide all others from single precision
   level.linearize();
   const Vectors gradient = level.gradient();
-  const auto matrix = level.template matrix<Eigen::Matrix2d>();
+  const auto matrix = stretch_matrix<Eigen::Matrix2d>(level);
   m_matrices.back()->assign(matrix);
   if(m_coarse == Coarse_matrices::GALERKIN)
     set_coarser(matrix);
   else if(m_matrices.size() == 1)
-    m_coarsest = level.template matrix<Eigen::Matrix2d>(shift);
+    m_coarsest = stretch_matrix<Eigen::Matrix2d>(level, shift);
   Levels levels;
   for(std::size_t l = 0; l < m_matrices.size(); ++l)
     levels.add_level(*m_matrices[l], m_transfers[l]);

@@ -119,6 +119,35 @@ public:
       weights[m_levels[l].vertices[v]] = m_weights[l][v];
   }
 
+  bool is_one_to_one() const { return !m_task.borders.empty(); }
+
+  // What is left of the borders of the task after the first `collapsed` collapses.
+  Border_loops borders_after(std::size_t collapsed) const
+  {
+    Border_loops loops = m_task.borders;
+    std::vector<bool> is_gone(finest().vertices.size(), false);
+    for(std::size_t i = 0; i < collapsed; ++i)
+      is_gone[m_collapses.collapses[i].removed] = true;
+    remove(is_gone, loops);
+    return loops;
+  }
+
+  // What is left of them on level l, in indices of the level.
+  Border_loops borders_of(std::size_t l) const
+  {
+    if(!is_one_to_one())
+      return {};
+    Border_loops loops = m_task.borders;
+    std::vector<bool> is_gone(finest().vertices.size(), true);
+    for(const Vertex_index v : m_levels[l].vertices)
+      is_gone[v] = false;
+    remove(is_gone, loops);
+    for(auto& loop : loops)
+      for(Vertex_index& v : loop)
+        v = Vertex_index(m_levels[l].position(v));
+    return loops;
+  }
+
   // The held vertices by their indices in level l, which has them all.
   std::vector<Held_vertex> held_of(std::size_t l) const
   {
@@ -138,6 +167,13 @@ public:
   }
 
 private:
+  static void remove(const std::vector<bool>& is_gone, Border_loops& loops)
+  {
+    for(auto& loop : loops)
+      loop.erase(std::remove_if(loop.begin(), loop.end(), [&](Vertex_index v) { return is_gone[v]; }),
+                 loop.end());
+  }
+
   static constexpr std::size_t coarsest_size = 40;
   static constexpr double ratio = 3.;
 

@@ -7,6 +7,7 @@
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
 #include <CGAL/Indexed_mesh/Vertex_rings.h>
 #include <CGAL/Surface_mesh_multiresolution/Mesh_hierarchy.h>
+#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Border_barrier.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/plane_geometry.h>
 
 #include <Eigen/Core>
@@ -32,6 +33,7 @@ struct Stretch_task
   std::vector<Held_vertex> held;    // different vertices
   std::vector<Plane_point> start;   // of all vertices, without a flip; empty: none is given
   std::vector<double> face_weights; // of the triangles, with the mean 1 over the area; empty: 1
+  Border_loops borders;             // those that must not meet; empty: they may
 };
 
 // The first vertex inside around which the triangles of a map, all of which are positive, go more than

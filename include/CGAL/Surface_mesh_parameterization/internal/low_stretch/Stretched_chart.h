@@ -137,6 +137,11 @@ Low_stretch_map Stretched_chart<Energy>::map(Prepared_chart prepared, const Tria
   result.fail(Mesh_status::FAILED, pinned_face_error(m_chart.mesh.triangles, task.held));
   task.start = start(faces, result);
   task.face_weights = face_weights(faces, result);
+  if(m_options.is_one_to_one)
+    task.borders = m_chart.borders;
+  if(!task.borders.empty() && !task.start.empty() && !are_apart(task.borders, task.start))
+    result.fail(Mesh_status::BAD_OPTIONS, "the map to start from is not one-to-one: its border crosses "
+                "itself");
   if(!result.is_ok())
     return result;
   finish(m_solver.run(std::move(m_chart.mesh), std::move(m_chart.rings), std::move(task)), result);
@@ -162,7 +167,8 @@ void Stretched_chart<Energy>::finish(std::vector<Plane_point> places, Low_stretc
   result.report.borders = m_chart.borders.size();
   if(places.empty()) {
     result.fail(Mesh_status::FAILED, m_solver.misses_pins()
-      ? "no way was found to the places of the pins on which no triangle turns over"
+      ? std::string("no way was found to the places of the pins on which no triangle turns over")
+          + (m_options.is_one_to_one ? " and no border meets another or itself" : "")
       : "rounding leaves no place for a vertex of the map");
     return;
   }
