@@ -147,6 +147,7 @@ mapfile -t large < <(find "$charts" -maxdepth 1 -name '*_1[0-9][0-9][0-9]k.ply' 
 "$HLSCM_BIN/live_map" "${large[@]}" > "$out/live_map.csv"
 "$HLSCM_BIN/pins" "$charts"/pins/*.ply "${large[@]}" > "$out/pins.csv"
 "$HLSCM_BIN/low_stretch_benchmark" "${large[@]}" > "$out/low_stretch.csv"
+"$HLSCM_BIN/low_stretch_benchmark" "${large[@]}" --one-to-one > "$out/one_to_one.csv"
 "$HLSCM_BIN/decimate" "${large[@]}" > "$out/decimate.csv"
 "$HLSCM_BIN/equations" > "$out/equations.csv"
 "$HLSCM_BIN/equations" --vertices 1000000 >> "$out/equations.csv"

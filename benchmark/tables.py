@@ -310,6 +310,18 @@ def low_stretch():
     return table(["chart", "faces", "tolerance 1e-2", "1e-3", "1e-4", "1e-3, two threads"], lines)
 
 
+def one_to_one():
+    """Low-stretch maps that may overlap beside those that may not."""
+    lines = []
+    for row in read("one_to_one.csv"):
+        ratio = float(row["seconds"]) / float(row["free_seconds"])
+        lines.append([row["chart"].replace("_", " "), f"{int(row['faces']):,}",
+                      f"{int(row['free_pairs']):,}", number(row, "free_energy", 4),
+                      f"{int(row['pairs']):,}", number(row, "energy", 4), f"{ratio:.1f}"])
+    return table(["chart", "faces", "pairs of faces that overlap, without", "energy", "pairs, with",
+                  "energy", "time with / without"], lines)
+
+
 def memory_of_commands():
     """Bytes a face of each command at a million faces."""
     rows = [row for row in read("memory.csv") if row["chart"] == "terrain_1000k"]
@@ -321,7 +333,8 @@ def memory_of_commands():
 
 TABLES = {table.__name__: table for table in (
     million_faces, ratios, scaling, growth, stages, stages_two_threads, atlases,
-    atlases_beside_paper, atlases_short, live, levels, compile_time, reading, low_stretch, memory_of_commands)}
+    atlases_beside_paper, atlases_short, live, levels, compile_time, reading, low_stretch, one_to_one,
+    memory_of_commands)}
 BEGIN, END = "<!-- table ", "<!-- end of table -->"
 
 

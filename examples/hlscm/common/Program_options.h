@@ -25,6 +25,9 @@ enum class Engine { FLAT, FLAT_STRICT, CGAL };
 /// What maps with low stretch make small.
 enum class Stretch { SYMMETRIC_DIRICHLET, MIPS, ARAP, AREA };
 
+/// Where the borders of maps with low stretch go.
+enum class Border { FREE, CIRCLE, SQUARE };
+
 /// A vertex of the input, counted from 0, and where it goes.
 struct Pin
 {
@@ -94,6 +97,9 @@ struct Program_options
   std::optional<CGAL::Surface_mesh_parameterization::Conformal_method> method
       = CGAL::Surface_mesh_parameterization::Conformal_method::HLSCM;
   Stretch stretch = Stretch::SYMMETRIC_DIRICHLET; ///< what is then small
+  Border border = Border::FREE;                   ///< then
+  bool is_from_uv = false;    ///< then: begins with the texture coordinates of the file
+  bool is_one_to_one = false; ///< then: no two parts of a component overlap
   bool repairs_flips = false; ///< of the map
   Engine engine = Engine::FLAT;
 

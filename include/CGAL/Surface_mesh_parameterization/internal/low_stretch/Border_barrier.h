@@ -68,6 +68,8 @@ class Border_barrier
 public:
   typedef std::vector<Plane_point> Places;
 
+  static constexpr double reach = 0.25; // epsilon, in lengths
+
   // A vertex near an edge a, b, at the point a + s (b - a) of it; the direction from there has length 1.
   struct Contact
   {
@@ -141,7 +143,6 @@ public:
 private:
   typedef std::array<std::uint32_t, 2> Edge;
   static constexpr double infinity = (std::numeric_limits<double>::infinity)();
-  static constexpr double reach = 0.25; // epsilon, in lengths
 
   // Calls visit(i, j) for edges whose boxes, each grown by half of its reach, meet, until it returns
   // false; returns whether it never did. By a sweep, in an order that the places alone decide.

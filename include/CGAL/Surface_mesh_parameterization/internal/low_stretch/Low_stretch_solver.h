@@ -263,7 +263,7 @@ bool Low_stretch_solver<Energy>::insert(std::size_t first, std::size_t last,
   const Surface_metric metric = {m_levels.finest().mesh.points, m_weights};
   std::optional<Border_guard> guard;
   if(m_levels.is_one_to_one())
-    guard.emplace(m_levels.borders_after(last), places);
+    guard.emplace(m_levels.borders_after(last), places, 0.);
   Vertex_insertion<Surface_metric, Coarse_energy> insertion(
     m_levels.rings(), places, m_levels.is_fixed(), metric, m_coarse_energy, guard ? &*guard : nullptr);
   for(std::size_t i = last; i-- > first;)

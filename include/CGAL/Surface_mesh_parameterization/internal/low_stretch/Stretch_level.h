@@ -9,6 +9,7 @@
 #include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 #include <CGAL/Surface_mesh_parameterization/Stretch_element.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Border_barrier.h>
+#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Border_guard.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Stretched_star.h>
 
 #include <algorithm>
@@ -210,7 +211,7 @@ private:
 
   double barrier_at(const Places& z) const { return m_barrier ? m_barrier->energy_at(z) : 0.; }
 
-  double relax(Vertex_index v, Stretched_star& star);
+  double relax(Vertex_index v, Stretched_star& star, Border_guard* guard);
   double longest_step(const Places& direction) const;
   Places moved(const Places& direction, double t) const
   {
@@ -224,7 +225,7 @@ private:
   Energy m_energy;
   std::vector<bool> m_is_fixed;
   std::optional<Border_barrier> m_barrier;
-  std::vector<bool> m_border; // with a barrier: vertices that local steps leave where they are
+  std::vector<bool> m_border; // with a barrier: the vertices of the border
   Places m_places;
   std::vector<Reference_triangle<double>> m_references;
   Blocked_execution::Uninitialized_vector<Stretch_element<double>> m_elements;
@@ -278,9 +279,9 @@ void Stretch_level<Energy>::scale()
 
 // Takes a local step at v; returns by how much the energy fell.
 template <class Energy>
-double Stretch_level<Energy>::relax(Vertex_index v, Stretched_star& star)
+double Stretch_level<Energy>::relax(Vertex_index v, Stretched_star& star, Border_guard* guard)
 {
-  if(is_fixed(v) || (m_barrier && m_border[v]))
+  if(is_fixed(v))
     return 0.;
   star.clear();
   for(const Halfedge* c = m_corners.begin(v); c != m_corners.end(v); ++c) {
@@ -290,14 +291,24 @@ double Stretch_level<Energy>::relax(Vertex_index v, Stretched_star& star)
              m_places[t[corner.last]]);
   }
   double energy = star.energy_at(m_places[v], m_energy);
-  return star.improve(m_places[v], energy, m_energy);
+  if(!m_barrier || !m_border[v])
+    return star.improve(m_places[v], energy, m_energy);
+  Plane_point z = m_places[v];
+  const double gain = star.improve(z, energy, m_energy);
+  if(!(gain > 0.) || !guard->allows_move(z, v))
+    return 0.;
+  m_places[v] = z;
+  guard->move(v);
+  return gain;
 }
 
 template <class Energy>
 double Stretch_level<Energy>::sweep(double share_of_queue)
 {
   const double much = 1e-6 * m_value, before = m_value;
+  const Places places_before = m_barrier ? m_places : Places();
   Stretched_star star;
+  Border_guard guard(m_barrier ? m_barrier->loops() : Border_loops(), m_places, Border_barrier::reach);
   std::deque<Vertex_index> queue;
   std::vector<bool> is_queued(size(), false);
   const auto push_with_ring = [&](Vertex_index v) {
@@ -309,17 +320,21 @@ double Stretch_level<Energy>::sweep(double share_of_queue)
         }
   };
   for(Vertex_index v = 0; v < size(); ++v)
-    if(relax(v, star) > much)
+    if(relax(v, star, &guard) > much)
       push_with_ring(v);
   std::size_t steps = std::size_t(share_of_queue * double(size()));
   for(; steps > 0 && !queue.empty(); --steps) {
     const Vertex_index v = queue.front();
     queue.pop_front();
     is_queued[v] = false;
-    if(relax(v, star) > much)
+    if(relax(v, star, &guard) > much)
       push_with_ring(v);
   }
   m_value = energy_at(m_places);
+  if(m_barrier && !(m_value <= before)) { // vertices see the barrier only as a place to keep off
+    m_places = places_before;
+    m_value = before;
+  }
   return before - m_value;
 }
 

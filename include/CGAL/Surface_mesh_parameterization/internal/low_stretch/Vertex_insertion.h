@@ -110,7 +110,8 @@ private:
   }
 
   // Moves the place z that was found for v so that the border does not cross itself there: towards the
-  // edge that v divides, or beyond it, where it is the inside. Returns whether there is a valid one.
+  // edge that v divides; beyond it, to the inside, where v has more than one triangle; or very near to
+  // it. Returns whether there is a valid place.
   bool keep_off_border(Vertex_index v, Plane_point& z, double& energy) const
   {
     const Vertex_index a = previous(v), b = m_rings.ring(v)[0];
@@ -125,8 +126,13 @@ private:
         return true;
     }
     z = m_star.middle_of_kernel_beside(p, q);
-    energy = m_star.energy_at(z, m_energy);
-    return energy < infinity && m_guard->allows(z, a, b);
+    for(double height = 0.25; height > 1e-4; height *= 0.5) {
+      energy = m_star.energy_at(z, m_energy);
+      if(energy < infinity && m_guard->allows(z, a, b))
+        return true;
+      z = middle + Plane_point{q.y - p.y, p.x - q.x} * height;
+    }
+    return false;
   }
 
   // Takes a local step at a vertex; returns its energy before and after.
@@ -135,8 +141,17 @@ private:
     gather_star(v);
     double energy = m_star.energy_at(m_places[v], m_energy);
     const double before = energy;
-    if((m_is_fixed.empty() || !m_is_fixed[v]) && (m_guard == nullptr || !m_rings.is_border(v)))
-      m_star.improve(m_places[v], energy, m_energy);
+    if(!m_is_fixed.empty() && m_is_fixed[v])
+      return {before, energy};
+    Plane_point z = m_places[v];
+    m_star.improve(z, energy, m_energy);
+    if(m_guard != nullptr && m_rings.is_border(v)) {
+      if(!m_guard->allows_move(z, v))
+        return {before, before};
+      m_places[v] = z;
+      m_guard->move(v);
+    }
+    m_places[v] = z;
     return {before, energy};
   }
 
