@@ -120,14 +120,14 @@ int main(int argc, char** argv)
   app.add_option("charts", paths, "meshes with a border, of genus 0")->required();
   app.add_option("--repeat", repetitions, "runs of which the median counts")->check(CLI::Range(1, 100));
   app.add_flag("--best", has_best, "also with a tolerance of 1e-6, for the energy that can be reached");
-  app.add_flag("--one-to-one", is_one_to_one, "maps that may overlap beside those that may not, one thread");
+  app.add_flag("--one-to-one", is_one_to_one, "maps that may overlap beside those that may not");
   CLI11_PARSE(app, argc, argv);
   try {
     std::cout << "# " << machine::description() << "; medians of " << repetitions << "\n"
-              << (is_one_to_one ? "chart,faces,free_seconds,free_energy,free_iterations,free_pairs,seconds,"
-                                  "energy,iterations,pairs\n"
-                                : "chart,faces,borders,tolerance,threads,seconds,seconds_per_million,energy,"
-                                  "gap_estimate,iterations,flips\n");
+              << (is_one_to_one ? "chart,faces,free_seconds,free_energy,free_iterations,free_pairs,"
+                                  "seconds,energy,iterations,pairs\n"
+                                : "chart,faces,borders,tolerance,threads,seconds,seconds_per_million,"
+                                  "energy,gap_estimate,iterations,flips\n");
     std::cout.precision(8);
     for(const std::string& path : paths) {
       const Arrays mesh = read(path);

@@ -61,7 +61,7 @@ Indexed_triangle_mesh stairs(Vertex_index length)
   });
 }
 
-// Charts whose maps overlap if nothing keeps them from it.
+// Charts whose maps mostly overlap if nothing keeps them from it.
 std::vector<Named_mesh> overlapping_charts()
 {
   return {{"stairs", stairs(400)},
@@ -82,18 +82,18 @@ TEST(One_to_one_stretch, no_two_parts_overlap)
 // It costs little stretch, and none where the map is one-to-one without it.
 TEST(One_to_one_stretch, costs_little)
 {
-  for(const Named_mesh& chart : overlapping_charts()) {
-    const Low_stretch_map free = low_stretch_map(chart.mesh);
-    ASSERT_TRUE(free.is_ok()) << chart.name;
-    EXPECT_TRUE(certificate_of(chart.mesh, free.uv).overlaps) << chart.name;
-    const Low_stretch_map map = low_stretch_map(chart.mesh, one_to_one());
-    ASSERT_EQ(error_in_one_to_one_map(chart.mesh, map), "") << chart.name;
-    EXPECT_LT(map.report.energy, 1.2 * free.report.energy) << chart.name;
-  }
+  const Indexed_triangle_mesh column = stairs(400);
+  const Low_stretch_map free = low_stretch_map(column);
+  ASSERT_TRUE(free.is_ok());
+  EXPECT_TRUE(certificate_of(column, free.uv).overlaps);
+  const Low_stretch_map apart = low_stretch_map(column, one_to_one());
+  ASSERT_EQ(error_in_one_to_one_map(column, apart), "");
+  EXPECT_LT(apart.report.energy, 1.05 * free.report.energy);
   for(const Named_mesh& chart : {Named_mesh{"hills", with_hills(irregular_grid(30, 25, seed), 8., seed)},
                                  Named_mesh{"dome", on_sphere(round_disk(18), 2.2)}}) {
     const double energy = low_stretch_map(chart.mesh).report.energy;
-    EXPECT_NEAR(low_stretch_map(chart.mesh, one_to_one()).report.energy, energy, 1e-3 * energy) << chart.name;
+    const Low_stretch_map map = low_stretch_map(chart.mesh, one_to_one());
+    EXPECT_NEAR(map.report.energy, energy, 1e-3 * energy) << chart.name;
   }
 }
 

@@ -23,6 +23,8 @@ between the two has a flipped face, and the pins are where they are wanted, exac
 
 \tparam Energy a model of `StretchEnergy`
 
+The threads are those of the caller's `Blocked_execution::Thread_scope`.
+
 \sa `Hierarchical_conformal_map`, which does the same for conformal maps
 */
 template <class Energy = Symmetric_dirichlet_energy>

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_LOW_STRETCH_OPTIONS_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_LOW_STRETCH_OPTIONS_H
 
+#include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
 
@@ -66,6 +67,16 @@ struct Low_stretch_report
   std::size_t iterations = 0;  ///< steps of Newton's method on the surface itself
   double seconds_decimation = 0.; ///< for the levels
   double seconds = 0.;            ///< for all
+};
+
+/// \ingroup PkgHLSCMStretch
+/// What `low_stretch_map()` returns.
+struct Low_stretch_map
+  : Indexed_mesh::Mesh_outcome
+{
+  /// The parameter of each vertex, in the unit of the points; empty if there is an error.
+  std::vector<Simple_cartesian<double>::Point_2> uv;
+  Low_stretch_report report; ///< how it went
 };
 
 } // namespace Surface_mesh_parameterization

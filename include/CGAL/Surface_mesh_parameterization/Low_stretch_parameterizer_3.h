@@ -111,12 +111,15 @@ public:
 
   /// Returns whether the map is one-to-one for certain.
   template <class VertexUVMap>
-  bool is_one_to_one_mapping(const TriangleMesh&, const VertexUVMap) const { return false; }
+  bool is_one_to_one_mapping(const TriangleMesh&, const VertexUVMap) const
+  {
+    return m_options.is_one_to_one;
+  }
   /// Returns whether the map is one-to-one for certain.
   template <class VertexUVMap>
   bool is_one_to_one_mapping(const TriangleMesh&, halfedge_descriptor, const VertexUVMap) const
   {
-    return false;
+    return m_options.is_one_to_one;
   }
 
   /*!

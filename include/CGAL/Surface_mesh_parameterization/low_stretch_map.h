@@ -18,7 +18,8 @@ namespace Surface_mesh_parameterization {
 \ingroup PkgHLSCMStretch
 
 Returns a map of a surface to the plane with little stretch and without a flipped or degenerate
-triangle: a local minimum of the mean of an energy of stretch over the surface, with a free border.
+triangle: a local minimum of the mean of an energy of stretch over the surface, with a free border or
+one that the options prescribe.
 
 Unlike a conformal map it keeps areas as well as angles, as far as both can be kept; by default
 neither shrinks nor grows without need (the symmetric Dirichlet energy). Faces are never flipped,
@@ -27,18 +28,20 @@ each vertex that comes back is put where it turns no triangle over, which is alw
 between, steps of Newton's method lower the energy of each level, shortened so that no triangle turns
 over; their linear systems are solved by conjugate gradients with multigrid cycles. So around every
 vertex the map is one-to-one. Parts of the surface that are far from each other may overlap in the
-plane; see `certify_map()`.
+plane, see `certify_map()`, unless `Low_stretch_options::is_one_to_one`.
 
 \tparam Energy a model of `StretchEnergy`
 
 \param mesh a connected surface of genus 0 with at least one border, in any unit of length
-\param options when to stop
+\param options when to stop, and what the map is to be like: pins, a prescribed border, a map to begin
+       with, weights of faces, no overlaps
 \param energy the energy
 
 Bad data (indices out of range, coordinates that are not finite, closed or other surfaces) give a
 result with `error` set and without parameters. `FAILED` says that the surface is stretched so much
 that rounding leaves no place for a vertex, or that no way was found to bring the pins, which are kept
-exactly, to their places without a triangle that turns over.
+exactly, to their places without a triangle that turns over. Which face or vertex it is, if it is one,
+says the sentence.
 
 Expected linear time. The result does not depend on the number of threads.
 */

@@ -62,7 +62,8 @@ inline bool are_apart(const Border_loops& loops, const std::vector<Plane_point>&
 // section 5), with the length l of the shortest edge involved when the barrier was built, and epsilon a
 // part of it. So the sum is small compared with the area, the more so the finer the mesh.
 //
-// A map with borders that cross has an infinite energy: it is the state that is tested, not the way to it.
+// A map with borders that cross has an infinite energy: it is the state that is tested, not the way to
+// it.
 class Border_barrier
 {
 public:
@@ -88,7 +89,8 @@ public:
   };
 
   // For a level with these borders, at a map in which no two edges cross.
-  Border_barrier(Border_loops loops, const Places& z) : m_loops(std::move(loops)), m_edges(edges_of(m_loops))
+  Border_barrier(Border_loops loops, const Places& z)
+    : m_loops(std::move(loops)), m_edges(edges_of(m_loops))
   {
     for(const Edge& e : m_edges)
       m_length.push_back(std::sqrt((z[e[1]] - z[e[0]]).squared_length()));
@@ -107,10 +109,10 @@ public:
   double energy_at(const Places& z) const
   {
     double sum = 0.;
-    const bool is_simple = has_one_outer_border(m_loops, z) && for_each_near_pair(z, [&](std::size_t i, std::size_t j) {
+    const auto add = [&](std::size_t i, std::size_t j) {
       return !cross(i, j, z) && add_energy(i, j, z, sum) && add_energy(j, i, z, sum);
-    });
-    return is_simple ? sum : infinity;
+    };
+    return has_one_outer_border(m_loops, z) && for_each_near_pair(z, add) ? sum : infinity;
   }
 
   // Finds the contacts of a map of finite energy, with their derivatives.

@@ -7,6 +7,7 @@
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Border_barrier.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -45,8 +46,8 @@ public:
       add(e[0], e[1]);
   }
 
-  // Whether v may go to z between the ends a and b of an edge of the border, which has the surface on its
-  // left: on that side, where the triangles of v do not turn over, or where nothing is in between.
+  // Whether v may go to z between the ends a and b of an edge of the border, which has the surface on
+  // its left: on that side, where the triangles of v do not turn over, or where nothing is in between.
   bool allows(const Plane_point& z, Vertex_index a, Vertex_index b) const
   {
     const Plane_point &p = m_places[a], &q = m_places[b];
@@ -100,7 +101,8 @@ private:
   {
     const Plane_point &p = m_places[a], &q = m_places[b], margin = {distance, distance};
     bool result = true;
-    for_each_cell(lower(lower(p, q), z) - margin, upper(upper(p, q), z) + margin, [&](std::uint64_t cell) {
+    const Plane_point low = lower(lower(p, q), z) - margin, high = upper(upper(p, q), z) + margin;
+    for_each_cell(low, high, [&](std::uint64_t cell) {
       const auto found = m_edges.find(cell);
       if(!result || found == m_edges.end())
         return;
@@ -128,8 +130,9 @@ private:
     };
     if(side(p, z, a) * side(p, z, b) <= 0 && side(a, b, p) * side(a, b, z) <= 0)
       return true;
-    return distance > 0. && (squared_distance_to(a, b, z) < squared || squared_distance_to(p, z, a) < squared
-                             || squared_distance_to(p, z, b) < squared);
+    return distance > 0.
+        && (squared_distance_to(a, b, z) < squared || squared_distance_to(p, z, a) < squared
+            || squared_distance_to(p, z, b) < squared);
   }
 
   // Of z to the segment from a to b.
@@ -146,7 +149,9 @@ private:
     m_next[a] = b;
     m_previous[b] = a;
     const Plane_point &p = m_places[a], &q = m_places[b];
-    for_each_cell(lower(p, q), upper(p, q), [&](std::uint64_t cell) { m_edges[cell].push_back({a, b}); });
+    for_each_cell(lower(p, q), upper(p, q), [&](std::uint64_t cell) {
+      m_edges[cell].push_back({a, b});
+    });
   }
 
   template <class Use>

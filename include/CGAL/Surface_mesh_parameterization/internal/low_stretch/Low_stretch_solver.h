@@ -84,6 +84,9 @@ private:
 
   static constexpr std::size_t iterations = 5;   // of conjugate gradients, a Newton step
   static constexpr double residual = 1e-3;       // that ends them, of that before them
+  // Steps on the finest level after which those of coarser ones are no longer trusted: on long tubes and
+  // steep noise triangles are stretched otherwise there.
+  static constexpr std::size_t patience = 8;
   static constexpr double share_of_decimation = 0.2, share_of_queue = 1.;
 
   static Coarse_energy coarse_energy(const Energy& energy)
@@ -332,7 +335,8 @@ bool Low_stretch_solver<Energy>::hold_pins(const Level_energy& energy, std::vect
       if(is_enough(level, 0, newton(level, iterations, residual) + level.sweep(0.)))
         break;
     z = level.places();
-    if(border_map.empty() && !m_levels.is_one_to_one() && reach_pins(triangles, reference, energy, held, z))
+    if(border_map.empty() && !m_levels.is_one_to_one()
+       && reach_pins(triangles, reference, energy, held, z))
       return true;
     align(held, z);
   }
@@ -378,6 +382,8 @@ void Low_stretch_solver<Energy>::descend(Level& level, std::size_t l)
     const std::size_t most = most_steps(l);
     const auto part = [&] { return 0.5 * size * (1. + double(steps) / double(most)); };
     for(bool is_done = false; !is_done && steps < most && goes_on(part()); ++steps) {
+      if(is_finest && steps == patience)
+        m_newton.use(Coarse_matrices::GALERKIN);
       is_done = is_enough(level, l, m_newton(level, iterations, residual) + level.sweep(0.));
       m_report.converged = is_done && is_finest;
     }

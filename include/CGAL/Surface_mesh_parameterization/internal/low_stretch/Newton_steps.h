@@ -30,7 +30,7 @@ namespace internal {
 enum class Coarse_matrices
 {
   OF_LAST_STEPS, // those of the last steps that were made there: nothing is computed for them
-  GALERKIN       // products of that of the finest level, where no step was made on coarser ones
+  GALERKIN       // products of that of the finest level: slower, where those do not fit or are not there
 };
 
 // The steps of Newton's method on a level after the other: conjugate gradients, preconditioned by
@@ -50,6 +50,9 @@ public:
     m_transfers.push_back(from_coarser);
     m_matrices.push_back(std::make_unique<Matrix>());
   }
+
+  // From now on the matrices of coarser levels are these; once `GALERKIN`, those of last steps are lost.
+  void use(Coarse_matrices coarse) { m_coarse = coarse; }
 
   // Makes one step on the finest level so far, by at most `iterations` iterations, fewer if the
   // residual is below `residual` of that at first. Returns by how much the energy fell.

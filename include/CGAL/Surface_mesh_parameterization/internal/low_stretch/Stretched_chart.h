@@ -5,7 +5,6 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_STRETCHED_CHART_H
 
 #include <CGAL/Indexed_mesh/Triangle_adjacency.h>
-#include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Surface_mesh_parameterization/Low_stretch_options.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Low_stretch_solver.h>
 #include <CGAL/Surface_mesh_parameterization/internal/solver/Chart.h>
@@ -20,16 +19,6 @@
 
 namespace CGAL {
 namespace Surface_mesh_parameterization {
-
-/// \ingroup PkgHLSCMStretch
-/// What `low_stretch_map()` returns.
-struct Low_stretch_map
-  : Indexed_mesh::Mesh_outcome
-{
-  /// The parameter of each vertex, in the unit of the points; empty if there is an error.
-  std::vector<Simple_cartesian<double>::Point_2> uv;
-  Low_stretch_report report; ///< how it went
-};
 
 namespace internal {
 
