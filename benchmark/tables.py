@@ -315,7 +315,7 @@ def one_to_one():
     lines = []
     for row in read("one_to_one.csv"):
         ratio = float(row["seconds"]) / float(row["free_seconds"])
-        lines.append([row["chart"].replace("_", " "), f"{int(row['faces']):,}",
+        lines.append([row["chart"].rsplit("_", 1)[0].replace("_", " "), f"{int(row['faces']):,}",
                       f"{int(row['free_pairs']):,}", number(row, "free_energy", 4),
                       f"{int(row['pairs']):,}", number(row, "energy", 4), f"{ratio:.1f}"])
     return table(["chart", "faces", "pairs of faces that overlap, without", "energy", "pairs, with",
