@@ -84,8 +84,8 @@ private:
 
   static constexpr std::size_t iterations = 5;   // of conjugate gradients, a Newton step
   static constexpr double residual = 1e-3;       // that ends them, of that before them
-  // Steps on the finest level after which those of coarser ones are no longer trusted: on long tubes and
-  // steep noise triangles are stretched otherwise there.
+  // Steps on the finest level after which the matrices of coarser ones are no longer trusted: on long
+  // tubes and steep noise triangles are stretched otherwise there.
   static constexpr std::size_t patience = 8;
   static constexpr double share_of_decimation = 0.2, share_of_queue = 1.;
 
@@ -111,8 +111,6 @@ private:
   std::vector<Plane_point> improve_start(std::vector<Plane_point> places);
   std::vector<Plane_point> improve(std::vector<Plane_point> places);
   std::vector<Plane_point> finished(std::vector<Plane_point> places);
-  static bool is_valid(const std::vector<Triangle_indices>& triangles,
-                       const std::vector<Plane_point>& places);
   bool start(std::vector<Plane_point>& places);
   bool insert(std::size_t first, std::size_t last, std::vector<Plane_point>& places);
   template <class Level_energy>
@@ -234,17 +232,6 @@ std::vector<Plane_point> Low_stretch_solver<Energy>::improve(std::vector<Plane_p
     return {};
   descend(level, finest);
   return finished(level.places());
-}
-
-// Whether there is a map, without a flip.
-template <class Energy>
-bool Low_stretch_solver<Energy>::is_valid(const std::vector<Triangle_indices>& triangles,
-                                          const std::vector<Plane_point>& places)
-{
-  return !places.empty()
-      && std::all_of(triangles.begin(), triangles.end(), [&places](const Triangle_indices& t) {
-           return is_surely_positive(places[t[0]], places[t[1]], places[t[2]]);
-         });
 }
 
 template <class Energy>

@@ -36,6 +36,16 @@ struct Stretch_task
   Border_loops borders;             // those that must not meet; empty: they may
 };
 
+// Whether there is a map, without a flip.
+inline bool is_valid(const std::vector<Triangle_indices>& triangles,
+                     const std::vector<Plane_point>& places)
+{
+  return !places.empty()
+      && std::all_of(triangles.begin(), triangles.end(), [&places](const Triangle_indices& t) {
+           return is_surely_positive(places[t[0]], places[t[1]], places[t[2]]);
+         });
+}
+
 // The first vertex inside around which the triangles of a map, all of which are positive, go more than
 // once; the number of vertices if none.
 inline std::size_t first_branch_point(const std::vector<Triangle_indices>& triangles,
