@@ -1,24 +1,30 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Low-stretch maps of charts: a CSV file on stdout, medians of runs, with one thread and with two.
+// Low-stretch maps of charts: a CSV file on stdout, medians of runs, with one thread and with two; or
+// what it costs that they are one-to-one.
 //
-// Usage: low_stretch CHART... [--repeat N] [--best]
+// Usage: low_stretch CHART... [--repeat N] [--best | --one-to-one]
 
 #include "machine.h"
 #include "timing.h"
 
 #include "charts/chart_io.h"
 
+#include <CGAL/Surface_mesh_parameterization/Map_certificate.h>
 #include <CGAL/Surface_mesh_parameterization/low_stretch_map.h>
+
+#include <CGAL/Surface_mesh.h>
 
 #include <CLI/CLI.hpp>
 
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -65,26 +71,72 @@ void print_row(const std::string& chart, const Arrays& mesh, double tolerance, u
             << map.report.iterations << ',' << flips(mesh, map) << std::endl;
 }
 
+// The pairs of faces that have a part of the plane in common.
+std::size_t overlapping_pairs(const Arrays& arrays, const SMP::Low_stretch_map& map)
+{
+  typedef CGAL::Surface_mesh<Arrays::Point_3> Mesh;
+  Mesh mesh;
+  for(const auto& p : arrays.points)
+    mesh.add_vertex(p);
+  for(const auto& t : arrays.triangles)
+    mesh.add_face(Mesh::Vertex_index(t[0]), Mesh::Vertex_index(t[1]), Mesh::Vertex_index(t[2]));
+  const auto uv
+    = mesh.add_property_map<Mesh::Vertex_index, CGAL::Simple_cartesian<double>::Point_2>("v:uv").first;
+  for(const auto v : mesh.vertices())
+    uv[v] = map.uv[v];
+  if(!SMP::certify_map(mesh, uv).overlaps)
+    return 0;
+  std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
+  SMP::overlapping_faces(mesh, uv, std::back_inserter(pairs));
+  return pairs.size();
+}
+
+// Without and with the barrier, the runs of one after those of the other.
+void print_one_to_one(const std::string& chart, const Arrays& mesh, int repetitions)
+{
+  std::cout << chart << ',' << mesh.triangles.size();
+  for(const bool is_one_to_one : {false, true}) {
+    SMP::Low_stretch_options options;
+    options.is_one_to_one = is_one_to_one;
+    SMP::Low_stretch_map map;
+    const double seconds = timing::median_seconds_of(
+      repetitions, [&] { map = SMP::low_stretch_map(mesh, options); });
+    if(!map.is_ok())
+      throw std::runtime_error(chart + ": " + map.error);
+    std::cout << ',' << seconds << ',' << map.report.energy << ',' << map.report.iterations << ','
+              << overlapping_pairs(mesh, map);
+  }
+  std::cout << std::endl;
+}
+
 } // namespace
 
 int main(int argc, char** argv)
 {
   std::vector<std::string> paths;
   int repetitions = 3;
-  bool has_best = false;
+  bool has_best = false, is_one_to_one = false;
   CLI::App app{"Low-stretch maps: seconds beside energies."};
   app.add_option("charts", paths, "meshes with a border, of genus 0")->required();
   app.add_option("--repeat", repetitions, "runs of which the median counts")->check(CLI::Range(1, 100));
   app.add_flag("--best", has_best, "also with a tolerance of 1e-6, for the energy that can be reached");
+  app.add_flag("--one-to-one", is_one_to_one, "maps that may overlap beside those that may not");
   CLI11_PARSE(app, argc, argv);
   try {
     std::cout << "# " << machine::description() << "; medians of " << repetitions << "\n"
-              << "chart,faces,borders,tolerance,threads,seconds,seconds_per_million,energy,gap_estimate,"
-                 "iterations,flips\n";
+              << (is_one_to_one ? "chart,faces,free_seconds,free_energy,free_iterations,free_pairs,"
+                                  "seconds,energy,iterations,pairs\n"
+                                : "chart,faces,borders,tolerance,threads,seconds,seconds_per_million,"
+                                  "energy,gap_estimate,iterations,flips\n");
     std::cout.precision(8);
     for(const std::string& path : paths) {
       const Arrays mesh = read(path);
       const std::string chart = std::filesystem::path(path).stem().string();
+      if(is_one_to_one) {
+        const CGAL::Blocked_execution::Thread_scope scope(1);
+        print_one_to_one(chart, mesh, repetitions);
+        continue;
+      }
       for(const double tolerance : {1e-2, 1e-3, 1e-4})
         print_row(chart, mesh, tolerance, 1, repetitions);
       print_row(chart, mesh, 1e-3, 2, repetitions);

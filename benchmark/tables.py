@@ -347,6 +347,18 @@ def which_map():
                   "normal map: mean error", "normal map: 95 %"], lines)
 
 
+def one_to_one():
+    """Low-stretch maps that may overlap beside those that may not."""
+    lines = []
+    for row in read("one_to_one.csv"):
+        ratio = float(row["seconds"]) / float(row["free_seconds"])
+        lines.append([row["chart"].rsplit("_", 1)[0].replace("_", " "), f"{int(row['faces']):,}",
+                      f"{int(row['free_pairs']):,}", number(row, "free_energy", 4),
+                      f"{int(row['pairs']):,}", number(row, "energy", 4), f"{ratio:.1f}"])
+    return table(["chart", "faces", "pairs of faces that overlap, without", "energy", "pairs, with",
+                  "energy", "time with / without"], lines)
+
+
 def memory_of_commands():
     """Bytes a face of each command at a million faces."""
     rows = [row for row in read("memory.csv") if row["chart"] == "terrain_1000k"]
@@ -358,8 +370,8 @@ def memory_of_commands():
 
 TABLES = {table.__name__: table for table in (
     million_faces, ratios, scaling, growth, stages, stages_two_threads, atlases,
-    atlases_beside_paper, atlases_short, live, levels, compile_time, reading, low_stretch, signals,
-    which_map, memory_of_commands)}
+    atlases_beside_paper, atlases_short, live, levels, compile_time, reading, low_stretch, one_to_one,
+    signals, which_map, memory_of_commands)}
 BEGIN, END = "<!-- table ", "<!-- end of table -->"
 
 

@@ -407,6 +407,40 @@ TEST_F(Program, says_what_is_wrong_with_a_signal)
   EXPECT_EQ(parameterize(in, "out.obj", {"--signal-weight", "2"}).exit_code, 2);
 }
 
+// The border goes to a circle or a square of the area of the surface, in which all uv lie then; a map
+// can begin with that of a file, and be one-to-one.
+TEST_F(Program, maps_with_low_stretch_and_a_border)
+{
+  const std::string in = write("in.off", off(wall(40)));
+  const Texts stretch{"--method", "low-stretch"};
+  const auto with = [&stretch](Texts more) {
+    more.insert(more.begin(), stretch.begin(), stretch.end());
+    return more;
+  };
+  const double free = report(in, stretch)["stretch"]["energy"];
+  for(const Texts& more : {Texts{"--border", "circle"}, Texts{"--one-to-one"}}) {
+    const Json json = report(in, with(more));
+    ASSERT_TRUE(json.is_object()) << more[0];
+    EXPECT_EQ(json["converged"], true) << more[0];
+    EXPECT_EQ(json["flips"], 0) << more[0];
+    EXPECT_GE(json["stretch"]["energy"].get<double>(), 0.999 * free) << more[0];
+  }
+  ASSERT_EQ(parameterize(in, "circle.obj", with({"--border", "circle"})).exit_code, 0);
+  const Result circle = read_obj(folder / "circle.obj");
+  double largest = 0;
+  for(const auto& uv : circle.uv)
+    largest = std::max(largest, std::hypot(uv[0] - 0.5, uv[1] - 0.5));
+  EXPECT_NEAR(largest, 0.5, 1e-3);
+  const Json from = report(path("circle.obj"), with({"--from-uv"}));
+  ASSERT_TRUE(from.is_object());
+  EXPECT_EQ(from["flips"], 0);
+  EXPECT_NEAR(from["stretch"]["energy"].get<double>(), free, 3e-3 * free);
+  EXPECT_NE(parameterize(in, "out.obj", with({"--from-uv"})).err.find("no texture coordinates"),
+            std::string::npos);
+  for(const Texts& more : {Texts{"--border", "circle"}, Texts{"--one-to-one"}, Texts{"--from-uv"}})
+    EXPECT_EQ(parameterize(in, "out.obj", more).exit_code, 2) << more[0];
+}
+
 TEST_F(Program, says_so_when_it_does_not_converge)
 {
   const std::string in = write("in.off", off(grid(60, hilly)));

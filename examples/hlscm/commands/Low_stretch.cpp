@@ -4,10 +4,16 @@
 #include "commands/Low_stretch.h"
 
 #include "common/Interruption.h"
+#include "common/Mesh.h"
 #include "common/Program_error.h"
 
 #include <CGAL/Surface_mesh_parameterization/low_stretch_map.h>
 
+#include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/Surface_mesh_parameterization/Circular_border_parameterizer_3.h>
+#include <CGAL/Surface_mesh_parameterization/Square_border_parameterizer_3.h>
+
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -30,6 +36,49 @@ SMP::Low_stretch_map map_with(Stretch energy, const CGAL::Indexed_mesh::Indexed_
   return SMP::low_stretch_map(mesh, options, SMP::Symmetric_dirichlet_energy());
 }
 
+// Where CGAL's parameterizer puts the longest border, from a square with the corners (0, 0) and (1, 1),
+// with the area of the surface.
+template <typename Parameterizer>
+std::vector<SMP::HLSCM_pin>
+pins_by(const Program_options& options, const CGAL::Indexed_mesh::Indexed_triangle_mesh& component)
+{
+  Mesh mesh = build_mesh(component);
+  const Uv_map uv = mesh.add_property_map<Mesh::Vertex_index, Kernel::Point_2>("v:uv").first;
+  const auto index = mesh.add_property_map<Mesh::Vertex_index, int>("v:index").first;
+  const auto is_set = mesh.add_property_map<Mesh::Vertex_index, bool>("v:set").first;
+  const auto border = CGAL::Polygon_mesh_processing::longest_border(mesh).first;
+  if(Parameterizer().parameterize(mesh, border, uv, index, is_set) != SMP::OK) {
+    throw Program_error(options.input, "the border is too short to be put there");
+  }
+  double twice_area = 0; // border halfedges have the surface on their right side
+  for(const auto h : CGAL::halfedges_around_face(border, mesh)) {
+    const Kernel::Point_2 &p = uv[mesh.target(h)], &q = uv[mesh.source(h)];
+    twice_area += (p.x() - 0.5) * (q.y() - 0.5) - (p.y() - 0.5) * (q.x() - 0.5);
+  }
+  const double scale
+      = std::sqrt(2 * CGAL::Polygon_mesh_processing::area(mesh) / std::abs(twice_area));
+  std::vector<SMP::HLSCM_pin> pins;
+  for(const auto h : CGAL::halfedges_around_face(border, mesh)) {
+    const Kernel::Point_2& p = uv[mesh.target(h)];
+    pins.push_back({std::size_t(mesh.target(h)), std::copysign(scale, twice_area) * (p.x() - 0.5),
+                    scale * (p.y() - 0.5)});
+  }
+  return pins;
+}
+
+std::vector<SMP::HLSCM_pin>
+border_pins(const Program_options& options, const CGAL::Indexed_mesh::Indexed_triangle_mesh& component)
+{
+  switch(options.border) {
+  case Border::CIRCLE:
+    return pins_by<SMP::Circular_border_arc_length_parameterizer_3<Mesh>>(options, component);
+  case Border::SQUARE:
+    return pins_by<SMP::Square_border_arc_length_parameterizer_3<Mesh>>(options, component);
+  case Border::FREE: break;
+  }
+  return {};
+}
+
 } // namespace
 
 SMP::Conformal_map
@@ -37,11 +86,16 @@ map_with_low_stretch(const Program_options& options,
                      const CGAL::Indexed_mesh::Indexed_triangle_mesh& component,
                      const std::vector<SMP::HLSCM_pin>& pins,
                      std::vector<CGAL::Indexed_mesh::Space_tensor> metric,
+                     std::vector<CGAL::Simple_cartesian<double>::Point_2> start,
                      SMP::Low_stretch_report& stretch, Progress_bar& progress)
 {
   SMP::Low_stretch_options library;
   library.pins = pins;
   library.metric = std::move(metric);
+  const std::vector<SMP::HLSCM_pin> border = border_pins(options, component);
+  library.pins.insert(library.pins.end(), border.begin(), border.end());
+  library.start = std::move(start);
+  library.is_one_to_one = options.is_one_to_one;
   if(options.is_tolerance_given) {
     library.tolerance = options.library.tolerance;
   }
@@ -55,7 +109,11 @@ map_with_low_stretch(const Program_options& options,
   SMP::Low_stretch_map map = map_with(options.stretch, component, library);
   Interruption::check();
   if(!map.is_ok()) {
-    throw Program_error(options.input, map.error);
+    throw Program_error(options.input, map.error
+                                           + (options.border == Border::SQUARE
+                                                  ? ": faces with three corners on a side of the "
+                                                    "square have no room, choose --border circle"
+                                                  : ""));
   }
   stretch = map.report;
   SMP::Conformal_map result;

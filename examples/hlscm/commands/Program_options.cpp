@@ -154,6 +154,16 @@ void add_parameterize(CLI::App& app, Program_options& o)
                       "(default); that of angles alone; the distance from a rotation, with a "
                       "barrier; that of areas more than that of angles");
   add_signal(*run, o);
+  add_choice<Border>(*run, "--border",
+                     {{"free", Border::FREE}, {"circle", Border::CIRCLE}, {"square", Border::SQUARE}},
+                     o.border,
+                     "where --method low-stretch puts the longest border: anywhere (default), or by its "
+                     "length along a circle or a square of the area of the surface");
+  run->add_flag("--one-to-one", o.is_one_to_one,
+                "no two parts of a map of --method low-stretch overlap, at the cost of some stretch");
+  run->add_flag("--from-uv", o.is_from_uv,
+                "--method low-stretch begins with the texture coordinates of IN, one piece without "
+                "flipped faces, and keeps their seams");
   run->add_option("--pictures", o.pictures,
                   "a folder for domain.png, isolines.png, checker.png and levels.png")
       ->type_name("DIR");
@@ -257,6 +267,15 @@ void check(const Program_options& o)
   }
   if(extension_of(o.output) != ".obj" && extension_of(o.output) != ".ply") {
     throw CLI::ValidationError("--output", "\"" + o.output + "\" ends neither in .obj nor in .ply");
+  }
+  const bool is_low_stretch = !o.method;
+  const char* only = o.is_from_uv ? "--from-uv" : o.is_one_to_one ? "--one-to-one"
+                     : o.border != Border::FREE ? "--border" : nullptr;
+  if(!is_low_stretch && only != nullptr) {
+    throw CLI::ValidationError(only, "it needs --method low-stretch");
+  }
+  if(o.is_from_uv && o.component) {
+    throw CLI::ValidationError("--from-uv", "it maps all of IN, leave --component out");
   }
   if(o.pins.size() == 1) {
     throw CLI::ValidationError("--pin", "one pin does not fix a map, give at least two or none");

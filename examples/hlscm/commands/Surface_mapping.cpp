@@ -9,12 +9,17 @@
 #include "common/Interruption.h"
 #include "common/Program_error.h"
 
+#include <CGAL/Surface_mesh_parameterization/self_overlap.h>
+
 #include <algorithm>
+#include <map>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace hlscm {
 
+namespace SMM = CGAL::Surface_mesh_multiresolution;
 namespace SMP = CGAL::Surface_mesh_parameterization;
 namespace SMT = CGAL::Surface_mesh_texturing;
 
@@ -95,7 +100,7 @@ SMP::Conformal_map map_component(const Program_options& options, SMP::HLSCM_opti
 {
   if(!options.method) {
     stretch.emplace_back();
-    return map_with_low_stretch(options, component, pins, std::move(library.metric), stretch.back(),
+    return map_with_low_stretch(options, component, pins, std::move(library.metric), {}, stretch.back(),
                                 progress);
   }
   Mesh mesh = build_mesh(component);
@@ -193,6 +198,92 @@ Mapped_surface map_chart(const Input_surface& input, const Program_options& opti
   return result;
 }
 
+// The pins as those of the texture coordinates of their vertices, each of which must have one.
+std::vector<SMP::HLSCM_pin> pins_of_uv(const Program_options& options, const Input_surface& input,
+                                       const SMM::Textured_triangle_mesh& mesh,
+                                       std::vector<SMP::HLSCM_pin> pins)
+{
+  for(SMP::HLSCM_pin& pin : pins) {
+    std::uint32_t wedge = no_vertex;
+    for(std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      for(std::size_t k = 0; k < 3; ++k) {
+        if(mesh.triangles[t][k] != pin.vertex) {
+          continue;
+        }
+        if(wedge != no_vertex && wedge != mesh.wedges[t][k]) {
+          throw Program_error(options.input, "vertex " + std::to_string(input.surface.vertex[pin.vertex])
+                                                 + " is pinned, but lies on a seam: choose another one");
+        }
+        wedge = mesh.wedges[t][k];
+      }
+    }
+    pin.vertex = wedge;
+  }
+  return pins;
+}
+
+// The surface with a vertex for each texture coordinate that a vertex has. Corners with the same one get
+// the same index for it.
+Indexed_triangle_mesh cut_along_seams(SMM::Textured_triangle_mesh& mesh)
+{
+  std::map<std::tuple<std::uint32_t, double, double>, std::uint32_t> index;
+  Indexed_triangle_mesh cut;
+  auto uv = std::move(mesh.uv);
+  mesh.uv.clear();
+  for(std::size_t t = 0; t < mesh.wedges.size(); ++t) {
+    for(std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t v = mesh.triangles[t][k];
+      const auto& p = uv[mesh.wedges[t][k]];
+      const auto [at, is_new]
+          = index.try_emplace({v, p.x(), p.y()}, std::uint32_t(cut.points.size()));
+      if(is_new) {
+        cut.points.push_back(mesh.points[v]);
+        mesh.uv.push_back(p);
+      }
+      mesh.wedges[t][k] = at->second;
+    }
+  }
+  cut.triangles = mesh.wedges;
+  return cut;
+}
+
+// From the texture coordinates of the file, cut along their seams.
+Mapped_surface map_from_uv(const Input_surface& input, const Program_options& options,
+                           const std::vector<SMP::HLSCM_pin>& pins, Progress_bar& progress)
+{
+  if(!input.file.soup.has_uv()) {
+    throw Program_error(options.input, "there are no texture coordinates to begin with");
+  }
+  Mapped_surface result;
+  result.mesh = to_textured(input);
+  for(std::size_t t = 0; t < result.mesh.wedges.size(); ++t) {
+    SMP::Uv_triangle image;
+    for(std::size_t k = 0; k < 3; ++k) {
+      const auto& uv = result.mesh.uv[result.mesh.wedges[t][k]];
+      image[k] = SMP::Uv_point(uv.x(), uv.y());
+    }
+    if(SMP::orientation_of(image) != CGAL::LEFT_TURN) {
+      throw Program_error(options.input, "face " + std::to_string(input.surface.face[t])
+                                             + " is flipped or degenerate in the texture coordinates: "
+                                               "begin with others, or without");
+    }
+  }
+  const Indexed_triangle_mesh cut = cut_along_seams(result.mesh);
+  Stretch_reports stretch(1);
+  SMP::Conformal_map map
+      = map_with_low_stretch(options, cut, pins_of_uv(options, input, result.mesh, pins),
+                             options.library.metric, {result.mesh.uv.begin(), result.mesh.uv.end()},
+                             stretch[0], progress);
+  result.stretch = mean_of(stretch);
+  result.mesh.uv.assign(map.uv.begin(), map.uv.end());
+  result.components.emplace_back();
+  result.components.back().faces = cut.triangles.size();
+  result.components.back().borders = map.report.borders;
+  result.components.back().report = std::move(map.report);
+  result.components.back().report.pins = pins;
+  return result;
+}
+
 // What is wrong, without the name of the file, which `Program_error` begins with.
 std::string reason(const Program_error& error, const std::string& file)
 {
@@ -270,7 +361,8 @@ Mapped_surface map_input(const Input_surface& input, const Program_options& give
                                                "choose another vertex");
     }
   }
-  Mapped_surface result = input.is_chart()
+  Mapped_surface result = options.is_from_uv ? map_from_uv(input, options, pins, progress)
+                          : input.is_chart()
                               ? map_chart(input, options, pins, snapshots, progress)
                               : map_components(input, options, pins, progress);
   if(pins.empty()) {

@@ -25,6 +25,9 @@ enum class Engine { FLAT, FLAT_STRICT, CGAL };
 /// What maps with low stretch make small.
 enum class Stretch { SYMMETRIC_DIRICHLET, MIPS, ARAP, AREA };
 
+/// Where the borders of maps with low stretch go.
+enum class Border { FREE, CIRCLE, SQUARE };
+
 /// A vertex of the input, counted from 0, and where it goes.
 struct Pin
 {
@@ -98,6 +101,9 @@ struct Program_options
   /// empty: nothing
   std::string signal;
   double signal_weight = 4; ///< how much that counts
+  Border border = Border::FREE;                   ///< then
+  bool is_from_uv = false;    ///< then: begins with the texture coordinates of the file
+  bool is_one_to_one = false; ///< then: no two parts of a component overlap
   bool repairs_flips = false; ///< of the map
   Engine engine = Engine::FLAT;
 

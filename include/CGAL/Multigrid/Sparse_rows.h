@@ -101,6 +101,21 @@ public:
       m_begin[i + 1] = m_begin[i] + m_length[i];
   }
 
+  /// Constructs the rows of a matrix. Linear time.
+  template <class Value>
+  explicit Sparse_rows(const Self_adjoint_matrix<Value>& matrix)
+  {
+    const std::vector<std::uint32_t> slot = matrix.slot_of_row();
+    *this = Sparse_rows(matrix.size(), [&matrix, &slot] {
+      return [&matrix, &slot](std::uint32_t i, Row& row) {
+        row.diagonal = Value_traits<Diagonal>::from(matrix.diagonal()[i]);
+        matrix.for_each_entry(slot[i], [&row](std::uint32_t j, const Value& value) {
+          row.append(j, Value_traits<Double>::from(value));
+        });
+      };
+    });
+  }
+
   /// Returns the number of rows.
   std::size_t size() const { return m_diagonal.size(); }
   /// Returns the diagonal entries.

@@ -121,7 +121,15 @@ public:
   /// Constructs a triangle without extent.
   Reference_triangle() {}
 
-  /// Returns the area.
+  /// Returns the triangle with `w` times its area, by which it counts; its shape and size stay.
+  Reference_triangle weighted(const FT& w) const
+  {
+    Reference_triangle result = *this;
+    result.m_area = w * m_area;
+    return result;
+  }
+
+  /// Returns the area, or that times a weight.
   const FT& area() const { return m_area; }
   /// Returns \f$ g_j \f$.
   Vector half_gradient(int j) const

@@ -11,7 +11,7 @@
 #include <CGAL/Multigrid/Sparse_cholesky.h>
 #include <CGAL/Multigrid/Sparse_rows.h>
 #include <CGAL/Surface_mesh_multigrid/Surface_hierarchy.h>
-#include <CGAL/Surface_mesh_multigrid/internal/galerkin_rows.h>
+#include <CGAL/Surface_mesh_multigrid/galerkin_rows.h>
 
 #include <Eigen/SparseCholesky>
 

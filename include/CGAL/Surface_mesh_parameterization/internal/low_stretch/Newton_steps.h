@@ -8,8 +8,11 @@
 #include <CGAL/Multigrid/Multigrid_levels.h>
 #include <CGAL/Multigrid/Schedule.h>
 #include <CGAL/Multigrid/Sparse_cholesky.h>
+#include <CGAL/Multigrid/Sparse_rows.h>
+#include <CGAL/Surface_mesh_multigrid/galerkin_rows.h>
 #include <CGAL/Surface_mesh_multiresolution/Prolongation.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Stretch_level.h>
+#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/stretch_matrix.h>
 
 #include <Eigen/Core>
 
@@ -23,12 +26,22 @@ namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
 
+// Where the cycles get the matrices of coarser levels from.
+enum class Coarse_matrices
+{
+  OF_LAST_STEPS, // those of the last steps that were made there: nothing is computed for them
+  GALERKIN       // products of that of the finest level: slower, where those do not fit or are not there
+};
+
 // The steps of Newton's method on a level after the other: conjugate gradients, preconditioned by
-// multigrid cycles. The matrix of a coarser level is that of the last step that was made there.
+// multigrid cycles.
 class Newton_steps
 {
 public:
   typedef Multigrid::Self_adjoint_matrix<Eigen::Matrix2f> Matrix;
+  typedef std::vector<Plane_point> Vectors;
+
+  explicit Newton_steps(Coarse_matrices coarse = Coarse_matrices::OF_LAST_STEPS) : m_coarse(coarse) {}
 
   // Begins with the next finer level; `from_coarser` is null for the first. It must live as long as
   // the object.
@@ -38,10 +51,25 @@ public:
     m_matrices.push_back(std::make_unique<Matrix>());
   }
 
+  // From now on the matrices of coarser levels are these; once `GALERKIN`, those of last steps are lost.
+  void use(Coarse_matrices coarse) { m_coarse = coarse; }
+
   // Makes one step on the finest level so far, by at most `iterations` iterations, fewer if the
   // residual is below `residual` of that at first. Returns by how much the energy fell.
   template <class Energy>
-  double operator()(Stretch_level<Energy>& level, std::size_t iterations, double residual);
+  double operator()(Stretch_level<Energy>& level, std::size_t iterations, double residual)
+  {
+    double slope = 0.;
+    const Vectors step = direction(level, Vectors(), iterations, residual, slope);
+    return slope < 0. ? level.go(step, slope) : 0.;
+  }
+
+  // Where such a step goes; `slope` becomes the derivative of the energy there. Fixed vertices go by
+  // `pulled`, if it is not empty, and all others as the energy, up to the second order, is least then.
+  // Empty if there is nowhere to go.
+  template <class Energy>
+  Vectors direction(Stretch_level<Energy>& level, const Vectors& pulled, std::size_t iterations,
+                    double residual, double& slope);
 
   std::size_t iterations() const { return m_iterations; } // of all steps
 
@@ -53,6 +81,29 @@ private:
   // The coarsest matrix is made definite: translations and the rotation change no energy.
   static constexpr double shift = 1e-6;
 
+  static double norm(const Vectors& vectors)
+  {
+    return std::sqrt(Blocked_execution::blocked_sum<double>(
+      vectors.size(), 16384, [&](std::size_t begin, std::size_t end) {
+        double sum = 0.;
+        for(std::size_t v = begin; v < end; ++v)
+          sum += vectors[v].squared_length();
+        return sum;
+      }));
+  }
+
+  void set_coarser(const Multigrid::Self_adjoint_matrix<Eigen::Matrix2d>& matrix)
+  {
+    Multigrid::Sparse_rows<Eigen::Matrix2d> rows(matrix);
+    for(std::size_t l = m_matrices.size() - 1; l-- > 0;) {
+      rows = Surface_mesh_multigrid::galerkin_rows(rows, *m_transfers[l + 1]);
+      *m_matrices[l] = rows.matrix<Eigen::Matrix2f>();
+    }
+    rows.shift_diagonal(shift);
+    m_coarsest = rows.matrix<Eigen::Matrix2d>();
+  }
+
+  Coarse_matrices m_coarse;
   std::vector<const Surface_mesh_multiresolution::Prolongation*> m_transfers;
   std::vector<std::unique_ptr<Matrix>> m_matrices;
   Multigrid::Self_adjoint_matrix<Eigen::Matrix2d> m_coarsest;
@@ -60,34 +111,35 @@ private:
 };
 
 template <class Energy>
-double Newton_steps::operator()(Stretch_level<Energy>& level, std::size_t iterations,
-                                double residual)
+Newton_steps::Vectors Newton_steps::direction(Stretch_level<Energy>& level, const Vectors& pulled,
+                                              std::size_t iterations, double residual, double& slope)
 {
   typedef Eigen::Vector2d Vector; // a few very stiff triangles hide all others from single precision
   level.linearize();
-  const std::vector<Plane_point> gradient = level.gradient();
-  const auto matrix = level.template matrix<Eigen::Matrix2d>();
+  const Vectors gradient = level.gradient();
+  const auto matrix = stretch_matrix<Eigen::Matrix2d>(level);
   m_matrices.back()->assign(matrix);
+  if(m_coarse == Coarse_matrices::GALERKIN)
+    set_coarser(matrix);
+  else if(m_matrices.size() == 1)
+    m_coarsest = stretch_matrix<Eigen::Matrix2d>(level, shift);
   Levels levels;
   for(std::size_t l = 0; l < m_matrices.size(); ++l)
     levels.add_level(*m_matrices[l], m_transfers[l]);
-  if(m_matrices.size() == 1)
-    m_coarsest = level.template matrix<Eigen::Matrix2d>(shift);
   if(!levels.coarsest_solver().factorize(m_coarsest))
-    return 0.;
+    return {};
   level.forget_derivatives();
-  const double size = std::sqrt(Blocked_execution::blocked_sum<double>(
-    gradient.size(), 16384, [&](std::size_t begin, std::size_t end) {
-      double sum = 0.;
-      for(std::size_t v = begin; v < end; ++v)
-        sum += gradient[v].squared_length();
-      return sum;
-    }));
+  double size = norm(gradient);
+  if(!pulled.empty() && !(size > 0.))
+    size = norm(pulled);
   if(!(size > 0.))
-    return 0.;
+    return {};
   std::vector<Vector> f(gradient.size()), x(gradient.size(), Vector::Zero());
   for(std::size_t v = 0; v < f.size(); ++v)
     f[v] = Vector(-gradient[v].x / size, -gradient[v].y / size);
+  for(std::size_t v = 0; v < pulled.size(); ++v)
+    if(level.is_fixed(v))
+      x[v] = Vector(pulled[v].x / size, pulled[v].y / size);
   Multigrid::Energy_stop stop;
   stop.tolerance = 0.;
   stop.residual_tolerance = residual;
@@ -98,13 +150,13 @@ double Newton_steps::operator()(Stretch_level<Energy>& level, std::size_t iterat
   };
   m_iterations += Multigrid::minimize_energy(matrix, f, x, cycle, stop,
                                              [](double) { return true; }).iterations;
-  std::vector<Plane_point> direction(x.size());
-  double slope = 0.;
+  Vectors direction(x.size());
+  slope = 0.;
   for(std::size_t v = 0; v < x.size(); ++v) {
     direction[v] = Plane_point{x[v].x(), x[v].y()} * size;
     slope += direction[v].dot(gradient[v]);
   }
-  return slope < 0. ? level.go(direction, slope) : 0.;
+  return direction;
 }
 
 } // namespace internal

@@ -7,20 +7,18 @@
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Blocked_execution/memory.h>
 #include <CGAL/Indexed_mesh/Triangle_adjacency.h>
-#include <CGAL/Multigrid/Block_values.h>
-#include <CGAL/Multigrid/Matrix_builder.h>
 #include <CGAL/Surface_mesh_parameterization/Stretch_element.h>
+#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Border_barrier.h>
+#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Border_guard.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Stretched_star.h>
-
-#include <Eigen/Core>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <deque>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -36,7 +34,8 @@ struct Least
   Least& operator+=(const Least& other) { return *this = *this + other; }
 };
 
-// The total energy of a map of a mesh, with what Newton's method wants to know of it.
+// The total energy of a map of a mesh, with what Newton's method wants to know of it; with a barrier
+// between its borders, if they are to be kept apart.
 //
 // Invariant: all triangles of the map are surely positive.
 template <class Energy>
@@ -66,17 +65,33 @@ public:
     m_value = energy_at(m_places);
   }
 
+  // From now on the borders, which do not cross now, are kept apart. None: they are not.
+  void keep_apart(Border_loops loops)
+  {
+    m_barrier.reset();
+    m_border.assign(loops.empty() ? 0 : size(), false);
+    for(const auto& loop : loops)
+      for(const Vertex_index v : loop)
+        m_border[v] = true;
+    if(!loops.empty())
+      m_barrier.emplace(std::move(loops), m_places);
+    m_value = energy_at(m_places);
+  }
+
   const Places& places() const { return m_places; }
   std::size_t size() const { return m_places.size(); }
   bool is_fixed(std::size_t v) const { return !m_is_fixed.empty() && m_is_fixed[v]; }
   double area() const { return m_area; } // of the reference triangles
   double value() const { return m_value; }
-  double mean() const { return m_value / m_area; }
+  double mean() const { return (m_value - barrier_at(m_places)) / m_area; } // without the barrier
 
   // The energy of a map, infinity if it is not valid.
   double energy_at(const Places& z) const
   {
-    const double sum = Blocked_execution::blocked_sum<double>(
+    const double barrier = barrier_at(z);
+    if(!(barrier < infinity))
+      return infinity;
+    const double sum = barrier + Blocked_execution::blocked_sum<double>(
       m_triangles.size(), block_size, [&](std::size_t begin, std::size_t end) {
         double part = 0.;
         for(std::size_t t = begin; t < end; ++t) {
@@ -103,6 +118,8 @@ public:
   // Computes the derivatives at the map.
   void linearize()
   {
+    if(m_barrier)
+      m_barrier->linearize(m_places);
     m_elements.resize(m_triangles.size());
     for_each(m_triangles.size(), [this](std::size_t t) {
       m_elements[t] = Stretch_element<double>(
@@ -127,29 +144,37 @@ public:
       for(const Halfedge* c = m_corners.begin(Vertex_index(v)); c != m_corners.end(Vertex_index(v)); ++c)
         result[v] = result[v] + m_elements[triangle_of(*c)].gradient(m_references[triangle_of(*c)],
                                                                      int(corner_of(*c)));
+      for_each_contact_of(Vertex_index(v), [&](const Border_barrier::Contact& contact, int corner) {
+        result[v] = result[v] + contact.gradient(corner);
+      });
     });
     return result;
   }
 
-  // The projected second derivative, without rows for fixed vertices; its diagonal is longer by the
-  // part `shift`.
-  template <class Value>
-  Multigrid::Self_adjoint_matrix<Value> matrix(double shift = 0.) const;
+  // What the second derivative is made of, after `linearize()`; see `stretch_matrix()`.
+  const Triangles& triangles() const { return m_triangles; }
+  const Indexed_mesh::Triangles_at_vertices& corners() const { return m_corners; }
+  const Reference_triangle<double>& reference(std::size_t t) const { return m_references[t]; }
+  const Stretch_element<double>& element(std::size_t t) const { return m_elements[t]; }
+  template <class Use>
+  void for_each_contact_of(Vertex_index v, const Use& use) const
+  {
+    if(m_barrier)
+      m_barrier->for_each_contact_of(v, use);
+  }
 
   // Goes along `direction` as far as the energy falls and no triangle turns over; returns by how
   // much the energy fell. `slope` is its derivative there.
   double go(const Places& direction, double slope);
 
-  // Moves vertices, all by the same part of the way, towards places, half as far as no triangle turns
-  // over; returns whether they are there.
+  // Moves along `direction`, whose end has each of the vertices `held` at its place, half as far as no
+  // triangle turns over; returns whether that is all the way.
   template <class Held_vertex>
-  bool move_towards(const std::vector<Held_vertex>& held)
+  bool move_towards(const std::vector<Held_vertex>& held, const Places& direction)
   {
-    Places direction(size()), target = m_places;
-    for(const Held_vertex& h : held) {
-      direction[h.vertex] = h.place - m_places[h.vertex];
+    Places target = moved(direction, 1.);
+    for(const Held_vertex& h : held)
       target[h.vertex] = h.place;
-    }
     const double limit = longest_step(direction);
     const bool is_there = limit > 1. && energy_at(target) < infinity;
     for(double t = (std::min)(0.5, 0.5 * limit); !is_there && t > 1e-6; t *= 0.5) {
@@ -184,7 +209,9 @@ private:
     return {z[v[0]], z[v[1]], z[v[2]]};
   }
 
-  double relax(Vertex_index v, Stretched_star& star);
+  double barrier_at(const Places& z) const { return m_barrier ? m_barrier->energy_at(z) : 0.; }
+
+  double relax(Vertex_index v, Stretched_star& star, Border_guard* guard);
   double longest_step(const Places& direction) const;
   Places moved(const Places& direction, double t) const
   {
@@ -197,6 +224,8 @@ private:
   Indexed_mesh::Triangles_at_vertices m_corners;
   Energy m_energy;
   std::vector<bool> m_is_fixed;
+  std::optional<Border_barrier> m_barrier;
+  std::vector<bool> m_border; // with a barrier: the vertices of the border
   Places m_places;
   std::vector<Reference_triangle<double>> m_references;
   Blocked_execution::Uninitialized_vector<Stretch_element<double>> m_elements;
@@ -250,7 +279,7 @@ void Stretch_level<Energy>::scale()
 
 // Takes a local step at v; returns by how much the energy fell.
 template <class Energy>
-double Stretch_level<Energy>::relax(Vertex_index v, Stretched_star& star)
+double Stretch_level<Energy>::relax(Vertex_index v, Stretched_star& star, Border_guard* guard)
 {
   if(is_fixed(v))
     return 0.;
@@ -262,14 +291,24 @@ double Stretch_level<Energy>::relax(Vertex_index v, Stretched_star& star)
              m_places[t[corner.last]]);
   }
   double energy = star.energy_at(m_places[v], m_energy);
-  return star.improve(m_places[v], energy, m_energy);
+  if(!m_barrier || !m_border[v])
+    return star.improve(m_places[v], energy, m_energy);
+  Plane_point z = m_places[v];
+  const double gain = star.improve(z, energy, m_energy);
+  if(!(gain > 0.) || !guard->allows_move(z, v))
+    return 0.;
+  m_places[v] = z;
+  guard->move(v);
+  return gain;
 }
 
 template <class Energy>
 double Stretch_level<Energy>::sweep(double share_of_queue)
 {
   const double much = 1e-6 * m_value, before = m_value;
+  const Places places_before = m_barrier ? m_places : Places();
   Stretched_star star;
+  Border_guard guard(m_barrier ? m_barrier->loops() : Border_loops(), m_places, Border_barrier::reach);
   std::deque<Vertex_index> queue;
   std::vector<bool> is_queued(size(), false);
   const auto push_with_ring = [&](Vertex_index v) {
@@ -281,65 +320,22 @@ double Stretch_level<Energy>::sweep(double share_of_queue)
         }
   };
   for(Vertex_index v = 0; v < size(); ++v)
-    if(relax(v, star) > much)
+    if(relax(v, star, &guard) > much)
       push_with_ring(v);
   std::size_t steps = std::size_t(share_of_queue * double(size()));
   for(; steps > 0 && !queue.empty(); --steps) {
     const Vertex_index v = queue.front();
     queue.pop_front();
     is_queued[v] = false;
-    if(relax(v, star) > much)
+    if(relax(v, star, &guard) > much)
       push_with_ring(v);
   }
   m_value = energy_at(m_places);
+  if(m_barrier && !(m_value <= before)) { // vertices see the barrier only as a place to keep off
+    m_places = places_before;
+    m_value = before;
+  }
   return before - m_value;
-}
-
-template <class Energy>
-template <class Value>
-Multigrid::Self_adjoint_matrix<Value> Stretch_level<Energy>::matrix(double shift) const
-{
-  std::vector<std::uint32_t> lengths(size());
-  for_each(size(), [&](std::size_t v) {
-    lengths[v] = is_fixed(v) ? 0 : m_corners.number(Vertex_index(v)) + 1; // one less inside
-  });
-  const auto fill = [&](std::uint32_t v, Multigrid::Real_row<Value>& row) {
-    constexpr std::size_t few = 16;
-    std::array<std::uint32_t, few> few_columns;
-    std::array<Eigen::Matrix2d, few> few_values;
-    std::vector<std::uint32_t> many_columns(lengths[v] > few ? lengths[v] : 0);
-    std::vector<Eigen::Matrix2d> many_values(many_columns.size());
-    std::uint32_t* columns = many_columns.empty() ? few_columns.data() : many_columns.data();
-    Eigen::Matrix2d* values = many_values.empty() ? few_values.data() : many_values.data();
-    std::size_t count = 0;
-    Eigen::Matrix2d diagonal = Eigen::Matrix2d::Zero();
-    const auto block = [](const Plane_matrix<double>& b) {
-      return (Eigen::Matrix2d() << b.xx, b.xy, b.yx, b.yy).finished();
-    };
-    if(!is_fixed(v))
-      for(const Halfedge* c = m_corners.begin(v); c != m_corners.end(v); ++c) {
-        const std::size_t t = triangle_of(*c);
-        const int corner = int(corner_of(*c));
-        diagonal += block(m_elements[t].block(m_references[t], corner, corner));
-        for(int k = 1; k < 3; ++k) {
-          const int other = (corner + k) % 3;
-          const std::uint32_t w = m_triangles[t][other];
-          const std::size_t at = std::find(columns, columns + count, w) - columns;
-          const Eigen::Matrix2d b = block(m_elements[t].block(m_references[t], corner, other));
-          if(at < count)
-            values[at] += b;
-          else {
-            columns[count] = w;
-            values[count++] = b;
-          }
-        }
-      }
-    diagonal *= 1. + shift;
-    row.set(diagonal, count, columns, values);
-    return true;
-  };
-  return Multigrid::Matrix_builder::build_matrix<Value>(
-    lengths, fill, [](std::uint32_t, typename Multigrid::Self_adjoint_matrix<Value>::Row&) {});
 }
 
 template <class Energy>

@@ -44,6 +44,10 @@ public:
 
   bool exist() const { return !m_means.empty(); }
   const Tensor& operator[](std::size_t v) const { return m_means[v].tensor; }
+  Tensor mean(std::size_t a, std::size_t b, std::size_t c) const
+  {
+    return ((*this)[a] + (*this)[b] + (*this)[c]) * (1. / 3.);
+  }
 
   void collapse(const std::vector<Halfedge_collapse>& collapses)
   {
@@ -80,19 +84,27 @@ private:
   std::vector<Mean> m_before; // of the vertex that was kept, by collapse: exact again when undone
 };
 
+// The mean of what the corners of a triangle have.
+inline double mean_of_corners(const std::vector<double>& x, Indexed_mesh::Vertex_index a,
+                              Indexed_mesh::Vertex_index b, Indexed_mesh::Vertex_index c)
+{
+  return (x[a] + x[b] + x[c]) / 3.;
+}
+
 // The triangle of three vertices of a surface, in the metric of the surface or of tensors.
 struct Surface_metric
 {
   const std::vector<Indexed_mesh::Indexed_triangle_mesh::Point_3>& points;
   const Vertex_tensors& tensors;
+  const std::vector<double>& weights; // at the vertices; empty: 1
 
   Reference_triangle<double> operator()(Indexed_mesh::Vertex_index a, Indexed_mesh::Vertex_index b,
                                         Indexed_mesh::Vertex_index c) const
   {
-    if(!tensors.exist())
-      return Reference_triangle<double>::of_points(points[a], points[b], points[c]);
-    return Reference_triangle<double>::of_points(points[a], points[b], points[c],
-                                                 (tensors[a] + tensors[b] + tensors[c]) * (1. / 3.));
+    const auto t = tensors.exist()
+      ? Reference_triangle<double>::of_points(points[a], points[b], points[c], tensors.mean(a, b, c))
+      : Reference_triangle<double>::of_points(points[a], points[b], points[c]);
+    return weights.empty() ? t : t.weighted(mean_of_corners(weights, a, b, c));
   }
 };
 

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -86,20 +87,14 @@ public:
   }
 
   // The middle of the places that are valid, or any point if rounding leaves none.
-  Plane_point middle_of_kernel() const
+  Plane_point middle_of_kernel() const { return middle_of(Kernel_polygon(ring())); }
+
+  // The same of the places to the left of the line from a to b.
+  Plane_point middle_of_kernel_beside(const Plane_point& a, const Plane_point& b) const
   {
-    std::vector<Plane_point> ring;
-    for(const Wedge& w : m_wedges) {
-      ring.push_back(w.next);
-      ring.push_back(w.last);
-    }
-    Kernel_polygon kernel(ring);
-    for(const Wedge& w : m_wedges) {
-      kernel.clip(w.next, w.last);
-      if(kernel.is_empty())
-        return ring[0];
-    }
-    return kernel.center();
+    Kernel_polygon kernel(ring());
+    kernel.clip(a, b);
+    return kernel.is_empty() ? a : middle_of(std::move(kernel));
   }
 
   // A step of Newton's method from the valid place z, shortened until the energy falls, with the
@@ -145,6 +140,26 @@ private:
       return {alpha + d.times(g.conjugate()), beta + d.times(g)};
     }
   };
+
+  std::vector<Plane_point> ring() const
+  {
+    std::vector<Plane_point> ring;
+    for(const Wedge& w : m_wedges) {
+      ring.push_back(w.next);
+      ring.push_back(w.last);
+    }
+    return ring;
+  }
+
+  Plane_point middle_of(Kernel_polygon kernel) const
+  {
+    for(const Wedge& w : m_wedges) {
+      kernel.clip(w.next, w.last);
+      if(kernel.is_empty())
+        return m_wedges[0].next;
+    }
+    return kernel.center();
+  }
 
   template <class Energy>
   Plane_point newton_step(const Plane_point& z, const Energy& energy) const

@@ -6,6 +6,7 @@
 
 #include <CGAL/Indexed_mesh/Vertex_rings.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
+#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Border_guard.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Stretched_star.h>
 
 #include <array>
@@ -34,10 +35,13 @@ public:
   typedef Surface_mesh_multiresolution::Halfedge_collapse Halfedge_collapse;
 
   // `rings` are those after the collapses, `places` those of all vertices, of which only those that
-  // are there count; `metric(a, b, c)` is the triangle of three vertices.
+  // are there count; `metric(a, b, c)` is the triangle of three vertices. The border does not cross
+  // itself if there is a guard.
   Vertex_insertion(Indexed_mesh::Vertex_rings& rings, std::vector<Plane_point>& places,
-                   const std::vector<bool>& is_fixed, const Metric& metric, const Energy& energy)
+                   const std::vector<bool>& is_fixed, const Metric& metric, const Energy& energy,
+                   Border_guard* guard)
     : m_rings(rings), m_places(places), m_is_fixed(is_fixed), m_metric(metric), m_energy(energy)
+    , m_guard(guard)
   {}
 
   // Undoes a collapse. Where the energy is more than twice `mean` an area, the neighbourhood gives
@@ -55,12 +59,17 @@ public:
     if(!placed.second)
       return false;
     m_rings.split(v, c.kept);
+    if(m_guard != nullptr && m_rings.is_border(v))
+      m_guard->insert(v, previous(v), m_rings.ring(v)[0]);
     if(placed.first > 2. * mean * m_star.area())
       relax_crowd(v);
     return true;
   }
 
 private:
+  // The vertex before v on the border.
+  Vertex_index previous(Vertex_index v) const { return m_rings.ring(v)[m_rings.degree(v) - 1]; }
+
   void gather_star(Vertex_index v)
   {
     m_star.clear();
@@ -94,8 +103,36 @@ private:
       return {energy, false};
     for(int i = 0; i < steps && m_star.improve(z, energy, m_energy) > enough * energy; ++i)
       ;
+    if(m_guard != nullptr && m_rings.is_border(v) && !keep_off_border(v, z, energy))
+      return {energy, false};
     m_places[v] = z;
     return {energy, true};
+  }
+
+  // Moves the place z that was found for v so that the border does not cross itself there: towards the
+  // edge that v divides; beyond it, to the inside, where v has more than one triangle; or very near to
+  // it. Returns whether there is a valid place.
+  bool keep_off_border(Vertex_index v, Plane_point& z, double& energy) const
+  {
+    const Vertex_index a = previous(v), b = m_rings.ring(v)[0];
+    const Plane_point &p = m_places[a], &q = m_places[b];
+    if(m_guard->allows(z, a, b))
+      return true;
+    const Plane_point middle = (p + q) * 0.5, way = z - middle;
+    for(const double part : {0.5, 0.25, 0.125}) {
+      z = middle + way * part;
+      energy = m_star.energy_at(z, m_energy);
+      if(energy < infinity && m_guard->allows(z, a, b))
+        return true;
+    }
+    z = m_star.middle_of_kernel_beside(p, q);
+    for(double height = 0.25; height > 1e-4; height *= 0.5) {
+      energy = m_star.energy_at(z, m_energy);
+      if(energy < infinity && m_guard->allows(z, a, b))
+        return true;
+      z = middle + Plane_point{q.y - p.y, p.x - q.x} * height;
+    }
+    return false;
   }
 
   // Takes a local step at a vertex; returns its energy before and after.
@@ -104,8 +141,17 @@ private:
     gather_star(v);
     double energy = m_star.energy_at(m_places[v], m_energy);
     const double before = energy;
-    if(m_is_fixed.empty() || !m_is_fixed[v])
-      m_star.improve(m_places[v], energy, m_energy);
+    if(!m_is_fixed.empty() && m_is_fixed[v])
+      return {before, energy};
+    Plane_point z = m_places[v];
+    m_star.improve(z, energy, m_energy);
+    if(m_guard != nullptr && m_rings.is_border(v)) {
+      if(!m_guard->allows_move(z, v))
+        return {before, before};
+      m_places[v] = z;
+      m_guard->move(v);
+    }
+    m_places[v] = z;
     return {before, energy};
   }
 
@@ -139,6 +185,7 @@ private:
   const std::vector<bool>& m_is_fixed;
   const Metric& m_metric;
   const Energy& m_energy;
+  Border_guard* m_guard;
   Stretched_star m_star;
   std::vector<Vertex_index> m_ring;
 };

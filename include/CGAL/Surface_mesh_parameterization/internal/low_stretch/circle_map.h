@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_CIRCLE_MAP_H
 
 #include <CGAL/Indexed_mesh/border_loops.h>
+#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Stretch_task.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/plane_geometry.h>
 
 #include <CGAL/number_utils.h>
@@ -12,6 +13,7 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -21,10 +23,10 @@ namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
 
-// Tutte's map of a small mesh of genus 0: its longest border goes to a circle, by length, and every
-// other vertex to the mean of its neighbours. Other borders are filled by a vertex each, joined to
-// all of the border, which is left out afterwards: what remains is one-to-one whatever the number
-// of borders (Tutte 1963; Floater 2003). Empty if the equations cannot be solved.
+// Tutte's map of a small mesh of genus 0: its longest border goes to a circle, by length, or to given
+// places, and every other vertex to the mean of its neighbours. Other borders are filled by a vertex
+// each, joined to all of the border, which is left out afterwards: what remains is one-to-one whatever
+// the number of borders (Tutte 1963; Floater 2003). Empty if the equations cannot be solved.
 class Circle_map
 {
 public:
@@ -32,28 +34,64 @@ public:
     : m_mesh(mesh), m_rings(mesh), m_loops(Indexed_mesh::border_loops(m_rings))
   {}
 
+  // The longest border of those all vertices of which are held goes to their places. Empty if there is
+  // none; not valid in general unless the places are convex.
+  std::vector<Plane_point> run(const std::vector<Held_vertex>& held)
+  {
+    const std::size_t n = m_mesh.points.size();
+    std::vector<Plane_point> places(n);
+    std::vector<bool> is_held(n, false);
+    for(const Held_vertex& h : held) {
+      places[h.vertex] = h.place;
+      is_held[h.vertex] = true;
+    }
+    std::size_t first = m_loops.size();
+    for(std::size_t l = 0; l < m_loops.size(); ++l)
+      if(std::all_of(m_loops[l].begin(), m_loops[l].end(), [&](Vertex_index v) { return is_held[v]; })
+         && (first == m_loops.size() || length_of(m_loops[l]) > length_of(m_loops[first])))
+        first = l;
+    if(first == m_loops.size())
+      return {};
+    m_loops[first].swap(m_loops[0]);
+    return with_border(std::move(places));
+  }
+
+  // Whether the triangles of a map, all of which are positive, go around each vertex inside once.
+  bool goes_around_once(const std::vector<Plane_point>& places) const
+  {
+    return first_branch_point(m_mesh.triangles, m_rings, places) == m_mesh.points.size();
+  }
+
   std::vector<Plane_point> run()
   {
     longest_first();
-    const std::size_t n = m_mesh.points.size(), size = n + m_loops.size() - 1;
-    std::vector<Plane_point> places(size);
-    std::vector<bool> is_set(size, false);
+    std::vector<Plane_point> places(m_mesh.points.size());
     double length = 0.;
     const double whole = length_of(m_loops[0]);
     for(std::size_t i = 0; i < m_loops[0].size(); ++i) {
       const double angle = 2. * CGAL_PI * length / whole;
       places[m_loops[0][i]] = {std::cos(angle), std::sin(angle)};
-      is_set[m_loops[0][i]] = true;
       length += length_of_edge(m_loops[0], i);
     }
+    return with_border(std::move(places));
+  }
+
+private:
+  typedef std::vector<Vertex_index> Loop;
+
+  // Leaves the first border where it is.
+  std::vector<Plane_point> with_border(std::vector<Plane_point> places) const
+  {
+    const std::size_t n = m_mesh.points.size();
+    places.resize(n + m_loops.size() - 1);
+    std::vector<bool> is_set(places.size(), false);
+    for(const Vertex_index v : m_loops[0])
+      is_set[v] = true;
     if(!solve(is_set, places))
       places.clear();
     places.resize(places.empty() ? 0 : n);
     return places;
   }
-
-private:
-  typedef std::vector<Vertex_index> Loop;
 
   double length_of_edge(const Loop& loop, std::size_t i) const
   {

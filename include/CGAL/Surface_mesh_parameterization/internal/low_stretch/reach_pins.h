@@ -6,7 +6,9 @@
 
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Newton_steps.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Stretch_level.h>
+#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Stretch_task.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -14,13 +16,6 @@
 namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
-
-// A vertex that is held, and where.
-struct Held_vertex
-{
-  Vertex_index vertex;
-  Plane_point place;
-};
 
 // Turns and moves a map so that the held vertices are as near to their places as possible.
 inline void align(const std::vector<Held_vertex>& held, std::vector<Plane_point>& z)
@@ -37,6 +32,45 @@ inline void align(const std::vector<Held_vertex>& held, std::vector<Plane_point>
   turn = length > 0. ? turn * (1. / length) : Plane_point{1., 0.};
   for(Plane_point& p : z)
     p = to + (p - from).times(turn);
+}
+
+// How far the held vertices are from their places; 0 for all others.
+inline std::vector<Plane_point> ways_to(const std::vector<Held_vertex>& held,
+                                        const std::vector<Plane_point>& z)
+{
+  std::vector<Plane_point> ways(z.size());
+  for(const Held_vertex& h : held)
+    ways[h.vertex] = h.place - z[h.vertex];
+  return ways;
+}
+
+inline bool are_there(const std::vector<Held_vertex>& held, const std::vector<Plane_point>& z)
+{
+  return std::all_of(held.begin(), held.end(), [&z](const Held_vertex& h) {
+    return z[h.vertex].x == h.place.x && z[h.vertex].y == h.place.y;
+  });
+}
+
+// Brings the held vertices of a map of any size to their places, by steps that turn no triangle over:
+// all others go along as the second derivative of the energy says, which takes a linear system a step.
+// Returns whether they arrived.
+template <class Energy>
+bool pull_pins(Stretch_level<Energy>& level, Newton_steps& newton, const std::vector<Held_vertex>& held)
+{
+  constexpr int attempts = 60, steps = 3;
+  constexpr std::size_t iterations = 20;
+  constexpr double residual = 1e-3;
+  for(int i = 0; i < attempts && !are_there(held, level.places()); ++i) {
+    const std::vector<Plane_point> ways = ways_to(held, level.places());
+    double slope = 0.;
+    const std::vector<Plane_point> direction
+      = newton.direction(level, ways, iterations, residual, slope);
+    if(!level.move_towards(held, direction.empty() ? ways : direction))
+      for(int step = 0; step < steps; ++step)
+        newton(level, iterations, residual);
+    level.sweep(1.);
+  }
+  return are_there(held, level.places());
 }
 
 // Brings the held vertices of a small map to their places, by steps that turn no triangle over: they go
@@ -59,7 +93,7 @@ bool reach_pins(const std::vector<Triangle_indices>& triangles, const Reference&
   Newton_steps newton;
   newton.add_level(nullptr);
   for(int i = 0; i < attempts; ++i) {
-    if(level.move_towards(held)) {
+    if(level.move_towards(held, ways_to(held, level.places()))) {
       z = level.places();
       return true;
     }

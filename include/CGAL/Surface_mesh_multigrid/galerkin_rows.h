@@ -1,8 +1,8 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_SURFACE_MESH_MULTIGRID_INTERNAL_GALERKIN_ROWS_H
-#define CGAL_SURFACE_MESH_MULTIGRID_INTERNAL_GALERKIN_ROWS_H
+#ifndef CGAL_SURFACE_MESH_MULTIGRID_GALERKIN_ROWS_H
+#define CGAL_SURFACE_MESH_MULTIGRID_GALERKIN_ROWS_H
 
 #include <CGAL/Multigrid/Sparse_rows.h>
 #include <CGAL/Surface_mesh_multiresolution/Prolongation.h>
@@ -122,18 +122,31 @@ private:
   std::uint32_t m_count = 0;
 };
 
-// The coarse matrix P^H A P. An unknown that only fixed ones get values from has a row of zeros.
+} // namespace internal
+
+/*!
+\ingroup PkgHLSCMSurfaceMultigrid
+
+Returns the matrix \f$ P^H A P \f$ of a coarser level. Unknowns whose row of \f$ A \f$ is zero are
+fixed and take no part; an unknown that only fixed ones get values from has a row of zeros.
+
+\tparam Double an entry, what `Multigrid::Value_traits` calls `Double`
+
+\param fine the rows of \f$ A \f$
+\param p \f$ P \f$, from the coarser level to that of \f$ A \f$; by `Prolongation_rule::WALK`
+
+Linear time.
+*/
 template <class Double>
 Multigrid::Sparse_rows<Double> galerkin_rows(const Multigrid::Sparse_rows<Double>& fine,
                                              const Surface_mesh_multiresolution::Prolongation& p)
 {
-  const Transfer_rows transfer(p, fine);
+  const internal::Transfer_rows transfer(p, fine);
   return Multigrid::Sparse_rows<Double>(
-    p.kept().size(), [&] { return Galerkin_row<Double>(fine, p, transfer); });
+    p.kept().size(), [&] { return internal::Galerkin_row<Double>(fine, p, transfer); });
 }
 
-} // namespace internal
 } // namespace Surface_mesh_multigrid
 } // namespace CGAL
 
-#endif // CGAL_SURFACE_MESH_MULTIGRID_INTERNAL_GALERKIN_ROWS_H
+#endif // CGAL_SURFACE_MESH_MULTIGRID_GALERKIN_ROWS_H
