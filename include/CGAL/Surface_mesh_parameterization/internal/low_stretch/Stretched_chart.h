@@ -333,6 +333,14 @@ Stretched_chart<Energy>::face_weights(const Triangles& faces, Low_stretch_map& r
   return weights;
 }
 
+#ifdef CGAL_HLSCM_COMPILED
+#ifdef CGAL_HLSCM_SOURCE
+template class Stretched_chart<Symmetric_dirichlet_energy>;
+#else
+extern template class Stretched_chart<Symmetric_dirichlet_energy>;
+#endif
+#endif
+
 } // namespace internal
 } // namespace Surface_mesh_parameterization
 } // namespace CGAL
