@@ -160,7 +160,8 @@ void run_columns(const Problem& p, const std::shared_ptr<const Surface_hierarchy
     x[v].setZero();
   }
   row.setup.push_back(0.);
-  row.matrix.push_back(timing::seconds_of([&] { solver.set_element(p.element, p.is_fixed); }) / columns);
+  const double seconds = timing::seconds_of([&] { solver.set_element(p.element, p.is_fixed); });
+  row.matrix.push_back(seconds / columns);
   Surface_multigrid_report report;
   row.solve.push_back(timing::seconds_of([&] { report = solver.solve(b, x); }) / columns);
   if(!report.is_ok())

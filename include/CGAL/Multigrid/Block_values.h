@@ -59,7 +59,8 @@ struct Value_traits<Eigen::Matrix<Real_, N, Columns, Options, N, Columns>>
     const Double d = v.template cast<double>();
     if constexpr(N == 2 && Columns == 2) { // by the theorem of Cayley and Hamilton
       const double det = std::abs(d.determinant()), trace = std::sqrt(d.squaredNorm() + 2. * det);
-      return trace > 0. ? Double((d * d.transpose() + det * Double::Identity()) / trace) : Double(Double::Zero());
+      return trace > 0. ? Double((d * d.transpose() + det * Double::Identity()) / trace)
+                        : Double(Double::Zero());
     } else
       return with_eigenvalues(d * d.transpose(), [](double s) { return s > 0. ? std::sqrt(s) : 0.; });
   }

@@ -93,7 +93,8 @@ private:
       for(int c = 0; c < columns; ++c)
         for(int r = 0; r < N; ++r)
           for(int k = 0; k < N; ++k)
-            d[N * c + r] += patch.inverse[3 * N * (N * i + r) + N * j + k] * b[N * (columns * j + c) + k];
+            d[N * c + r] += patch.inverse[3 * N * (N * i + r) + N * j + k]
+                          * b[N * (columns * j + c) + k];
     return Value_traits<Vector_value>::from_coefficients(d.data());
   }
 

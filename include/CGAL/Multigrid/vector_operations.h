@@ -36,8 +36,8 @@ Members, for an entry \f$ v \f$ of a matrix or vector:
 - `from(x)`: \f$ x \f$ of another precision; `zero()`, `is_zero(v)`, `adjoint(v)`
 - `product(v, w)`: \f$ v^H w \f$; `squared_norm(v)`: \f$ \|v\|^2 \f$
 - `modulus(v)`: \f$ (v v^H)^{1/2} \f$ in double precision
-- `is_positive(d)`: whether a diagonal entry is; `inverse(d)`: the inverse of one in double precision, 0 if it is not
-  positive; `quotient(x, d)`: \f$ d^{-1} x \f$ for an entry of a vector
+- `is_positive(d)`: whether a diagonal entry is; `inverse(d)`: the inverse of one in double precision,
+  0 if it is not positive; `quotient(x, d)`: \f$ d^{-1} x \f$ for an entry of a vector
 - `rows`, `columns`, `coefficient(v, r, c)`: the numbers of an entry as a dense matrix or vector;
   `from_coefficients(p)`: the entry with the numbers `p[0]`, `p[1]`..., column by column
 */
