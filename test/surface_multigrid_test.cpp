@@ -432,9 +432,10 @@ std::array<double, 2> spectrum_of_cycle(const Indexed_triangle_mesh& mesh)
   const auto surface = hierarchy_of(mesh, 20);
   EXPECT_GE(surface->number_of_levels(), 3u);
   const std::size_t n = mesh.points.size();
-  internal::Surface_system<double> system;
+  namespace SMMi = CGAL::Surface_mesh_multigrid::internal;
+  SMMi::Surface_system<double> system;
   EXPECT_EQ(system.set(*surface,
-                       internal::assemble_rows<double>(*surface, {}, Laplace_element{1., 0.05}),
+                       SMMi::assemble_rows<double>(*surface, {}, Laplace_element{1., 0.05}),
                        std::vector<bool>(n, false)), "");
   Eigen::MatrixXd inverse(n, n), matrix(n, n);
   for(std::size_t i = 0; i < n; ++i) {

@@ -35,7 +35,13 @@ inline void adapt_chart(const std::vector<Indexed_mesh::Space_tensor>& metric, M
       += SMP::Reference_triangle<double>::of_points(a, b, c, options.metric.back()).area();
   }
   SMP::Low_stretch_map adapted = SMP::low_stretch_map(mesh, options);
-  if(adapted.is_ok() && SMP::is_simple_border(map.chart.border_edges(), adapted.uv)) {
+  const auto is_good
+    = [&] { return adapted.is_ok() && SMP::is_simple_border(map.chart.border_edges(), adapted.uv); };
+  if(adapted.is_ok() && !is_good()) { // which is rare, and takes longer
+    options.is_one_to_one = true;
+    adapted = SMP::low_stretch_map(mesh, options);
+  }
+  if(is_good()) {
     map.uv = std::move(adapted.uv); // no triangle is flipped
     map.report.distortion = measure_chart_distortion(mesh, map.uv);
     return;
