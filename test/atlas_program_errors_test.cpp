@@ -32,7 +32,7 @@ TEST_F(Atlas, has_the_options_that_help_lists)
       {"--texture", "64", "--charts", "uv", "--packer", "raster", "--packing-time", "0.001",
        "--method", "border-first", "--report", path("other.json")},
       {"--texture", "64", "--one-disk", "--method", "cascadic", "--quiet", "--strict", "--weld", "0",
-       "--time-limit", "1000"}};
+       "--time-limit", "1000", "--signal", "normals", "--signal-weight", "2"}};
   const std::vector<Texts> of_bake{
       {"--faces", "50", "--samples", "3", "--space", "object", "--bits", "16", "--displacement"},
       {"--error", "1%", "--space", "tangent", "--bits", "8", "--colors", path("first/checker.png")},
