@@ -4,11 +4,11 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_STRETCHED_CHART_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_STRETCHED_CHART_H
 
-#include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 #include <CGAL/Surface_mesh_parameterization/Low_stretch_options.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Low_stretch_solver.h>
 #include <CGAL/Surface_mesh_parameterization/internal/solver/Chart.h>
 #include <CGAL/Surface_mesh_parameterization/internal/solver/Pins.h>
+#include <CGAL/Surface_mesh_parameterization/internal/solver/sort_metric.h>
 #include <CGAL/Surface_mesh_parameterization/self_overlap.h>
 
 #include <cmath>
@@ -99,7 +99,6 @@ private:
   std::string held_border_error(const std::vector<Held_vertex>& held) const;
   std::vector<Plane_point> start(const Triangles& faces, Low_stretch_map& result) const;
   std::vector<double> face_weights(const Triangles& faces, Low_stretch_map& result) const;
-  std::vector<std::size_t> faces_of_triangles(const Triangles& faces) const;
   void finish(std::vector<Plane_point> places, Low_stretch_map& result);
 
   std::size_t m_n;
@@ -278,26 +277,6 @@ Stretched_chart<Energy>::start(const Triangles& faces, Low_stretch_map& result) 
   return places;
 }
 
-// For each triangle of the chart its face.
-template <class Energy>
-std::vector<std::size_t>
-Stretched_chart<Energy>::faces_of_triangles(const Triangles& faces) const
-{
-  const Triangles& triangles = m_chart.mesh.triangles;
-  const Indexed_mesh::Triangles_at_vertices at(triangles, m_chart.source.size());
-  const auto rank = Indexed_mesh::ranks(m_chart.source, m_n);
-  std::vector<std::size_t> result(triangles.size());
-  for(std::size_t f = 0; f < faces.size(); ++f) {
-    const Vertex_index a = rank[faces[f][0]], b = rank[faces[f][1]];
-    if(a == Indexed_mesh::no_vertex)
-      continue;
-    for(const auto* corner = at.begin(a); corner != at.end(a); ++corner)
-      if(triangles[*corner / 3][(*corner + 1) % 3] == b)
-        result[*corner / 3] = f;
-  }
-  return result;
-}
-
 // The weights of the triangles of the chart over their mean.
 template <class Energy>
 std::vector<double>
@@ -318,7 +297,7 @@ Stretched_chart<Energy>::face_weights(const Triangles& faces, Low_stretch_map& r
                   + " is not a positive number");
       return weights;
     }
-  for(const std::size_t f : faces_of_triangles(faces))
+  for(const auto f : numbers_in_input(faces, m_n, m_chart.mesh.triangles, m_chart.source))
     weights.push_back(wanted[f]);
   double weighted = 0., area = 0.;
   for(std::size_t t = 0; t < weights.size(); ++t) {
