@@ -117,7 +117,10 @@ TEST(Conformal_operator, is_the_sum_of_its_triangles)
     for(const auto& weights : {std::vector<double>(), random_weights(mesh, random)}) {
       const Dense_matrix expected = sum_of_triangles(mesh, weights);
       const auto op = conformal_operator<double>(mesh, no_pins(mesh), weights);
-      EXPECT_LE((to_dense(op.matrix) - expected).norm(), 1e-13 * expected.norm()) << name;
+      // What has hardly an area multiplies the last digit, which two calls of one function may not share
+      // if compilers fuse products in one of them.
+      const double rounding = has_slivers(name) ? 1e-9 : 1e-13;
+      EXPECT_LE((to_dense(op.matrix) - expected).norm(), rounding * expected.norm()) << name;
       const auto rounded = conformal_operator<float>(mesh, no_pins(mesh), weights);
       EXPECT_LE((to_dense(rounded.matrix) - expected).norm(), 1e-6 * expected.norm()) << name;
     }
