@@ -28,11 +28,12 @@ TEST_F(Atlas, has_the_options_that_help_lists)
   const std::vector<Texts> of_both{
       {"--texture", "32", "--padding", "0", "--mip-levels", "1", "--max-area-scale", "2",
        "--max-quasi-conformal", "1.5", "--max-charts", "3", "--pages", "2", "--packer", "horizon",
-       "--method", "spectral", "--threads", "1", "--ply", "--pictures", path("pictures")},
+       "--method", "spectral", "--threads", "1", "--ply", "--pictures", path("pictures"), "--signal",
+       "normals", "--signal-weight", "2"},
       {"--texture", "64", "--charts", "uv", "--packer", "raster", "--packing-time", "0.001",
        "--method", "border-first", "--report", path("other.json")},
       {"--texture", "64", "--one-disk", "--method", "cascadic", "--quiet", "--strict", "--weld", "0",
-       "--time-limit", "1000", "--signal", "normals", "--signal-weight", "2"}};
+       "--time-limit", "1000"}};
   const std::vector<Texts> of_bake{
       {"--faces", "50", "--samples", "3", "--space", "object", "--bits", "16", "--displacement"},
       {"--error", "1%", "--space", "tangent", "--bits", "8", "--colors", path("first/checker.png")},
