@@ -312,6 +312,27 @@ def low_stretch():
     return table(["chart", "faces", "tolerance 1e-2", "1e-3", "1e-4", "1e-3, two threads"], lines)
 
 
+def equation_peers():
+    """Seconds from nothing, those for other values of the matrix, and iterations, by surface."""
+    methods = {"multigrid": "`Surface_multigrid_solver`", "amgcl_smoothed_aggregation": "AMGCL, aggregation",
+               "amgcl_ruge_stuben": "AMGCL, Ruge-Stüben", "hypre_boomeramg": "hypre BoomerAMG",
+               "gravo_mg": "Gravo MG", "liu_2021": "Liu et al. 2021", "cholmod": "CHOLMOD"}
+    surfaces = {}
+    for row in read("equation_peers.csv"):
+        if row["problem"] in ("poisson", "screened"):
+            surfaces.setdefault((row["surface"], row["vertices"]), {})[row["method"]] = row
+
+    def cell(row):
+        if row is None:
+            return ""
+        steps = f" ({row['iterations']})" if row["iterations"] != "0" else ""
+        return f"{number(row, 'in_all', 3)}, {number(row, 'renewed', 3)}{steps}"
+
+    return table(["surface", "vertices"] + list(methods.values()),
+                 [[surface, f"{int(vertices):,}"] + [cell(rows.get(m)) for m in methods]
+                  for (surface, vertices), rows in surfaces.items()])
+
+
 def signals():
     """Mean and 95 % angle of normal maps by the map of the surface."""
     maps = ["conformal", "conformal to the signal", "low-stretch", "low-stretch to the signal"]
@@ -371,7 +392,7 @@ def memory_of_commands():
 TABLES = {table.__name__: table for table in (
     million_faces, ratios, scaling, growth, stages, stages_two_threads, atlases,
     atlases_beside_paper, atlases_short, live, levels, compile_time, reading, low_stretch, one_to_one,
-    signals, which_map, memory_of_commands)}
+    equation_peers, signals, which_map, memory_of_commands)}
 BEGIN, END = "<!-- table ", "<!-- end of table -->"
 
 
