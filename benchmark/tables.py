@@ -326,6 +326,8 @@ def equation_peers():
         if row is None:
             return ""
         steps = f" ({row['iterations']})" if row["iterations"] != "0" else ""
+        if row["method"].startswith(("amgcl", "hypre")):  # other values need all of it again
+            return f"{number(row, 'in_all', 3)}{steps}"
         return f"{number(row, 'in_all', 3)}, {number(row, 'renewed', 3)}{steps}"
 
     return table(["surface", "vertices"] + list(methods.values()),
