@@ -157,6 +157,7 @@ mapfile -t large < <(find "$charts" -maxdepth 1 -name '*_1[0-9][0-9][0-9]k.ply' 
 "$HLSCM_BIN/decimate" "${large[@]}" > "$out/decimate.csv"
 "$HLSCM_BIN/equations" > "$out/equations.csv"
 "$HLSCM_BIN/equations" --vertices 1000000 >> "$out/equations.csv"
+"$HLSCM_BIN/equations" --vertices 4000000 --no-peers >> "$out/equations.csv"
 "$HLSCM_BIN/levels" "${large[@]}" > "$out/levels.csv"
 "$HLSCM_BIN/baking" "${large[@]}" > "$out/baking.csv"
 "$HLSCM_BIN/packing" > "$out/packing.csv"
