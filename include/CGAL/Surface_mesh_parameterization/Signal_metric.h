@@ -36,6 +36,17 @@ inline Vector_of_space area_normal(const Indexed_mesh::Indexed_triangle_mesh& me
   return cross_product(p[v[1]] - p[v[0]], p[v[2]] - p[v[0]]);
 }
 
+// The areas of the triangles.
+inline std::vector<double> areas_of(const Indexed_mesh::Indexed_triangle_mesh& mesh)
+{
+  std::vector<double> areas;
+  for(std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Vector_of_space normal = area_normal(mesh, t);
+    areas.push_back(0.5 * std::sqrt(normal * normal));
+  }
+  return areas;
+}
+
 // Multiplied by c_1 - c_0 and c_2 - c_0, the first and the second give the gradient of the linear
 // function with the values c_0, c_1, c_2 at the corners of triangle t; 0 if it has no area.
 struct Linear_gradient
@@ -166,15 +177,14 @@ inline Face_tensors signal_metric(const Indexed_mesh::Indexed_triangle_mesh& mes
   if(signal.tensors.size() != n)
     result.fail(Mesh_status::BAD_OPTIONS, "the signal has " + std::to_string(signal.tensors.size())
                 + " tensors, but there are " + std::to_string(n) + " triangles");
-  std::vector<double> areas(n), areas_in_metric(n);
+  const std::vector<double> areas = internal::areas_of(mesh);
+  std::vector<double> areas_in_metric(n);
   double area = 0., sum = 0.;
   for(std::size_t t = 0; t < n && result.is_ok(); ++t) {
-    const internal::Vector_of_space normal = internal::area_normal(mesh, t);
     const double trace = signal.tensors[t].trace();
     if(!(trace >= 0.) || !std::isfinite(trace))
       result.fail(Mesh_status::BAD_OPTIONS, "the signal of triangle " + std::to_string(t)
                   + " is not finite, or negative");
-    areas[t] = 0.5 * std::sqrt(normal * normal);
     area += areas[t];
     sum += areas[t] * std::sqrt(0.5 * trace);
   }
@@ -219,14 +229,13 @@ inline Face_tensors importance_metric(const Indexed_mesh::Indexed_triangle_mesh&
   if(importance.size() != n)
     result.fail(Mesh_status::BAD_OPTIONS, "there are " + std::to_string(importance.size())
                 + " numbers of importance, but " + std::to_string(n) + " triangles");
-  std::vector<double> areas(n), areas_in_metric(n);
+  const std::vector<double> areas = internal::areas_of(mesh);
+  std::vector<double> areas_in_metric(n);
   double area = 0., sum = 0.;
   for(std::size_t t = 0; t < n && result.is_ok(); ++t) {
     if(!(importance[t] >= 0.) || !std::isfinite(importance[t]))
       result.fail(Mesh_status::BAD_OPTIONS, "the importance of triangle " + std::to_string(t)
                   + " is negative or no number");
-    const internal::Vector_of_space normal = internal::area_normal(mesh, t);
-    areas[t] = 0.5 * std::sqrt(normal * normal);
     area += areas[t];
     sum += areas[t] * importance[t];
   }
