@@ -49,9 +49,20 @@ _REAL = (np.dtype(np.float64), np.dtype(np.float32))
 _INDEX = tuple(np.dtype(t) for t in (np.int64, np.int32, np.uint32, np.uint64))
 
 
+_MOST_ROWS = 10 ** 9  # indices have 32 bits
+
+
+def _array(values: ArrayLike, name: str) -> Array:
+    """As an array that is not so large that copies of it are out of the question."""
+    a = np.asarray(values)
+    if a.size > 100 * _MOST_ROWS or (a.ndim > 0 and len(a) > _MOST_ROWS):
+        raise MeshError(f"{name} has more than {_MOST_ROWS} rows")
+    return a
+
+
 def _real(values: ArrayLike, name: str, columns: Optional[int] = None) -> Array:
     """As an array of float32 or float64: the same object if it is one."""
-    a = np.asarray(values)
+    a = _array(values, name)
     if a.dtype.kind not in "fiu":
         raise TypeError(f"{name} has entries of type {a.dtype} instead of real numbers")
     if columns is not None and a.ndim == 1 and a.size == 0:
@@ -61,7 +72,7 @@ def _real(values: ArrayLike, name: str, columns: Optional[int] = None) -> Array:
 
 def _index(values: ArrayLike, name: str) -> Array:
     """As a table (m, 3) of integers: the same object if it is one."""
-    a = np.asarray(values)
+    a = _array(values, name)
     if a.ndim == 1 and a.size == 0:
         a = np.zeros((0, 3), np.int64)
     if a.dtype.kind not in "iu":
@@ -69,17 +80,23 @@ def _index(values: ArrayLike, name: str) -> Array:
     return a if a.dtype in _INDEX else a.astype(np.int64)
 
 
-def _mesh(vertices: Any, faces: Any) -> Tuple[Array, Array]:
+def _parts(vertices: Any, faces: Any) -> Tuple[Any, Any]:
+    """Vertices and faces, or those of a mesh that has them."""
     if faces is None:
         if not (hasattr(vertices, "vertices") and hasattr(vertices, "faces")):
             raise TypeError("give vertices and faces, or a mesh that has them")
-        vertices, faces = vertices.vertices, vertices.faces
+        return vertices.vertices, vertices.faces
+    return vertices, faces
+
+
+def _mesh(vertices: Any, faces: Any) -> Tuple[Array, Array]:
+    vertices, faces = _parts(vertices, faces)
     return _real(vertices, "vertices", 3), _index(faces, "faces")
 
 
 def _numbers(values: Optional[ArrayLike], name: str) -> Array:
     """As a list (k,) of integers; none if it is None."""
-    a = np.asarray([] if values is None else values)
+    a = _array([] if values is None else values, name)
     if a.size == 0:
         a = np.zeros(0, np.int64)
     if a.dtype.kind not in "iu" or a.ndim != 1:
@@ -98,7 +115,7 @@ def _pins(pins: Optional[Pins]) -> Tuple[Array, Array]:
 
 
 def _list(values: Optional[ArrayLike], name: str, kinds: str = "fiu") -> Array:
-    a = np.asarray([] if values is None else values)
+    a = _array([] if values is None else values, name)
     if a.ndim != 1 or a.dtype.kind not in kinds:
         raise TypeError(f"{name} is not a list of numbers")
     return a
@@ -372,11 +389,10 @@ class Mended(NamedTuple):
 
 
 def _soup(points: Any, faces: Any) -> Tuple[Array, Array, Array]:
-    if faces is None:
-        points, faces = points.vertices, points.faces
+    points, faces = _parts(points, faces)
     points = _real(points, "vertices", 3)
     if not (isinstance(faces, np.ndarray) and faces.ndim == 2):
-        faces = [np.asarray(face) for face in faces]
+        faces = [_array(face, "a face") for face in faces]
         sizes = np.array([face.size for face in faces], np.int64)
         corners = np.concatenate(faces + [np.zeros(0, np.int64)]) if faces else np.zeros(0, np.int64)
         if any(face.ndim != 1 or (face.size and face.dtype.kind not in "iu") for face in faces):
@@ -384,6 +400,7 @@ def _soup(points: Any, faces: Any) -> Tuple[Array, Array, Array]:
         return points, corners.astype(np.int64), sizes
     if faces.dtype.kind not in "iu":
         raise TypeError(f"faces has entries of type {faces.dtype} instead of integers")
+    faces = _array(faces, "faces")
     return points, faces.astype(np.int64).ravel(), np.full(len(faces), faces.shape[1], np.int64)
 
 
@@ -570,13 +587,13 @@ def encode(image: ArrayLike, lowest: float = -1., highest: float = 1., bits: int
     if bits not in (8, 16):
         raise ValueError("bits is neither 8 nor 16")
     largest = float(2 ** bits - 1)
-    values = (np.asarray(image, np.float64) - lowest) * (largest / (highest - lowest))
+    values = (_real(image, "image").astype(np.float64) - lowest) * (largest / (highest - lowest))
     return (np.clip(values, 0., largest) + 0.5).astype(np.uint8 if bits == 8 else np.uint16)
 
 
 def write_png(path: Union[str, "os.PathLike[str]"], image: Array) -> None:
     """Writes an image (height, width) or (height, width, 1 to 4) of uint8 or uint16 as PNG."""
-    a = np.asarray(image)
+    a = _array(image, "image")
     a = a[:, :, None] if a.ndim == 2 else a
     if a.ndim != 3 or not 1 <= a.shape[2] <= 4 or a.dtype not in (np.uint8, np.uint16) or a.size == 0:
         raise ValueError("an image for PNG has 1 to 4 channels of uint8 or uint16")
@@ -792,8 +809,8 @@ class MultigridSolver:
         if self._solver is None:
             raise MeshError("there is no matrix")
         is_complex = isinstance(self._solver, _hlscm.ComplexSolver)
-        sides = np.asarray(b)
-        start = np.zeros_like(sides) if x0 is None else np.asarray(x0)
+        sides = _array(b, "b")
+        start = np.zeros_like(sides) if x0 is None else _array(x0, "x0")
         for a, name in ((sides, "b"), (start, "x0")):
             if a.dtype.kind not in ("fiuc" if is_complex else "fiu"):
                 raise TypeError(f"{name} has entries of type {a.dtype}")
@@ -814,7 +831,11 @@ def cotangent_laplacian(vertices: Any, faces: Any = None, /) -> Tuple[Any, Array
     from scipy.sparse import coo_matrix
     vertices, faces = _mesh(vertices, faces)
     p, f = np.asarray(vertices, np.float64), faces.astype(np.int64)
-    n = len(p)
+    n = len(p) if p.ndim else 0
+    if p.shape != (n, 3) or f.ndim != 2 or f.shape[1] != 3:
+        raise MeshError("vertices and faces have not the shapes (n, 3) and (m, 3)")
+    if not np.isfinite(p).all():
+        raise MeshError(f"vertex {int(np.argmin(np.isfinite(p).all(axis=1)))} is not finite")
     if f.size and (f.min() < 0 or f.max() >= n):
         raise MeshError("a face has a vertex that does not exist")
     rows, columns, values, areas = [], [], [], np.zeros(n)
