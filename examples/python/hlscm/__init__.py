@@ -124,8 +124,6 @@ def _list(values: Optional[ArrayLike], name: str, kinds: str = "fiu") -> Array:
 def _warn(report: Report) -> None:
     for sentence in report["warnings"]:
         warnings.warn(sentence, RuntimeWarning, stacklevel=3)
-    if not report["converged"] and not report["stopped_early"] and report["method"] != "cascadic":
-        warnings.warn("the tolerance was not met", RuntimeWarning, stacklevel=3)
 
 
 # Maps ----------------------------------------------------------------------------------------------
@@ -150,7 +148,8 @@ def parameterize(vertices: Any, faces: Any = None, /, *, pins: Optional[Pins] = 
     time_limit: seconds after which the map is taken as it is; 0 for none.
 
     Returns uv (n, 2), float64, in the order of the vertices; with `full` also a report.
-    Raises MeshError for what is no chart; see unwrap() for any surface.
+    Raises MeshError for what is no chart (see unwrap() for any surface), and, with the status "FAILED",
+    where the tolerance is not met. Warns (RuntimeWarning) of what the library has doubts about.
     """
     vertices, faces = _mesh(vertices, faces)
     pinned, places = _pins(pins)
