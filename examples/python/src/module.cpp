@@ -38,7 +38,7 @@ void raise(const Bad_input& error)
 PYBIND11_MODULE(_hlscm, m)
 {
   using namespace hlscm_python;
-  m.doc() = "The compiled part of hlscm: strict about its arguments, which hlscm/__init__.py prepares.";
+  m.doc() = "The compiled part of hlscm: strict about its arguments, which package/hlscm/__init__.py prepares.";
   py::dict defaults; // of those that are raised in Python
   defaults["status"] = name_of(Mesh_status::BAD_OPTIONS);
   mesh_error = PyErr_NewExceptionWithDoc(
