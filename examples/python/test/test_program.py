@@ -69,6 +69,17 @@ class Same_as_program(unittest.TestCase):
             scale = (there[-1] - there[0]) / (uv[-1] - uv[0])
             self.assertLess(abs(uv * scale + (there[0] - uv[0] * scale) - there).max(), 1e-12)
 
+    def test_whole_surfaces_up_to_a_similarity(self):
+        for vertices, faces in (meshes.torus(), meshes.two_parts()):
+            made = hlscm.unwrap(vertices, faces)
+            meshes.write_ply(self.path("in.ply"), vertices, faces)
+            self.run_program("parameterize", self.path("in.ply"), "-o", self.path("out.obj"))
+            _, _, uv, uv_faces = meshes.read_obj(self.path("out.obj"))
+            here = made.uvs[made.indices].reshape(-1, 2) @ [1, 1j]
+            there = uv[uv_faces].reshape(-1, 2) @ [1, 1j]
+            scale = (there[-1] - there[0]) / (here[-1] - here[0])
+            self.assertLess(abs(here * scale + (there[0] - here[0] * scale) - there).max(), 1e-9)
+
     def test_low_stretch_maps(self):
         mesh = meshes.hills(60, height=0.7, seed=4)
         pins = {0: (0., 0.), 59: (1.5, 0.), 3599: (1.5, 2.)}

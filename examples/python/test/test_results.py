@@ -6,6 +6,7 @@ import ast
 import os
 import re
 import tempfile
+import types
 import unittest
 
 import numpy as np
@@ -326,6 +327,46 @@ class Equations(unittest.TestCase):
             self.solver.solve(self.b[:, 0], tolerance=1e-12)
         self.assertIn(caught.exception.status, ("FAILED", "BAD_OPTIONS"))
         self.assertRaises(hlscm.MeshError, hlscm.MultigridSolver(*self.mesh).solve, self.b)
+
+
+class Documentation(unittest.TestCase):
+    """What README and manual show runs."""
+
+    def names(self):
+        vertices, faces = meshes.hills(40)
+        return {"vertices": vertices, "faces": faces, "hlscm": hlscm, "scipy": scipy,
+                "mesh": types.SimpleNamespace(vertices=vertices, faces=faces), "b": vertices[:, 2]}
+
+    def text(self, file):
+        root = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../..")
+        with open(os.path.join(root, file), encoding="utf-8") as stream:
+            return stream.read()
+
+    def test_readme(self):
+        code = re.search(r"```python\n(.*?)```", self.text("README.md"), re.DOTALL).group(1)
+        names = self.names()
+        exec(code, names)
+        self.assertEqual(names["normals"].shape, (2048, 2048, 3))
+
+    def test_manual(self):
+        chapter = self.text("doc/hlscm_manual.txt").split("\\subsection HLSCM_python")[1]
+        chapter = chapter.split("\\subsection")[0]
+        names = self.names()
+        rows = [row.split(" | ", 1)[1] for row in re.findall(r"^\| .* \|$", chapter, re.MULTILINE)[1:]]
+        with tempfile.TemporaryDirectory() as work:
+            before = os.getcwd()
+            os.chdir(work)
+            try:
+                for row in rows:
+                    names["light"] = names.get("level")
+                    for code in re.findall(r"`([^`]*[(=][^`]*)`", row):
+                        with self.subTest(code):
+                            exec(code, names)
+            finally:
+                os.chdir(before)
+        self.assertEqual(len(rows), 13)
+        exec(re.search(r"\\code{.py}\n(.*?)\\endcode", chapter, re.DOTALL).group(1), names)
+        self.assertEqual(names["x"].shape, names["b"].shape)
 
 
 class Interface(unittest.TestCase):
