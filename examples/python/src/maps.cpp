@@ -124,13 +124,14 @@ py::tuple parameterize(const py::array& points, const py::array& triangles, bool
 }
 
 py::tuple unwrap(const py::array& points, const py::array& triangles, const Numbers& pinned,
-                 const py::array& places, const Conformal_choice& choice, unsigned int threads,
-                 const py::object& progress)
+                 const py::array& places, const std::vector<std::uint8_t>& no_seams,
+                 const Conformal_choice& choice, unsigned int threads, const py::object& progress)
 {
   const Indexed_triangle_mesh mesh = to_mesh(points, triangles);
   SMT::Surface_map_options options;
   options.solver = choice.options();
   options.pins = to_pins(pinned, places);
+  options.no_seams = no_seams;
   if(choice.repairs_flips)
     options.map = [](const Indexed_triangle_mesh& component, const std::vector<SMP::HLSCM_pin>& pins,
                      const SMP::HLSCM_options& solver) {
@@ -314,18 +315,19 @@ void bind_maps(py::module_& m)
         "time_limit"_a, "threads"_a, "progress"_a);
   m.def("unwrap",
         [choice](const py::array& vertices, const py::array& faces, const Numbers& pinned,
-                 const py::array& places, const std::string& method, double tolerance,
-                 bool repair_flips, std::size_t max_iterations, double uv_tolerance,
-                 double time_limit, unsigned int threads, const py::object& progress) {
-          return unwrap(vertices, faces, pinned, places,
+                 const py::array& places, const std::vector<std::uint8_t>& no_seams,
+                 const std::string& method, double tolerance, bool repair_flips,
+                 std::size_t max_iterations, double uv_tolerance, double time_limit,
+                 unsigned int threads, const py::object& progress) {
+          return unwrap(vertices, faces, pinned, places, no_seams,
                         choice(method, tolerance, repair_flips, max_iterations, uv_tolerance,
                                time_limit),
                         threads, progress);
         },
         "The conformal map of any surface, cut open where need be: vmapping (w,), indices (m, 3), "
         "uv (w, 2), the component of each face and reports.",
-        "vertices"_a, "faces"_a, "pinned"_a, "places"_a, "method"_a, "tolerance"_a, "repair_flips"_a,
-        "max_iterations"_a, "uv_tolerance"_a, "time_limit"_a, "threads"_a, "progress"_a);
+        "vertices"_a, "faces"_a, "pinned"_a, "places"_a, "no_seams"_a, "method"_a, "tolerance"_a,
+        "repair_flips"_a, "max_iterations"_a, "uv_tolerance"_a, "time_limit"_a, "threads"_a, "progress"_a);
   m.def("low_stretch", &low_stretch, "The low-stretch map of a chart: its uv (n, 2) and a report.",
         "vertices"_a, "faces"_a, "energy"_a, "pinned"_a, "places"_a, "start_uv"_a, "face_weights"_a, "metric"_a,
         "one_to_one"_a, "tolerance"_a, "max_iterations"_a, "time_limit"_a, "threads"_a, "progress"_a);

@@ -71,7 +71,7 @@ class Same_as_program(unittest.TestCase):
 
     def test_whole_surfaces_up_to_a_similarity(self):
         for vertices, faces in (meshes.torus(), meshes.two_parts()):
-            made = hlscm.unwrap(vertices, faces)
+            made = hlscm.unwrap(vertices, faces, mend=True)
             meshes.write_ply(self.path("in.ply"), vertices, faces)
             self.run_program("parameterize", self.path("in.ply"), "-o", self.path("out.obj"))
             _, _, uv, uv_faces = meshes.read_obj(self.path("out.obj"))

@@ -151,6 +151,32 @@ class Soups(unittest.TestCase):
         self.assertEqual(len(mended.sentences), 3)
         self.assertTrue(hlscm.info(mended.vertices, mended.faces)["is_surface"])
 
+    def test_no_seam_divides_a_polygon(self):
+        n, m = 24, 12
+        points, _ = meshes.torus(n, m)
+        i, j = (a.ravel() for a in np.meshgrid(np.arange(n), np.arange(m), indexing="ij"))
+        quads = np.stack([(p % n) * m + q % m
+                          for p, q in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))], axis=1)
+        for made, uv in ((a := hlscm.unwrap(points, quads, mend=True), a.uvs),
+                         (a := hlscm.atlas(points, quads, mend=True, full=True), a.uv)):
+            self.assertEqual(np.bincount(made.face).tolist(), [2] * len(quads))
+            corners = {}
+            for f, vertices, indices in zip(made.face, made.vmapping[made.indices], made.indices):
+                for v, w in zip(vertices, indices):
+                    self.assertIn(v, quads[f])
+                    corners.setdefault((f, v), set()).add(tuple(uv[w]))
+            self.assertTrue(all(len(places) == 1 for places in corners.values()))
+
+    def test_pins_of_a_soup(self):
+        vertices, faces = meshes.hills(12)
+        far = np.concatenate([[[9., 9., 9.]], vertices])  # in no face
+        pins = {1: (0.5, 0.), 144: (2., 1.)}
+        made = hlscm.unwrap(far, faces + 1, mend=True, pins=pins)
+        for v, place in pins.items():
+            np.testing.assert_array_equal(made.uvs[made.vmapping == v], [place])
+        self.assertRaises(hlscm.MeshError, hlscm.unwrap, far, faces + 1, mend=True,
+                          pins={0: (0, 0), 5: (1, 1)})
+
     def test_an_edge_with_three_faces(self):
         points = np.array([[0., 0, 0], [0, 0, 1], [1, 0, 0], [-1, 0.1, 0], [0, 1, 0]])
         faces = [[0, 1, 2], [1, 0, 3], [0, 1, 4]]

@@ -178,21 +178,33 @@ class Unwrapped(NamedTuple):
     uvs: Array                #: (w, 2) float64
     components: Array         #: (m,) uint32: the component of each face
     reports: List[Report]     #: of each component
+    face: Optional[Array]     #: with `mend`: the face of the input that each one is
 
 
 def unwrap(vertices: Any, faces: Any = None, /, *, pins: Optional[Pins] = None, method: str = "hlscm",
            tolerance: float = 1e-2, repair_flips: bool = False, max_iterations: int = 0,
-           uv_tolerance: float = 0., time_limit: float = 0., threads: int = 0,
+           uv_tolerance: float = 0., time_limit: float = 0., mend: bool = False, threads: int = 0,
            progress: Progress = None) -> Unwrapped:
     """Maps any surface to the plane conformally, in one piece for each connected component.
 
     Components that are closed or have handles are cut open along short seams; several are laid side by
-    side, at the same density. Options as for parameterize(). Raises MeshError for what is no oriented
-    manifold; see mend().
+    side, at the same density. Options as for parameterize(). With `mend` polygons and what is no
+    oriented manifold are mended first, see mend(), and no seam runs along a diagonal of a polygon if that
+    can be helped; otherwise that raises MeshError.
     """
-    vertices, faces = _mesh(vertices, faces)
-    return Unwrapped(*_hlscm.unwrap(vertices, faces, *_pins(pins), method, tolerance, repair_flips,
-                                    max_iterations, uv_tolerance, time_limit, threads, progress))
+    vertices, faces, back, no_seams = _mended(vertices, faces, mend)
+    pinned, places = _pins(pins)
+    if back is not None and len(pinned):
+        at = np.minimum(np.searchsorted(back.vertex, pinned), len(back.vertex) - 1)
+        if (back.vertex[at] != pinned).any():
+            raise MeshError("a vertex is pinned, but no face has it")
+        pinned = at.astype(np.int64)
+    vmapping, *rest = _hlscm.unwrap(vertices, faces, pinned, places, no_seams, method, tolerance,
+                                    repair_flips, max_iterations, uv_tolerance, time_limit, threads,
+                                    progress)
+    if back is None:
+        return Unwrapped(vmapping, *rest, None)
+    return Unwrapped(back.vertex[vmapping], *rest, back.face)
 
 
 def low_stretch(vertices: Any, faces: Any = None, /, *, energy: str = "symmetric-dirichlet",
@@ -403,6 +415,16 @@ def _soup(points: Any, faces: Any) -> Tuple[Array, Array, Array]:
     return points, faces.astype(np.int64).ravel(), np.full(len(faces), faces.shape[1], np.int64)
 
 
+def _mended(vertices: Any, faces: Any,
+            is_mended: bool) -> Tuple[Array, Array, Optional[Mended], Array]:
+    """The surface of the input, the way back if it is mended, and edges that shall not be seams."""
+    if not is_mended:
+        return (*_mesh(vertices, faces), None, np.zeros(0, np.uint8))
+    back = mend(vertices, faces)
+    diagonals = back.diagonals if back.diagonals.any() else np.zeros(0, np.uint8)
+    return back.vertices, back.faces, back, diagonals
+
+
 def mend(vertices: Any, faces: Any = None, /) -> Mended:
     """The surface that polygons are meant to be: cut into triangles, without duplicates, turned until
     neighbours agree, and split where it is no manifold. Nothing moves.
@@ -485,18 +507,13 @@ def atlas(vertices: Any, faces: Any = None, /, *, max_charts: int = 0, area_scal
     Returns vmapping (w,) uint32, indices (m, 3) uint32, uvs (w, 2) float32, faces in their order: the
     new mesh is `vertices[vmapping], indices, uvs`. With `full` an Atlas, with report, charts and pages.
     """
-    back, diagonals = None, None
-    if mend:
-        back = globals()["mend"](vertices, faces)
-        vertices, faces, diagonals = back.vertices, back.faces, back.diagonals
-    vertices, faces = _mesh(vertices, faces)
+    vertices, faces, back, no_seams = _mended(vertices, faces, mend)
     width, height = (resolution, resolution) if np.ndim(resolution) == 0 else resolution
     made = _hlscm.atlas(
         vertices, faces, method, max_charts, area_scale, quasi_conformal, least_fill, width, height,
         padding, mip_levels, pages, texels_per_unit, packing_time, _list(density, "density"),
         None if metric is None else _real(metric, "metric"),
-        diagonals if diagonals is not None and diagonals.any() else np.zeros(0, np.uint8),
-        time_limit, threads, progress)
+        no_seams, time_limit, threads, progress)
     vmapping = made["vmapping"] if back is None else back.vertex[made["vmapping"]]
     uvs = made["uv"].astype(np.float32)
     if not full:
