@@ -11,6 +11,7 @@
 #include <CGAL/Indexed_mesh/Soup_diagnosis.h>
 #include <CGAL/Indexed_mesh/border_loops.h>
 #include <CGAL/Indexed_mesh/surface_of_soup.h>
+#include <CGAL/Indexed_mesh/weld_points.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/Distortion_measures.h>
 #include <CGAL/Surface_mesh_parameterization/Map_certificate.h>
@@ -226,15 +227,32 @@ py::tuple mend(const py::array& points, const py::array_t<std::int64_t>& corners
                         to_array(std::move(surface.diagonals)), to_dict(surface.repairs), sentences);
 }
 
-py::dict info(const py::array& points, const py::array_t<std::int64_t>& corners,
-              const py::array_t<std::int64_t>& sizes)
+// Says of a face that it has no vertex at a corner.
+void check_corners(const IM::Polygon_soup& soup)
 {
-  const IM::Polygon_soup soup = to_soup(points, corners, sizes);
-  for(std::size_t f = 0; f < soup.number_of_faces(); ++f) // the examination relies on it
+  for(std::size_t f = 0; f < soup.number_of_faces(); ++f)
     for(const std::uint32_t v : soup.face(f))
       if(v == IM::no_vertex)
         throw Bad_input(Mesh_status::BAD_MESH,
                         "face " + std::to_string(f) + " has a vertex that does not exist");
+}
+
+py::tuple weld(const py::array& points, const py::array_t<std::int64_t>& corners,
+               const py::array_t<std::int64_t>& sizes, double distance)
+{
+  IM::Polygon_soup soup = to_soup(points, corners, sizes);
+  check_corners(soup);
+  if(!(distance >= 0.))
+    throw Bad_input(Mesh_status::BAD_OPTIONS, "the distance is not 0 or more");
+  run(1, [&] { return IM::weld_points(soup, distance); });
+  return py::make_tuple(to_array(std::move(soup.points)), to_array(std::move(soup.corners)));
+}
+
+py::dict info(const py::array& points, const py::array_t<std::int64_t>& corners,
+              const py::array_t<std::int64_t>& sizes)
+{
+  const IM::Polygon_soup soup = to_soup(points, corners, sizes);
+  check_corners(soup);
   const IM::Soup_diagnosis found = run(1, [&soup] { return IM::diagnose_soup(soup); });
   py::dict d;
   d["vertices"] = found.vertices;
@@ -318,6 +336,8 @@ void bind_measures(py::module_& m)
         "The surface of a polygon soup: points (n, 3), triangles (m, 3), the vertex of the soup of each "
         "point, the face of each triangle, the diagonals of each triangle, repairs, sentences.",
         "vertices"_a, "corners"_a, "sizes"_a);
+  m.def("weld", &weld, "Points that are left, and the corners of all faces.", "vertices"_a, "corners"_a,
+        "sizes"_a, "distance"_a);
   m.def("info", &info, "What a polygon soup is as a surface.", "vertices"_a, "corners"_a, "sizes"_a);
   m.def("signal_metric", &signal_metric,
         "The metric (m, 6) of a surface blended with that of values (n, c), or of its normals.",

@@ -13,6 +13,7 @@
 #include <CGAL/Surface_mesh_texturing/IO/PLY.h>
 #include <CGAL/Surface_mesh_texturing/bake_by_rays.h>
 #include <CGAL/Surface_mesh_texturing/bake_colors.h>
+#include <CGAL/Surface_mesh_texturing/bake_displacement.h>
 #include <CGAL/Surface_mesh_texturing/bake_normal_map.h>
 #include <CGAL/Surface_mesh_texturing/build_texture_atlas.h>
 
@@ -74,18 +75,37 @@ struct Atlas_choice
 {
   std::string method; // "border-first", or of conformal maps
   SMT::Texture_atlas_options options;
+  std::optional<std::vector<std::uint32_t>> charts; // a number for each face, if they are given
 };
 
-SMT::Texture_atlas_result build(const Indexed_triangle_mesh& mesh, const Atlas_choice& choice)
+template <class Segmenter>
+SMT::Texture_atlas_result build(const Indexed_triangle_mesh& mesh, const Atlas_choice& choice,
+                                const Segmenter& segmenter)
 {
   typedef SMP::Conformal_method Method;
   if(choice.method == "border-first")
-    return SMT::build_texture_atlas(mesh, choice.options);
+    return SMT::build_texture_atlas(mesh, choice.options, segmenter);
   SMT::Conformal_chart_parameterizer parameterizer;
   parameterizer.solver.method = chosen<Method>("method", choice.method,
     {{"hlscm", Method::HLSCM}, {"spectral", Method::SPECTRAL}, {"cascadic", Method::CASCADIC},
      {"lscm", Method::LSCM}, {"direct", Method::DIRECT}});
-  return SMT::build_texture_atlas(mesh, choice.options, SMT::Chart_growth_segmenter(), parameterizer);
+  return SMT::build_texture_atlas(mesh, choice.options, segmenter, parameterizer);
+}
+
+SMT::Texture_atlas_result build(const Indexed_triangle_mesh& mesh, const Atlas_choice& choice)
+{
+  if(!choice.charts)
+    return build(mesh, choice, SMT::Chart_growth_segmenter());
+  SMT::Texture_atlas_result result;
+  if(result.fail(Mesh_status::BAD_MESH, CGAL::Indexed_mesh::manifold_error(mesh)))
+    return result;
+  if(choice.charts->size() != mesh.triangles.size()) {
+    result.fail(Mesh_status::BAD_OPTIONS, "there are charts for " + std::to_string(choice.charts->size())
+                + " faces of " + std::to_string(mesh.triangles.size()));
+    return result;
+  }
+  return build(mesh, choice, SMT::Given_charts_segmenter(
+                               SMT::charts_of_labels(mesh.triangles, *choice.charts)));
 }
 
 py::dict atlas(const py::array& points, const py::array& triangles, const std::string& method,
@@ -93,11 +113,12 @@ py::dict atlas(const py::array& points, const py::array& triangles, const std::s
                std::size_t width, std::size_t height, std::size_t padding, unsigned int mip_levels,
                std::size_t pages, double texels_per_unit, double packing_time,
                const std::vector<float>& density, const std::optional<py::array>& metric,
-               const std::vector<std::uint8_t>& no_seams, double time_limit, unsigned int threads,
-               const py::object& progress)
+               const std::vector<std::uint8_t>& no_seams,
+               const std::optional<std::vector<std::uint32_t>>& charts, double time_limit,
+               unsigned int threads, const py::object& progress)
 {
   const Indexed_triangle_mesh mesh = to_mesh(points, triangles);
-  Atlas_choice choice = {method, {}};
+  Atlas_choice choice = {method, {}, charts};
   if(method != "border-first" && method != "hlscm" && method != "spectral" && method != "cascadic"
      && method != "lscm" && method != "direct")
     throw Bad_input(Mesh_status::BAD_OPTIONS, "method is \"" + method
@@ -238,6 +259,15 @@ py::tuple bake_vertex_values(const Textured_arrays& fine,
   });
 }
 
+py::tuple bake_displacement(const Textured_arrays& fine, const Textured_arrays& light,
+                            const Baking_choice& choice)
+{
+  const Textured_triangle_mesh from = to_textured(fine), to = to_textured(light);
+  return baked(choice, [&](const SMT::Baking_options& options) {
+    return SMT::bake_displacement(from, to, options).map;
+  });
+}
+
 py::tuple bake_image(const Textured_arrays& fine, const py::array& former_uv,
                      const py::array& former_triangles,
                      const py::array_t<float, py::array::c_style>& texels,
@@ -284,8 +314,8 @@ void bind_texturing(py::module_& m)
         "each chart, sizes and a report.",
         "vertices"_a, "faces"_a, "method"_a, "max_charts"_a, "area_scale"_a, "quasi_conformal"_a,
         "least_fill"_a, "width"_a, "height"_a, "padding"_a, "mip_levels"_a, "pages"_a,
-        "texels_per_unit"_a, "packing_time"_a, "density"_a, "metric"_a, "no_seams"_a, "time_limit"_a,
-        "threads"_a, "progress"_a);
+        "texels_per_unit"_a, "packing_time"_a, "density"_a, "metric"_a, "no_seams"_a, "charts"_a,
+        "time_limit"_a, "threads"_a, "progress"_a);
   py::class_<Baking_choice>(m, "BakingOptions", "The options of all functions that bake.")
     .def(py::init([](std::size_t width, std::size_t height, std::size_t samples,
                      std::optional<std::size_t> dilation, unsigned int threads, py::object progress) {
@@ -301,6 +331,9 @@ void bind_texturing(py::module_& m)
   m.def("bake_vertex_values", &bake_vertex_values,
         "The image (height, width, c) of values (n, c) of the vertices of the fine mesh.", "fine"_a,
         "values"_a, "light"_a, "options"_a);
+  m.def("bake_displacement", &bake_displacement,
+        "The image (height, width, 1) of how far the fine mesh lies above the light one.", "fine"_a,
+        "light"_a, "options"_a);
   m.def("bake_image", &bake_image, "The image of the fine mesh by its former uv, in its new one.",
         "fine"_a, "former_uv"_a, "former_uv_faces"_a, "image"_a, "light"_a, "options"_a);
   m.def("write_mesh", &write_mesh, "Writes a mesh with texture coordinates: obj, ply or glb.", "path"_a,

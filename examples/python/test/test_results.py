@@ -151,6 +151,21 @@ class Soups(unittest.TestCase):
         self.assertEqual(len(mended.sentences), 3)
         self.assertTrue(hlscm.info(mended.vertices, mended.faces)["is_surface"])
 
+    def test_weld(self):
+        vertices, faces = meshes.hills(12)
+        apart = vertices[faces.ravel()]
+        left, back = hlscm.weld(apart, np.arange(faces.size).reshape(-1, 3))
+        self.assertEqual((left.shape, back.shape, back.dtype), (vertices.shape, faces.shape, np.uint32))
+        np.testing.assert_array_equal(left[back], vertices[faces])
+        shaken = apart + 1e-9 * np.random.default_rng(1).standard_normal(apart.shape)
+        self.assertEqual(len(hlscm.weld(shaken, np.arange(faces.size).reshape(-1, 3), distance=1e-7)[0]),
+                         len(vertices))
+        _, polygons = hlscm.weld([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 0]],
+                                 [[0, 1, 2, 3], [4, 2, 1]])
+        self.assertEqual([p.tolist() for p in polygons], [[0, 1, 2, 3], [0, 2, 1]])
+        self.assertRaises(hlscm.MeshError, hlscm.weld, vertices, faces, distance=-1.)
+        self.assertRaises(hlscm.MeshError, hlscm.weld, vertices[:5], faces)
+
     def test_no_seam_divides_a_polygon(self):
         n, m = 24, 12
         points, _ = meshes.torus(n, m)
@@ -225,6 +240,27 @@ class Atlases(unittest.TestCase):
                                    atol=1e-5)
         by_rays = hlscm.bake_normal_map((vertices, faces), made, resolution=100)
         self.assertLess(abs(by_rays - image)[covered].mean(), 1e-3)
+
+    def test_given_charts(self):
+        vertices, faces = meshes.hills(30)
+        half = (vertices[faces].mean(axis=1)[:, 0] > 0.5).astype(int)
+        made = hlscm.atlas(vertices, faces, charts=half, full=True)
+        self.assertEqual(len(set(zip(half.tolist(), made.charts.tolist()))), 2)
+        quads = hlscm.atlas(vertices, faces.tolist(), charts=half, mend=True, full=True)
+        np.testing.assert_array_equal(quads.charts, made.charts)
+        for bad in (half[:-1], half - 1, half + 0.):
+            self.assertRaises((hlscm.MeshError, TypeError), hlscm.atlas, vertices, faces, charts=bad)
+        one = hlscm.atlas(*meshes.torus(), charts=np.zeros(2 * 48 * 24, int), full=True)
+        self.assertEqual(one.charts.max(), 0)
+        self.assertTrue(one.report["charts"][0]["is_one_to_one"])
+
+    def test_heights(self):
+        vertices, faces = meshes.torus()
+        made = hlscm.atlas(vertices, faces, full=True)
+        raised = made.textured._replace(vertices=vertices + [0., 0., 0.5])
+        image, covered, _ = hlscm.bake_displacement(raised, made, resolution=128, full=True)
+        up = hlscm.bake_normal_map(made, made, resolution=128, space="object")[..., 2]
+        np.testing.assert_allclose(image[covered, 0], 0.5 * up[covered], atol=0.05)
 
     def test_files(self):
         rng = np.random.default_rng(3)
@@ -361,7 +397,8 @@ class Documentation(unittest.TestCase):
     def names(self):
         vertices, faces = meshes.hills(40)
         return {"vertices": vertices, "faces": faces, "hlscm": hlscm, "scipy": scipy,
-                "mesh": types.SimpleNamespace(vertices=vertices, faces=faces), "b": vertices[:, 2]}
+                "mesh": types.SimpleNamespace(vertices=vertices, faces=faces), "b": vertices[:, 2],
+                "labels": np.zeros(len(faces), int)}
 
     def text(self, file):
         root = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../..")
@@ -390,7 +427,7 @@ class Documentation(unittest.TestCase):
                             exec(code, names)
             finally:
                 os.chdir(before)
-        self.assertEqual(len(rows), 13)
+        self.assertEqual(len(rows), 16)
         exec(re.search(r"\\code{.py}\n(.*?)\\endcode", chapter, re.DOTALL).group(1), names)
         self.assertEqual(names["x"].shape, names["b"].shape)
 

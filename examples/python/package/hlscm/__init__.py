@@ -4,7 +4,8 @@
 
 A mesh is an array of vertices (n, 3), float32 or float64, in any unit of length, and one of faces
 (m, 3), int32, int64 or uint32, counterclockwise; or any object that has them as `vertices` and
-`faces`. Arrays of these types are read where they are; what is returned is the library's own memory.
+`faces`. The library's arrays are filled from these directly, in whatever order they lie in memory; what
+is returned is the library's own memory.
 
 Functions compute without the lock of the interpreter, with `threads` threads (0: one for each
 processor), and return the same bytes for any number of them. `progress` is called with the part done,
@@ -30,10 +31,11 @@ from ._hlscm import MeshError, __version__
 
 __all__ = [
     "Atlas", "Certificate", "Distortion", "Level", "LiveMap", "Mended", "MeshError", "MultigridSolver",
-    "ProgressiveMesh", "TexturedMesh", "Unwrapped", "atlas", "bake_image", "bake_normal_map",
-    "bake_vertex_values", "border_loops", "certify", "cotangent_laplacian", "decimate", "distortion",
-    "encode", "importance_metric", "info", "low_stretch", "lscm", "mend", "parameterize", "repair_flips",
-    "signal_metric", "spectral", "unwrap", "write_mesh", "write_png",
+    "ProgressiveMesh", "TexturedMesh", "Unwrapped", "atlas", "bake_displacement", "bake_image",
+    "bake_normal_map", "bake_vertex_values", "border_loops", "certify", "cotangent_laplacian",
+    "decimate", "distortion", "encode", "importance_metric", "info", "low_stretch", "lscm", "mend",
+    "parameterize", "repair_flips", "signal_metric", "spectral", "unwrap", "weld", "write_mesh",
+    "write_png",
 ]
 
 Array = np.ndarray
@@ -434,6 +436,17 @@ def mend(vertices: Any, faces: Any = None, /) -> Mended:
     return Mended(*_hlscm.mend(*_soup(vertices, faces)))
 
 
+def weld(vertices: Any, faces: Any = None, /, *, distance: float = 0.) -> Tuple[Array, Any]:
+    """Merges vertices that are no farther apart than a distance, as files without indices have them.
+    Returns the vertices (n', 3) that are left, float64, and the faces, uint32, in the form they had:
+    (m, k), or lists. For triangles that use a vertex twice afterwards see mend()."""
+    points, corners, sizes = _soup(vertices, faces)
+    left, corners = _hlscm.weld(points, corners, sizes, distance)
+    if len(sizes) == 0 or (sizes == sizes[0]).all():
+        return left, corners.reshape(len(sizes), sizes[0] if len(sizes) else 3)
+    return left, np.split(corners, np.cumsum(sizes)[:-1])
+
+
 def info(vertices: Any, faces: Any = None, /) -> Report:
     """What polygons are as a surface: counts, components, borders, genus, and what is wrong."""
     return _hlscm.info(*_soup(vertices, faces))
@@ -485,9 +498,9 @@ def atlas(vertices: Any, faces: Any = None, /, *, max_charts: int = 0, area_scal
           quasi_conformal: float = 2., least_fill: float = 0.75, method: str = "border-first",
           resolution: Union[int, Tuple[int, int]] = 1024, padding: int = 2, mip_levels: int = 0,
           pages: int = 1, texels_per_unit: float = 0., packing_time: float = 0.,
-          density: Optional[ArrayLike] = None, metric: Optional[ArrayLike] = None, mend: bool = False,
-          time_limit: float = 0., threads: int = 0, progress: Progress = None,
-          full: bool = False) -> Any:
+          density: Optional[ArrayLike] = None, metric: Optional[ArrayLike] = None,
+          charts: Optional[ArrayLike] = None, mend: bool = False, time_limit: float = 0.,
+          threads: int = 0, progress: Progress = None, full: bool = False) -> Any:
     """Cuts a surface into charts, maps each one-to-one, and packs them into textures.
 
     max_charts: the number of charts to come down to, beyond the bounds if need be; 0 for as few as
@@ -501,6 +514,8 @@ def atlas(vertices: Any, faces: Any = None, /, *, max_charts: int = 0, area_scal
     packing_time: seconds for better packings, counted so that the result is the same anywhere.
     density: (m,), the texels that a face is to have along a unit of length, relative to others.
     metric: (m, 6), see signal_metric().
+    charts: (m,), a number from 0 on for each face: edges between different ones are seams. Charts that
+        have no one-to-one map are cut. With zeros one for each component.
     mend: whether the input is mended first, see mend(); then the faces are those of the mended surface.
     time_limit: seconds after which the atlas is finished in the quickest way that makes it valid.
 
@@ -508,12 +523,19 @@ def atlas(vertices: Any, faces: Any = None, /, *, max_charts: int = 0, area_scal
     new mesh is `vertices[vmapping], indices, uvs`. With `full` an Atlas, with report, charts and pages.
     """
     vertices, faces, back, no_seams = _mended(vertices, faces, mend)
+    labels = None if charts is None else _numbers(charts, "charts")
+    if labels is not None and labels.size and (labels.min() < 0 or labels.max() >= 2 ** 32):
+        raise MeshError("a face has a chart below 0 or beyond 32 bits")
+    if labels is not None and back is not None:
+        if len(labels) <= int(back.face.max()):
+            raise MeshError(f"there are charts for {len(labels)} faces alone")
+        labels = labels[back.face]
     width, height = (resolution, resolution) if np.ndim(resolution) == 0 else resolution
     made = _hlscm.atlas(
         vertices, faces, method, max_charts, area_scale, quasi_conformal, least_fill, width, height,
         padding, mip_levels, pages, texels_per_unit, packing_time, _list(density, "density"),
         None if metric is None else _real(metric, "metric"),
-        no_seams, time_limit, threads, progress)
+        no_seams, labels, time_limit, threads, progress)
     vmapping = made["vmapping"] if back is None else back.vertex[made["vmapping"]]
     uvs = made["uv"].astype(np.float32)
     if not full:
@@ -594,6 +616,16 @@ def bake_image(fine: Any, former_uv: ArrayLike, former_uv_faces: ArrayLike, imag
                                _index(former_uv_faces, "former_uv_faces"),
                                np.ascontiguousarray(_real(image, "image"), np.float32),
                                _textured(light, "light"), options)
+    return result if full else result[0]
+
+
+def bake_displacement(fine: Any, light: Any, /, *, resolution: Union[int, Tuple[int, int]] = 1024,
+                      samples: int = 2, dilation: Optional[int] = None, threads: int = 0,
+                      progress: Progress = None, full: bool = False) -> Any:
+    """Bakes how far `fine` lies above `light`, which shares its texture, along the normals of `light`.
+    Returns the image (height, width, 1), float32, in the unit of the vertices; see bake_normal_map()."""
+    options = _baking(resolution, samples, dilation, threads, progress)
+    result = _hlscm.bake_displacement(_textured(fine, "fine"), _textured(light, "light"), options)
     return result if full else result[0]
 
 
