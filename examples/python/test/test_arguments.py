@@ -3,6 +3,7 @@
 """What functions take, and what they refuse."""
 
 import os
+import pickle
 import random
 import tempfile
 import types
@@ -112,6 +113,18 @@ class Refused(unittest.TestCase):
                          self.faces, face_weights=[1, 1, 1, 0] + [1] * (len(self.faces) - 4))
         self.assert_says("BAD_OPTIONS", "(144, 2) instead of (n, 3)", hlscm.atlas, self.vertices[:, :2],
                          self.faces)
+
+    def test_errors_are_pickled_with_their_status(self):
+        try:
+            hlscm.atlas(self.vertices, [])
+        except hlscm.MeshError as error:
+            again = pickle.loads(pickle.dumps(error))
+        self.assertEqual((again.status, str(again)), ("BAD_MESH", "the mesh has no triangles"))
+
+    def test_borders_of_closed_surfaces(self):
+        self.assert_says("BAD_MESH", "closed", hlscm.low_stretch, *meshes.torus(12, 8), border="circle")
+        self.assert_says("BAD_OPTIONS", 'border is "line"', hlscm.low_stretch, self.vertices, self.faces,
+                         border="line")
 
     def test_types_are_type_errors(self):
         for vertices, faces in ((self.vertices, self.faces + 0.), (self.vertices + 0j, self.faces),

@@ -248,12 +248,12 @@ def low_stretch(vertices: Any, faces: Any = None, /, *, energy: str = "symmetric
 def _border_pins(vertices: Array, faces: Array, border: str) -> Tuple[Array, Array]:
     """Where the vertices of the longest border go."""
     if border not in ("circle", "square"):
-        raise ValueError(f'border is "{border}", and none of free, circle, square')
+        raise MeshError(f'border is "{border}", and none of free, circle, square')
     loops = _hlscm.border_loops(vertices, faces)
+    if not loops:
+        return _pins(None)  # which low_stretch() will say
     p = np.asarray(vertices, np.float64)
     lengths = [np.linalg.norm(p[np.roll(loop, -1)] - p[loop], axis=1) for loop in loops]
-    if not loops:
-        raise ValueError("the surface has no border")
     longest = int(np.argmax([length.sum() for length in lengths]))
     loop, length = loops[longest].astype(np.int64), lengths[longest]
     along = np.concatenate([[0.], np.cumsum(length)[:-1]]) / length.sum()
@@ -265,7 +265,7 @@ def _border_pins(vertices: Array, faces: Array, border: str) -> Tuple[Array, Arr
     else:
         corners = [int(np.argmin(np.abs(along - k / 4))) for k in range(4)]
         if len(set(corners)) < 4:
-            raise ValueError("the border is too short for a square")
+            raise MeshError("the border is too short for a square")
         ends = np.array([0., 1., 2., 3., 4.])
         side = np.interp(along, np.append(along[corners], 1.), ends)
         x = np.interp(side, ends, [0., 1., 1., 0., 0.]) - 0.5
