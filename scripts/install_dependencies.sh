@@ -26,8 +26,8 @@ for option in "$@"; do
     --bench) packages+=(python3-matplotlib valgrind libopenblas0-pthread draco) ;;
     --coverage) packages+=(gcovr) ;;
     --python)
-      packages+=(pybind11-dev python3-dev python3-numpy python3-pip python3-scipy python3-setuptools
-                 python3-wheel)
+      packages+=(pybind11-dev python3-dev python3-mypy python3-numpy python3-pip python3-scipy
+                 python3-setuptools python3-wheel)
       ;;
     *) fail "unknown option $option; there are --doc, --bench, --coverage and --python" ;;
   esac

@@ -3,8 +3,11 @@
 """What the functions return is what they say."""
 
 import ast
+import importlib.util
 import os
 import re
+import subprocess
+import sys
 import tempfile
 import types
 import unittest
@@ -446,6 +449,14 @@ class Interface(unittest.TestCase):
                     if argument.arg not in ("self", "cls"):
                         self.assertIsNotNone(argument.annotation, f"{node.name}, {argument.arg}")
                 self.assertIsNotNone(node.returns, node.name)
+
+    @unittest.skipUnless(importlib.util.find_spec("mypy"), "mypy is not installed")
+    def test_types_agree(self):
+        with tempfile.TemporaryDirectory() as work:
+            checked = subprocess.run(
+                [sys.executable, "-m", "mypy", "--ignore-missing-imports", "--cache-dir", work,
+                 os.path.dirname(hlscm.__file__)], stdout=subprocess.PIPE, text=True)
+        self.assertEqual(checked.returncode, 0, checked.stdout)
 
     def test_stubs_are_those_of_the_compiled_part(self):
         folder = os.path.dirname(hlscm.__file__)

@@ -165,12 +165,14 @@ def parameterize(vertices: Any, faces: Any = None, /, *, pins: Optional[Pins] = 
 
 def lscm(vertices: Any, faces: Any = None, /, **options: Any) -> Any:
     """The least squares conformal map of a chart: parameterize() by multigrid."""
-    return parameterize(vertices, faces, **{"method": "hlscm", **options})
+    options.setdefault("method", "hlscm")
+    return parameterize(vertices, faces, **options)
 
 
 def spectral(vertices: Any, faces: Any = None, /, **options: Any) -> Any:
     """The spectral conformal map of a chart, without pins: parameterize() with that method."""
-    return parameterize(vertices, faces, **{**options, "method": "spectral"})
+    options["method"] = "spectral"
+    return parameterize(vertices, faces, **options)
 
 
 class Unwrapped(NamedTuple):
@@ -201,12 +203,12 @@ def unwrap(vertices: Any, faces: Any = None, /, *, pins: Optional[Pins] = None, 
         if (back.vertex[at] != pinned).any():
             raise MeshError("a vertex is pinned, but no face has it")
         pinned = at.astype(np.int64)
-    vmapping, *rest = _hlscm.unwrap(vertices, faces, pinned, places, no_seams, method, tolerance,
-                                    repair_flips, max_iterations, uv_tolerance, time_limit, threads,
-                                    progress)
+    vmapping, indices, uvs, components, reports = _hlscm.unwrap(
+        vertices, faces, pinned, places, no_seams, method, tolerance, repair_flips, max_iterations,
+        uv_tolerance, time_limit, threads, progress)
     if back is None:
-        return Unwrapped(vmapping, *rest, None)
-    return Unwrapped(back.vertex[vmapping], *rest, back.face)
+        return Unwrapped(vmapping, indices, uvs, components, reports, None)
+    return Unwrapped(back.vertex[vmapping], indices, uvs, components, reports, back.face)
 
 
 def low_stretch(vertices: Any, faces: Any = None, /, *, energy: str = "symmetric-dirichlet",
@@ -494,6 +496,12 @@ class Atlas:
         return TexturedMesh(self.vertices, self.faces, uv, self.indices)
 
 
+def _size(resolution: Any) -> Tuple[int, int]:
+    """Width and height, which are equal if one number is given."""
+    width, height = (resolution, resolution) if np.ndim(resolution) == 0 else resolution
+    return width, height
+
+
 def atlas(vertices: Any, faces: Any = None, /, *, max_charts: int = 0, area_scale: float = 4.,
           quasi_conformal: float = 2., least_fill: float = 0.75, method: str = "border-first",
           resolution: Union[int, Tuple[int, int]] = 1024, padding: int = 2, mip_levels: int = 0,
@@ -530,7 +538,7 @@ def atlas(vertices: Any, faces: Any = None, /, *, max_charts: int = 0, area_scal
         if len(labels) <= int(back.face.max()):
             raise MeshError(f"there are charts for {len(labels)} faces alone")
         labels = labels[back.face]
-    width, height = (resolution, resolution) if np.ndim(resolution) == 0 else resolution
+    width, height = _size(resolution)
     made = _hlscm.atlas(
         vertices, faces, method, max_charts, area_scale, quasi_conformal, least_fill, width, height,
         padding, mip_levels, pages, texels_per_unit, packing_time, _list(density, "density"),
@@ -558,7 +566,7 @@ def _textured(mesh: Any, name: str) -> Tuple[Array, Array, Array, Array]:
 
 def _baking(resolution: Union[int, Tuple[int, int]], samples: int, dilation: Optional[int],
             threads: int, progress: Progress) -> Any:
-    width, height = (resolution, resolution) if np.ndim(resolution) == 0 else resolution
+    width, height = _size(resolution)
     return _hlscm.BakingOptions(width, height, samples, dilation, threads, progress)
 
 
@@ -724,7 +732,7 @@ class ProgressiveMesh:
             if uv is not None:
                 mesh += (_real(uv, "uv", 2),
                          _index(mesh[1] if uv_faces is None else uv_faces, "uv_faces"))
-        build = _hlscm.build_textured if len(mesh) == 4 else _hlscm.build_plain
+        build: Any = _hlscm.build_textured if len(mesh) == 4 else _hlscm.build_plain
         self._mesh = build(*mesh, locked, target_vertices, threads, progress)
         self.is_complete = True
 
@@ -832,7 +840,7 @@ class MultigridSolver:
             a.sum_duplicates()
         if a.dtype.kind not in "fiuc":
             raise TypeError(f"the matrix has entries of type {a.dtype}")
-        kind = _hlscm.ComplexSolver if a.dtype.kind == "c" else _hlscm.RealSolver
+        kind: Any = _hlscm.ComplexSolver if a.dtype.kind == "c" else _hlscm.RealSolver
         if fixed is not None:
             fixed = np.asarray(fixed)
             if fixed.dtype != np.bool_ or fixed.shape != (n,):

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The compiled part of hlscm: strict about its arguments, which __init__.py prepares."""
 
-from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 _Report = Dict[str, Any]
 _Progress = Optional[Callable[[float], Optional[bool]]]
 _Array = np.ndarray
+_Numbers = Union[Sequence[float], np.ndarray]
 _Textured = Tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]  # vertices, faces, uv, uv_faces
 _Baked = Tuple[np.ndarray, NDArray[np.bool_], _Report]  # image, covered texels, report
 
@@ -75,8 +76,9 @@ class RealSolver:
 def atlas(vertices: _Array, faces: _Array, method: str, max_charts: int, area_scale: float,
           quasi_conformal: float, least_fill: float, width: int, height: int, padding: int,
           mip_levels: int, pages: int, texels_per_unit: float, packing_time: float,
-          density: Sequence[float], metric: Optional[_Array], no_seams: Sequence[int],
-          charts: Optional[Sequence[int]], time_limit: float, threads: int, progress: _Progress) -> _Report: ...
+          density: _Numbers, metric: Optional[_Array], no_seams: _Numbers,
+          charts: Optional[_Numbers], time_limit: float, threads: int,
+          progress: _Progress) -> _Report: ...
 def bake_displacement(fine: _Textured, light: _Textured, options: BakingOptions) -> _Baked: ...
 def bake_image(fine: _Textured, former_uv: _Array, former_uv_faces: _Array, image: NDArray[np.float32],
                light: _Textured, options: BakingOptions) -> _Baked: ...
@@ -100,11 +102,11 @@ def decimate(vertices: _Array, faces: _Array, target_faces: int, target_vertices
 def distortion(vertices: _Array, faces: _Array, uv: _Array, uv_faces: _Array,
                threads: int) -> Tuple[_Array, _Array, _Report]: ...
 def from_bytes(file: bytes) -> Tuple[Progressive, bool, str]: ...
-def importance_metric(vertices: _Array, faces: _Array, importance: Sequence[float],
+def importance_metric(vertices: _Array, faces: _Array, importance: _Numbers,
                       weight: float) -> _Array: ...
 def info(vertices: _Array, corners: NDArray[np.int64], sizes: NDArray[np.int64]) -> _Report: ...
 def low_stretch(vertices: _Array, faces: _Array, energy: str, pinned: NDArray[np.int64], places: _Array,
-                start_uv: Optional[_Array], face_weights: Sequence[float], metric: Optional[_Array],
+                start_uv: Optional[_Array], face_weights: _Numbers, metric: Optional[_Array],
                 one_to_one: bool, tolerance: float, max_iterations: int, time_limit: float,
                 threads: int, progress: _Progress) -> Tuple[_Array, _Report]: ...
 def mend(vertices: _Array, corners: NDArray[np.int64],
@@ -119,7 +121,7 @@ def repair_flips(vertices: _Array, faces: _Array, uv: _Array, pinned: NDArray[np
 def signal_metric(vertices: _Array, faces: _Array, values: Optional[NDArray[np.float64]],
                   weight: float) -> _Array: ...
 def unwrap(vertices: _Array, faces: _Array, pinned: NDArray[np.int64], places: _Array,
-           no_seams: Sequence[int], method: str, tolerance: float, repair_flips: bool,
+           no_seams: _Numbers, method: str, tolerance: float, repair_flips: bool,
            max_iterations: int, uv_tolerance: float, time_limit: float, threads: int,
            progress: _Progress) -> Tuple[_Array, _Array, _Array, _Array, List[_Report]]: ...
 def weld(vertices: _Array, corners: NDArray[np.int64], sizes: NDArray[np.int64],
