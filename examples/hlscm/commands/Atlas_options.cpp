@@ -3,7 +3,11 @@
 
 #include "commands/Option_parts.h"
 
+#include <charconv>
+#include <cmath>
+#include <limits>
 #include <optional>
+#include <string>
 
 namespace hlscm {
 
@@ -12,6 +16,24 @@ namespace SMP = CGAL::Surface_mesh_parameterization;
 namespace {
 
 constexpr std::size_t largest_texture = 32768, many = 1000000000;
+
+// A number from 0 on, or "inf"
+void add_price(CLI::App& app, const std::string& name, std::optional<double>& price,
+               const std::string& description)
+{
+  const auto read = [&price](const std::string& text) {
+    const char* end = text.data() + text.size();
+    double value = 0;
+    if(text == "inf") {
+      value = std::numeric_limits<double>::infinity();
+    } else if(const auto [last, error] = std::from_chars(text.data(), end, value);
+              error != std::errc() || last != end || !(value >= 0) || !std::isfinite(value)) {
+      throw CLI::ValidationError(text + " is not a number from 0 on, or inf");
+    }
+    price = value;
+  };
+  app.add_option_function<std::string>(name, read, description)->type_name("PRICE|inf");
+}
 
 void add_atlas_options(CLI::App& app, Program_options& o)
 {
@@ -30,6 +52,11 @@ void add_atlas_options(CLI::App& app, Program_options& o)
              "(default 2)");
   add_count(app, "--max-charts", std::size_t(1), many, atlas.max_charts,
             "as many charts at most, even if they are distorted more");
+  add_price(app, "--seam-price", atlas.seam_price,
+            "cut a chart only where that gains this part of the texture for a seam as long as its side; "
+            "inf for no seams that only fill the texture (default 0.02)");
+  add_number(app, "--min-used", 0, 99, atlas.min_used,
+             "cut charts until so many % of the texture are used, or no cut helps any more");
   app.add_option("--charts", atlas.charts,
                  "the charts: a file with a whole number a line for each face, or uv for those of "
                  "the texture coordinates of IN")

@@ -180,6 +180,7 @@ Texture_atlas make_atlas(const Input_surface& surface, const Program_options& op
 {
   Built_atlas built = build_atlas(surface, options, progress);
   report.atlas = std::move(built.report);
+  report.wanted_utilisation = 0.01 * options.atlas.min_used;
   report.wedges = built.atlas.mesh.uv.size();
   report.pages = built.atlas.number_of_pages;
   report.width = built.atlas.width;

@@ -5,6 +5,7 @@
 #include "commands/Json_number.h"
 #include "commands/Repairs.h"
 
+#include <array>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
@@ -29,6 +30,15 @@ Json to_json(const SMT::Chart_report& chart)
           {"page", chart.page}};
 }
 
+Json numbers(const std::array<double, 4>& values)
+{
+  Json all = Json::array();
+  for(const double value : values) {
+    all.push_back(number(value));
+  }
+  return all;
+}
+
 Json to_json(const SMT::Texture_atlas_report& atlas)
 {
   Json charts = Json::array();
@@ -38,7 +48,20 @@ Json to_json(const SMT::Texture_atlas_report& atlas)
   const auto& d = atlas.distortion;
   return {{"texels_per_unit", number(atlas.texels_per_unit)},
           {"utilisation", number(atlas.utilisation)},
+          {"texel_utilisation", number(atlas.texel_utilisation)},
           {"seam_length", number(atlas.seam_length)},
+          {"seams",
+           {{"relative_length", number(atlas.seams.relative_length)},
+            {"on_creases", number(atlas.seams.on_creases)},
+            {"in_concavities", number(atlas.seams.in_concavities)},
+            {"jaggedness", number(atlas.seams.jaggedness)}}},
+          {"texels",
+           {{"parts", atlas.texels.parts},
+            {"quasi_conformal", numbers(atlas.texels.quasi_conformal)},
+            {"area_scale", numbers(atlas.texels.area_scale)},
+            {"density_range", number(atlas.texels.density_range)},
+            {"compactness", number(atlas.texels.compactness)}}},
+          {"page_cuts", atlas.page_cuts},
           {"recut_charts", atlas.recut_charts},
           {"stopped_early", atlas.stopped_early},
           {"flips", d.flipped_faces},
@@ -109,7 +132,10 @@ void add_atlas_lines(const SMT::Texture_atlas_report& atlas, std::size_t faces,
        << "angles      quasi-conformal ratio mean " << d.quasi_conformal_mean << ", 99 % below "
        << d.quasi_conformal_99 << ", max " << d.quasi_conformal_max << "\n"
        << "areas       scale range " << d.area_scale_range << ", stretch L2 " << d.stretch_L2
-       << "\nflips       " << d.flipped_faces << " of " << faces << " faces\n";
+       << "\nseams       " << atlas.seams.relative_length << " roots of the area long, "
+       << 100 * atlas.seams.on_creases << " % on creases, " << 100 * atlas.seams.in_concavities
+       << " % in concavities, jaggedness " << atlas.seams.jaggedness << "; cuts for the page "
+       << atlas.page_cuts << "\nflips       " << d.flipped_faces << " of " << faces << " faces\n";
 }
 
 void add_bake_lines(const Bake_report& bake, std::ostringstream& text)
@@ -138,6 +164,13 @@ std::vector<std::string> Atlas_report::all_warnings() const
     all.push_back("triangles without area in the texture: "
                   + std::to_string(atlas->distortion.degenerate_faces) + " of "
                   + std::to_string(faces));
+  }
+  if(atlas && atlas->utilisation < wanted_utilisation) {
+    std::ostringstream text;
+    text << std::setprecision(4) << 100 * atlas->utilisation
+         << " % of the texture are used, less than " << 100 * wanted_utilisation
+         << " %: no further cut of a chart that is tried lets them be packed more densely";
+    all.push_back(text.str());
   }
   if(overlapping_texels > 0) {
     all.push_back("texels in more than one triangle: " + std::to_string(overlapping_texels));

@@ -53,6 +53,7 @@ struct Atlas_report
   std::size_t faces = 0, vertices = 0, wedges = 0;
   std::size_t pages = 0, width = 0, height = 0;
   std::size_t overlapping_texels = 0;
+  double wanted_utilisation = 0; ///< asked for by --min-used, in [0, 1]
   /// Without, if the light model has texture coordinates of its own.
   std::optional<CGAL::Surface_mesh_texturing::Texture_atlas_report> atlas;
   std::vector<std::pair<std::string, std::size_t>> files; ///< names, and sizes in bytes

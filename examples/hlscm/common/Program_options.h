@@ -53,6 +53,8 @@ struct Atlas_settings
   unsigned int mip_levels = 0;
   CGAL::Surface_mesh_texturing::Distortion_bound bound;
   std::size_t max_charts = 0; ///< 0: as many as the bound needs
+  std::optional<double> seam_price; ///< of seams that fill the pages; none: the default
+  double min_used = 0;        ///< % of the textures
   std::string charts;         ///< a file, or "uv"; empty: they are to be found
   bool is_one_disk = false;   ///< one chart for each connected component
   std::size_t pages = 1;      ///< at most

@@ -66,6 +66,12 @@ py::dict to_dict(const SMT::Texture_atlas_report& report)
   d["flipped_faces"] = report.distortion.flipped_faces;
   d["texels_per_unit"] = report.texels_per_unit;
   d["utilisation"] = report.utilisation;
+  d["page_cuts"] = report.page_cuts;
+  d["jaggedness"] = report.seams.jaggedness;
+  d["seams_on_creases"] = report.seams.on_creases;
+  d["seams_in_concavities"] = report.seams.in_concavities;
+  d["density_range"] = report.texels.density_range;
+  d["compactness"] = report.texels.compactness;
   d["seconds"] = report.seconds_total;
   return d;
 }
@@ -109,7 +115,7 @@ SMT::Texture_atlas_result build(const Indexed_triangle_mesh& mesh, const Atlas_c
 }
 
 py::dict atlas(const py::array& points, const py::array& triangles, const std::string& method,
-               std::size_t max_charts, double area_scale, double quasi_conformal, double least_fill,
+               std::size_t max_charts, double seam_price, double min_used, double area_scale, double quasi_conformal, double least_fill,
                std::size_t width, std::size_t height, std::size_t padding, unsigned int mip_levels,
                std::size_t pages, double texels_per_unit, double packing_time,
                const std::vector<float>& density, const std::optional<py::array>& metric,
@@ -127,6 +133,8 @@ py::dict atlas(const py::array& points, const py::array& triangles, const std::s
   options.bound.area_scale = area_scale;
   options.bound.quasi_conformal = quasi_conformal;
   options.max_charts = max_charts;
+  options.seam_price = seam_price;
+  options.min_used = min_used;
   options.least_fill = least_fill;
   options.packing.width = width;
   options.packing.height = height;
@@ -312,7 +320,7 @@ void bind_texturing(py::module_& m)
   m.def("atlas", &atlas,
         "A texture atlas: vmapping (w,), indices (m, 3), uv (w, 2), the chart of each face, the page of "
         "each chart, sizes and a report.",
-        "vertices"_a, "faces"_a, "method"_a, "max_charts"_a, "area_scale"_a, "quasi_conformal"_a,
+        "vertices"_a, "faces"_a, "method"_a, "max_charts"_a, "seam_price"_a, "min_used"_a, "area_scale"_a, "quasi_conformal"_a,
         "least_fill"_a, "width"_a, "height"_a, "padding"_a, "mip_levels"_a, "pages"_a,
         "texels_per_unit"_a, "packing_time"_a, "density"_a, "metric"_a, "no_seams"_a, "charts"_a,
         "time_limit"_a, "threads"_a, "progress"_a);

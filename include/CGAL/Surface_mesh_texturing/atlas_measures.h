@@ -35,7 +35,7 @@ struct Seam_measures
   double on_creases = 0.;
   /// The part of their length on edges where the surface is concave, by 10 degrees or more.
   double in_concavities = 0.;
-  /// The length of the borders of charts to that of the lines through the midpoints of their edges: 1
+  /// The length of the seams around charts to that of the lines through the midpoints of their edges: 1
   /// for straight ones, 2 where edges turn by 120 degrees to and fro.
   double jaggedness = 1.;
 };
@@ -72,14 +72,20 @@ inline double dihedral_angle(const Indexed_triangle_mesh& mesh, Halfedge h, Half
   return std::acos(cosine) * 180. / CGAL_PI * ((d - a) * n > 0. ? -1. : 1.);
 }
 
-// Lengths along the border of a chart, and between the midpoints of its edges.
-inline std::pair<double, double> jagged_lengths(const Chart_mesh& chart)
+// Lengths along the seams of a chart, and between the midpoints of their edges.
+inline std::pair<double, double> jagged_lengths(const Chart_mesh& chart,
+                                                const Indexed_mesh::Triangle_adjacency& adjacency)
 {
   std::vector<Vertex_index> next(chart.mesh.points.size(), Indexed_mesh::no_vertex);
-  for(const Border_edge& e : chart.border_edges())
+  std::vector<Border_edge> seams;
+  for(const Halfedge h : chart.border)
+    if(adjacency.opposite(chart.triangles[triangle_of(h)], int(corner_of(h))) != no_halfedge)
+      seams.push_back({vertex_of(chart.mesh.triangles, h),
+                       vertex_of(chart.mesh.triangles, next_halfedge(h))});
+  for(const Border_edge& e : seams)
     next[e[0]] = e[1];
   std::pair<double, double> result = {0., 0.};
-  for(const Border_edge& e : chart.border_edges()) {
+  for(const Border_edge& e : seams) {
     if(next[e[1]] == Indexed_mesh::no_vertex)
       continue;
     const auto &a = chart.mesh.points[e[0]], &b = chart.mesh.points[e[1]];
@@ -124,7 +130,7 @@ inline Seam_measures measure_seams(const Indexed_triangle_mesh& mesh,
   }
   double along = 0., between_midpoints = 0.;
   for(const Chart_mesh& chart : chart_meshes(mesh, adjacency, charts)) {
-    const auto lengths = internal::jagged_lengths(chart);
+    const auto lengths = internal::jagged_lengths(chart, adjacency);
     along += lengths.first;
     between_midpoints += lengths.second;
   }

@@ -502,7 +502,8 @@ def _size(resolution: Any) -> Tuple[int, int]:
     return width, height
 
 
-def atlas(vertices: Any, faces: Any = None, /, *, max_charts: int = 0, area_scale: float = 4.,
+def atlas(vertices: Any, faces: Any = None, /, *, max_charts: int = 0, seam_price: float = 0.02,
+          min_used: float = 0., area_scale: float = 4.,
           quasi_conformal: float = 2., least_fill: float = 0.75, method: str = "border-first",
           resolution: Union[int, Tuple[int, int]] = 1024, padding: int = 2, mip_levels: int = 0,
           pages: int = 1, texels_per_unit: float = 0., packing_time: float = 0.,
@@ -513,6 +514,9 @@ def atlas(vertices: Any, faces: Any = None, /, *, max_charts: int = 0, area_scal
 
     max_charts: the number of charts to come down to, beyond the bounds if need be; 0 for as few as
         the bounds allow.
+    seam_price: the part of a page that a seam as long as its side must gain if it only fills the page;
+        math.inf for no such seams.
+    min_used: the part of the pages to use, in [0, 1); charts are cut until it is, or no cut helps.
     area_scale, quasi_conformal: how far a chart may be distorted: the range of its area scale, and
         its ratio s1 / s2.
     method: "border-first", or that of a conformal map, as for parameterize().
@@ -540,8 +544,8 @@ def atlas(vertices: Any, faces: Any = None, /, *, max_charts: int = 0, area_scal
         labels = labels[back.face]
     width, height = _size(resolution)
     made = _hlscm.atlas(
-        vertices, faces, method, max_charts, area_scale, quasi_conformal, least_fill, width, height,
-        padding, mip_levels, pages, texels_per_unit, packing_time, _list(density, "density"),
+        vertices, faces, method, max_charts, seam_price, min_used, area_scale, quasi_conformal,
+        least_fill, width, height, padding, mip_levels, pages, texels_per_unit, packing_time, _list(density, "density"),
         None if metric is None else _real(metric, "metric"),
         no_seams, labels, time_limit, threads, progress)
     vmapping = made["vmapping"] if back is None else back.vertex[made["vmapping"]]

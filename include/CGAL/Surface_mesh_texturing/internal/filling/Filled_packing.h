@@ -59,13 +59,34 @@ private:
   {
     constexpr std::size_t most_cuts = 16;
     constexpr double least_gain = 0.005, all = 1.;
+    constexpr double safe = 0.08; // gains that are not lost to what the estimate does not know
     Page_filler filler(m_charts, m_options.packing, m_mapping);
-    if(std::isfinite(m_options.seam_price))
+    if(std::isfinite(m_options.seam_price)) {
+      const double used = filler.used();
+      std::vector<Mapped_chart> whole = m_charts;
       m_number_of_cuts
         = filler.run({m_options.seam_price, least_gain, all, most_cuts, m_options.max_charts});
-    m_packing = pack();
+      m_packing = pack();
+      if(m_number_of_cuts > 0 && filler.used() < used + safe && m_packing.is_ok())
+        take_if_better(std::move(whole));
+    } else {
+      m_packing = pack();
+    }
     if(m_packing.is_ok() && m_packing.utilisation < m_options.min_used)
       cut_until_used(filler);
+  }
+
+  // The charts without cuts, if they fill the pages as well.
+  void take_if_better(std::vector<Mapped_chart> whole)
+  {
+    whole.swap(m_charts);
+    Packing_result packing = pack();
+    if(packing.is_ok() && packing.utilisation < m_packing.utilisation) {
+      whole.swap(m_charts);
+      return;
+    }
+    m_packing = std::move(packing);
+    m_number_of_cuts = 0;
   }
 
   // Some cuts, which only help together, and a packing, until enough is used or no more of it is.
