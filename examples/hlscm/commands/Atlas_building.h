@@ -4,6 +4,7 @@
 #ifndef HLSCM_PROGRAM_ATLAS_BUILDING_H
 #define HLSCM_PROGRAM_ATLAS_BUILDING_H
 
+#include "commands/Layout_report.h"
 #include "common/Program_options.h"
 #include "common/Progress_bar.h"
 #include "reading/Surface_reading.h"
@@ -16,6 +17,7 @@ struct Built_atlas
 {
   CGAL::Surface_mesh_texturing::Texture_atlas atlas;
   CGAL::Surface_mesh_texturing::Texture_atlas_report report;
+  Layout_report layout;
 };
 
 /// Builds the atlas of a surface as the options want it; throws `Program_error`.

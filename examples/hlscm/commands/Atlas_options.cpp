@@ -53,6 +53,7 @@ void add_atlas_options(CLI::App& app, Program_options& o)
       "how charts are mapped; border-first: with the least change of areas; the others are those of "
       "parameterize (default border-first)");
   add_signal(app, o);
+  add_layout_options(app, o);
   add_threads(app, o.library.threads);
   app.add_flag("--ply", atlas.writes_ply, "write binary PLY, too");
 }

@@ -108,7 +108,8 @@ void Model_outputs::write(Textured_model model, const Read_mesh* faces)
 Atlas_outputs::Atlas_outputs(const Program_options& options)
   : m_options(options),
     m_folder(options.output, {options.input, options.atlas.charts, options.bake.target,
-                              options.bake.colours}),
+                              options.bake.colours, options.atlas.layout.density,
+                              options.atlas.layout.importance}),
     m_report(m_folder.create_anywhere(options.report.empty()
                                           ? fs::path(options.output) / "report.json"
                                           : fs::path(options.report)))
@@ -180,6 +181,7 @@ Texture_atlas make_atlas(const Input_surface& surface, const Program_options& op
 {
   Built_atlas built = build_atlas(surface, options, progress);
   report.atlas = std::move(built.report);
+  report.layout = std::move(built.layout);
   report.wedges = built.atlas.mesh.uv.size();
   report.pages = built.atlas.number_of_pages;
   report.width = built.atlas.width;

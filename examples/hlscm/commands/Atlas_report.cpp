@@ -173,6 +173,7 @@ std::string to_json(const Atlas_report& report, const Program_options& options)
     json["texture_vertices"] = report.wedges;
     json.update(to_json(*report.atlas));
   }
+  add_layout(report.layout, options.atlas.layout, json);
   if(report.bake) {
     json["light"] = to_json(*report.bake);
   }
@@ -194,6 +195,7 @@ std::string to_table(const Atlas_report& report, const Program_options& options)
        << " of them in more than one triangle\n";
   if(report.atlas) {
     add_atlas_lines(*report.atlas, report.faces, text);
+    add_layout_lines(report.layout, options.atlas.layout, text);
   }
   if(report.bake) {
     add_bake_lines(*report.bake, text);

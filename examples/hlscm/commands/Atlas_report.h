@@ -4,6 +4,7 @@
 #ifndef HLSCM_PROGRAM_ATLAS_REPORT_H
 #define HLSCM_PROGRAM_ATLAS_REPORT_H
 
+#include "commands/Layout_report.h"
 #include "common/Program_options.h"
 
 #include <CGAL/Indexed_mesh/surface_of_soup.h>
@@ -55,6 +56,7 @@ struct Atlas_report
   std::size_t overlapping_texels = 0;
   /// Without, if the light model has texture coordinates of its own.
   std::optional<CGAL::Surface_mesh_texturing::Texture_atlas_report> atlas;
+  Layout_report layout; ///< what options of the layout made of it
   std::vector<std::pair<std::string, std::size_t>> files; ///< names, and sizes in bytes
   double seconds_read = 0, seconds_measure = 0, seconds_write = 0;
   double peak_memory_mb = 0; ///< of the process (2^20 bytes), before pictures

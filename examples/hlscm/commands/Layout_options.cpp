@@ -1,0 +1,47 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "commands/Option_parts.h"
+
+namespace hlscm {
+
+namespace {
+
+// Charts and maps that are there already are neither found nor made.
+void add_repack(CLI::App& app, Layout_settings& layout)
+{
+  CLI::Option* repack = app.add_flag(
+      "--repack", layout.is_repacked,
+      "keep the charts and maps of the texture coordinates of IN, and only place them anew");
+  for(const char* other : {"--max-area-scale", "--max-quasi-conformal", "--max-charts", "--charts",
+                           "--one-disk", "--method", "--signal"}) {
+    repack->excludes(app.get_option(other));
+  }
+  app.add_flag("--keep-scale", layout.keeps_scale,
+               "with --repack: charts keep their sizes beside each other (default: equal density)")
+      ->needs(repack);
+}
+
+} // namespace
+
+void add_layout_options(CLI::App& app, Program_options& options)
+{
+  Layout_settings& layout = options.atlas.layout;
+  add_repack(app, layout);
+  CLI::Option* density = app.add_option(
+      "--density", layout.density,
+      "texels along a unit of length, beside other faces: a file with a number for each face");
+  density->type_name("FILE");
+  app.add_option("--importance", layout.importance,
+                 "the same by an image on the texture coordinates of IN: white 1, black 1/16")
+      ->type_name("IMAGE")
+      ->excludes(density);
+  add_choice<Chart_limits>(
+      app, "--limits", {{"groups", Chart_limits::GROUPS}, {"materials", Chart_limits::MATERIALS}},
+      layout.limits, "seams between faces of different groups, or materials, of IN");
+  app.get_option("--limits")->excludes(app.get_option("--repack"));
+  app.add_flag("--align", layout.is_aligned,
+               "turn charts so that their borders run along the rows and columns of the texture");
+}
+
+} // namespace hlscm

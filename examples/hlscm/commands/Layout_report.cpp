@@ -1,0 +1,51 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "commands/Layout_report.h"
+
+#include "commands/Json_number.h"
+
+namespace hlscm {
+
+void add_layout(const Layout_report& report, const Layout_settings& settings,
+                nlohmann::ordered_json& json)
+{
+  if(!settings.is_any()) {
+    return;
+  }
+  nlohmann::ordered_json layout;
+  if(settings.is_repacked) {
+    layout["repacked"] = {{"keeps_scale", settings.keeps_scale},
+                          {"mirrored_charts", report.mirrored_charts}};
+  }
+  if(settings.limits != Chart_limits::NONE) {
+    layout["limits"]
+        = {{"by", settings.limits == Chart_limits::GROUPS ? "groups" : "materials"},
+           {"parts", report.parts}};
+  }
+  layout["texels_per_unit_of_charts"] = {{"least", number(report.least_density)},
+                                         {"most", number(report.most_density)}};
+  layout["axis_parallel"] = number(report.axis_parallel);
+  json["layout"] = layout;
+}
+
+void add_layout_lines(const Layout_report& report, const Layout_settings& settings,
+                      std::ostream& text)
+{
+  if(!settings.is_any()) {
+    return;
+  }
+  text << "layout      " << report.least_density << " to " << report.most_density
+       << " texels to a unit of length, " << 100 * report.axis_parallel
+       << " % of the borders of charts along the axes";
+  if(report.parts > 0) {
+    text << ", limits between " << report.parts
+         << (settings.limits == Chart_limits::GROUPS ? " groups" : " materials");
+  }
+  if(report.mirrored_charts > 0) {
+    text << ", charts mirrored as in the input: " << report.mirrored_charts;
+  }
+  text << "\n";
+}
+
+} // namespace hlscm
