@@ -41,8 +41,9 @@ TEST_F(Atlas, has_the_options_that_help_lists)
        "--density", density},
       {"--texture", "64", "--one-disk", "--method", "cascadic", "--quiet", "--strict", "--weld", "0",
        "--time-limit", "1000"},
-      {"--texture", "64", "--repack", "--keep-scale", "--align", "--importance",
+      {"--texture", "64", "--repack", "--keep-scale", "--align", "--udim", "--importance",
        path("first/checker.png")}};
+  const std::vector<Texts> of_atlas{{"--stack"}, {}, {}, {"--lightmap"}};
   const std::vector<Texts> of_bake{
       {"--faces", "50", "--samples", "3", "--space", "object", "--bits", "16", "--displacement"},
       {"--error", "1%", "--space", "tangent", "--bits", "8", "--colors", path("first/checker.png")},
@@ -52,9 +53,8 @@ TEST_F(Atlas, has_the_options_that_help_lists)
     std::set<std::string> listed, known{"--help", "--output"};
     for(std::size_t i = 0; i < of_both.size(); ++i) {
       Texts options = of_both[i];
-      if(command == "bake") {
-        options.insert(options.end(), of_bake[i].begin(), of_bake[i].end());
-      }
+      const Texts& more = command == "bake" ? of_bake[i] : of_atlas[i];
+      options.insert(options.end(), more.begin(), more.end());
       const Outcome outcome = call(command, in, "out", options);
       EXPECT_EQ(outcome.exit_code, 0) << command << " " << i << ": " << outcome.err;
       EXPECT_EQ(outcome.out.empty(), options[2] == "--one-disk") << outcome.out;

@@ -305,4 +305,163 @@ TEST_F(Atlas, lays_straight_borders_along_the_axes)
   EXPECT_FALSE(call_well("atlas", in, "out").contains("layout"));
 }
 
+// --- Tiles
+
+TEST_F(Atlas, makes_tiles_of_pages)
+{
+  const Soup surface = wavy_torus(24);
+  const std::string in = write("in.off", off(surface));
+  const Texts texture{"--texture", "128", "--pages", "3"};
+  const auto with = [&texture](Texts more) {
+    more.insert(more.end(), texture.begin(), texture.end());
+    return more;
+  };
+  const Json plain = call_well("atlas", in, "plain", with({"--ply"}));
+  const Json report = call_well("atlas", in, "out", with({"--ply", "--udim"}));
+  ASSERT_TRUE(report.is_object());
+  const std::size_t pages = report["pages"];
+  ASSERT_GT(pages, 1u);
+  EXPECT_EQ(plain["pages"], pages);
+  EXPECT_EQ(report["layout"]["udim"]["first"], 1001);
+  EXPECT_EQ(report["layout"]["udim"]["last"], 1000 + pages);
+  EXPECT_EQ(report["overlapping_texels"], 0);
+  EXPECT_FALSE(fs::exists(folder / "out/checker.png"));
+  for(std::size_t tile = 1001; tile < 1001 + pages; ++tile) {
+    EXPECT_TRUE(fs::exists(folder / ("out/checker." + std::to_string(tile) + ".png"))) << tile;
+  }
+  EXPECT_NE(read_file(folder / "out/atlas.mtl").find("map_Kd checker.<UDIM>.png\n"),
+            std::string::npos);
+  // One material; each coordinate in the tile of its page
+  const Obj_model before = read_model(folder / "plain/atlas.obj"),
+                  after = read_model(folder / "out/atlas.obj");
+  ASSERT_EQ(before.soup.uv_faces, after.soup.uv_faces);
+  EXPECT_EQ(*std::max_element(after.material.begin(), after.material.end()), 0u);
+  std::set<std::pair<std::size_t, double>> tiles;
+  for(std::size_t f = 0; f < after.soup.uv_faces.size(); ++f) {
+    for(const std::size_t w : after.soup.uv_faces[f]) {
+      const double u = after.soup.uv[w][0] - before.soup.uv[w][0];
+      EXPECT_NEAR(u, std::round(u), 1e-9);
+      EXPECT_NEAR(after.soup.uv[w][1], before.soup.uv[w][1], 1e-9);
+      tiles.insert({before.material[f], std::round(u)});
+    }
+  }
+  EXPECT_EQ(tiles.size(), pages); // each page is one tile
+  EXPECT_EQ(error_in_glb(read_file(folder / "out/atlas.glb"), surface.faces.size(), false), "");
+}
+
+TEST_F(Atlas, bakes_tiles)
+{
+  const std::string in = write("in.off", off(wavy_torus(24)));
+  const Json report = call_well("bake", in, "out", {"--texture", "128", "--pages", "2", "--udim",
+                                                    "--faces", "600", "--displacement"});
+  ASSERT_TRUE(report.is_object());
+  ASSERT_EQ(report["pages"], 2);
+  for(const char* name : {"normal.1001.png", "normal.1002.png", "displacement.1001.png",
+                          "displacement.1002.png", "checker.1001.png", "checker.1002.png"}) {
+    EXPECT_TRUE(fs::exists(folder / "out" / name)) << name;
+  }
+  EXPECT_FALSE(fs::exists(folder / "out/normal.png"));
+  EXPECT_NE(read_file(folder / "out/light.mtl").find("norm normal.<UDIM>.png\n"), std::string::npos);
+  double most = 0;
+  for(const auto& uv : read_model(folder / "out/light.obj").soup.uv) {
+    most = std::max(most, uv[0]);
+  }
+  EXPECT_GT(most, 1);
+  EXPECT_LE(most, 2);
+}
+
+// --- Equal parts
+
+TEST_F(Atlas, lays_equal_parts_on_each_other)
+{
+  Soup surface;
+  const Soup part = wavy_torus(8);
+  for(int copy = 0; copy < 4; ++copy) { // moved; the last two mirrored
+    const std::size_t first = surface.points.size();
+    for(const auto& p : part.points) {
+      const double x = p[0] + 0.1 * p[1] * p[1] + 0.2 * p[2]; // without symmetries
+      surface.points.push_back({(copy > 1 ? -x : x) + 10 * copy, p[1] + copy, p[2]});
+    }
+    for(std::vector<std::size_t> face : part.faces) {
+      if(copy > 1) {
+        std::swap(face[0], face[2]);
+      }
+      for(std::size_t& v : face) {
+        v += first;
+      }
+      surface.faces.push_back(face);
+    }
+  }
+  const Soup other = moved(cube(), 1, 100);
+  for(std::vector<std::size_t> face : other.faces) {
+    for(std::size_t& v : face) {
+      v += surface.points.size();
+    }
+    surface.faces.push_back(face);
+  }
+  surface.points.insert(surface.points.end(), other.points.begin(), other.points.end());
+  const std::string in = write("in.off", off(surface));
+  const Json plain = call_well("atlas", in, "plain");
+  const Json report = call_well("atlas", in, "out", {"--stack"});
+  ASSERT_TRUE(report.is_object());
+  const Json& stacked = report["layout"]["stacked"];
+  EXPECT_EQ(stacked["components"], 5);
+  EXPECT_EQ(stacked["copies"], 3);
+  EXPECT_EQ(stacked["mirrored_copies"], 2);
+  EXPECT_EQ(report["overlapping_texels"], 0); // of what is packed
+  EXPECT_GT(report["texels_per_unit"], 1.5 * double(plain["texels_per_unit"]));
+  const Textured_soup after = read_model(folder / "out/atlas.obj").soup;
+  const auto sorted_uv = [&after](std::size_t begin, std::size_t end) {
+    std::vector<std::array<double, 2>> all;
+    for(std::size_t f = begin; f < end; ++f) {
+      for(const std::size_t w : after.uv_faces[f]) {
+        all.push_back(after.uv[w]);
+      }
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+  };
+  const std::size_t n = part.faces.size();
+  for(std::size_t copy = 1; copy < 4; ++copy) {
+    EXPECT_EQ(sorted_uv(copy * n, (copy + 1) * n), sorted_uv(0, n)) << copy;
+    EXPECT_EQ(uv_area(after, copy * n) < 0, copy > 1);
+  }
+  const Outcome bake = call("bake", in, "none", {"--stack", "--faces", "100"});
+  EXPECT_EQ(bake.exit_code, 2);
+  EXPECT_NE(bake.err.find("--stack: parts that share texels"), std::string::npos) << bake.err;
+}
+
+// --- Light maps
+
+TEST_F(Atlas, is_a_second_set_of_texture_coordinates)
+{
+  const Textured_soup given = cut_torus(12, 3);
+  const std::string in = write("in.obj", obj(given));
+  const Json report = call_well("atlas", in, "out", {"--lightmap", "--texture", "128"});
+  ASSERT_TRUE(report.is_object());
+  EXPECT_EQ(report["layout"]["lightmap"]["texcoord"], 1);
+  call_well("atlas", in, "plain", {"--mip-levels", "2", "--texture", "128"});
+  EXPECT_EQ(read_file(folder / "out/atlas.obj"), read_file(folder / "plain/atlas.obj"));
+  const std::string glb = read_file(folder / "out/atlas.glb");
+  const Json gltf = json_of_glb(glb);
+  const Json& primitive = gltf["meshes"][0]["primitives"][0];
+  const auto indices = numbers_of<std::uint32_t>(glb, gltf, primitive["indices"]);
+  const auto first = numbers_of<float>(glb, gltf, primitive["attributes"]["TEXCOORD_0"]);
+  const auto second = numbers_of<float>(glb, gltf, primitive["attributes"]["TEXCOORD_1"]);
+  const Textured_soup atlas = read_model(folder / "out/atlas.obj").soup;
+  ASSERT_EQ(indices.size(), 3 * given.uv_faces.size());
+  for(std::size_t i = 0; i < indices.size(); ++i) {
+    const auto &p = given.uv[given.uv_faces[i / 3][i % 3]],
+               &q = atlas.uv[atlas.uv_faces[i / 3][i % 3]];
+    EXPECT_NEAR(first[2 * indices[i]], p[0], 1e-6);
+    EXPECT_NEAR(first[2 * indices[i] + 1], 1 - p[1], 1e-6);
+    EXPECT_NEAR(second[2 * indices[i]], q[0], 1e-6);
+    EXPECT_NEAR(second[2 * indices[i] + 1], 1 - q[1], 1e-6);
+  }
+  const std::string bare = write("bare.off", off(cube()));
+  EXPECT_EQ(error_in_message(call("atlas", bare, "none", {"--lightmap"}).err, bare,
+                             {"no texture coordinates", "--lightmap"}), "");
+  EXPECT_EQ(call("bake", in, "none", {"--lightmap", "--faces", "50"}).exit_code, 2);
+}
+
 } // namespace program_test

@@ -74,7 +74,7 @@ Built_atlas build_atlas(const Input_surface& surface, const Program_options& opt
   SMT::Texture_atlas_options library;
   library.bound = options.atlas.bound;
   library.max_charts = options.atlas.max_charts;
-  const auto charts = given_charts(surface, options);
+  auto charts = given_charts(surface, options);
   const double share = options.command == Command::BAKE ? share_of_atlas : 1;
   library.seconds = share * options.atlas.time_limit;
   library.packing.time_budget = options.atlas.packing_time;
@@ -89,10 +89,18 @@ Built_atlas build_atlas(const Input_surface& surface, const Program_options& opt
   library.progress = [&progress](double part) { return progress.try_advance(part); };
   progress.start_stage("atlas");
   const CGAL::Blocked_execution::Thread_scope threads(options.library.threads);
-  const Indexed_triangle_mesh& mesh = surface.surface.mesh;
   Layout_report layout;
-  const std::vector<std::uint8_t> limits = limits_of_charts(surface, options, layout);
+  std::vector<std::uint8_t> limits = limits_of_charts(surface, options, layout);
   set_layout(surface, options, library);
+  const std::optional<SMT::Equal_parts> parts = equal_parts(surface, options, library, layout);
+  if(parts) {
+    limits = parts->of_representatives(limits);
+    if(charts) {
+      charts = SMT::charts_between(parts->representatives.triangles,
+                                   parts->of_representatives(charts->seams));
+    }
+  }
+  const Indexed_triangle_mesh& mesh = parts ? parts->representatives : surface.surface.mesh;
   SMT::Texture_atlas_result result
       = options.atlas.layout.is_repacked ? repack(surface, options, library, layout)
         : !limits.empty() ? build_between(mesh, library, limits, charts, options.atlas)
@@ -102,8 +110,12 @@ Built_atlas build_atlas(const Input_surface& surface, const Program_options& opt
   if(!result.error.empty()) {
     throw Program_error(options.input, result.error);
   }
+  if(parts) {
+    result = SMT::stacked_atlas(surface.surface.mesh, *parts, std::move(result));
+  }
   measure_layout(result.atlas, options, layout);
-  return {std::move(result.atlas), std::move(result.report), std::move(layout)};
+  return {std::move(result.atlas), std::move(result.report), layout,
+          parts ? parts->triangle : std::vector<std::uint32_t>()};
 }
 
 } // namespace hlscm

@@ -11,6 +11,9 @@
 
 #include <CGAL/Surface_mesh_texturing/Texture_atlas.h>
 
+#include <cstdint>
+#include <vector>
+
 namespace hlscm {
 
 struct Built_atlas
@@ -18,6 +21,7 @@ struct Built_atlas
   CGAL::Surface_mesh_texturing::Texture_atlas atlas;
   CGAL::Surface_mesh_texturing::Texture_atlas_report report;
   Layout_report layout;
+  std::vector<std::uint32_t> packed; ///< the triangles that are in the place of no others; empty: all
 };
 
 /// Builds the atlas of a surface as the options want it; throws `Program_error`.

@@ -133,6 +133,10 @@ void check_bake(const Program_options& options)
   if(models != 1) {
     throw CLI::ValidationError("bake", "give one of --faces, --error and --target");
   }
+  if(options.atlas.layout.is_stacked) {
+    throw CLI::ValidationError("--stack", "parts that share texels cannot have a bake each, leave "
+                                          "that out or bake one of them alone");
+  }
   if(!options.signal.empty() && !options.bake.target.empty()) {
     throw CLI::ValidationError("--signal", "the light model of --target has its texture coordinates, "
                                            "leave that out");

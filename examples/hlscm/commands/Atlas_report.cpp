@@ -172,8 +172,8 @@ std::string to_json(const Atlas_report& report, const Program_options& options)
   if(report.atlas) {
     json["texture_vertices"] = report.wedges;
     json.update(to_json(*report.atlas));
+    add_layout(report.layout, options.atlas.layout, json);
   }
-  add_layout(report.layout, options.atlas.layout, json);
   if(report.bake) {
     json["light"] = to_json(*report.bake);
   }

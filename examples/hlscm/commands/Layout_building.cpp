@@ -98,6 +98,9 @@ std::vector<std::uint8_t> limits_of_charts(const Input_surface& surface,
 void set_layout(const Input_surface& surface, const Program_options& options,
                 SMT::Texture_atlas_options& library)
 {
+  if(options.atlas.layout.is_lightmap) {
+    require_uv(surface, options, "--lightmap");
+  }
   library.density = densities(surface, options);
   library.is_aligned = options.atlas.layout.is_aligned;
 }
@@ -126,6 +129,27 @@ SMT::Texture_atlas_result repack(const Input_surface& surface, const Program_opt
   return std::move(result);
 }
 
+std::optional<SMT::Equal_parts> equal_parts(const Input_surface& surface,
+                                            const Program_options& options,
+                                            SMT::Texture_atlas_options& library,
+                                            Layout_report& report)
+{
+  if(!options.atlas.layout.is_stacked) {
+    return std::nullopt;
+  }
+  SMT::Equal_parts parts = SMT::find_equal_parts(surface.surface.mesh);
+  if(!parts.is_ok()) {
+    throw Program_error(options.input, parts.error);
+  }
+  library.density = parts.of_representatives(library.density);
+  library.metric = parts.of_representatives(library.metric);
+  library.no_seams = parts.of_representatives(library.no_seams);
+  report.components = parts.number_of_parts;
+  report.copies = parts.copies;
+  report.mirrored_copies = parts.mirrored_copies;
+  return parts;
+}
+
 void measure_layout(const SMT::Texture_atlas& atlas, const Program_options& options,
                     Layout_report& report)
 {
@@ -139,6 +163,7 @@ void measure_layout(const SMT::Texture_atlas& atlas, const Program_options& opti
     report.most_density = *range.second;
   }
   report.axis_parallel = SMT::axis_parallel_part(atlas);
+  report.tiles = atlas.number_of_pages;
 }
 
 } // namespace hlscm

@@ -8,9 +8,10 @@
 #include "common/Program_options.h"
 #include "reading/Surface_reading.h"
 
-#include <CGAL/Surface_mesh_texturing/Texture_atlas.h>
+#include <CGAL/Surface_mesh_texturing/equal_parts.h>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace hlscm {
@@ -28,6 +29,12 @@ void set_layout(const Input_surface& surface, const Program_options& options,
 CGAL::Surface_mesh_texturing::Texture_atlas_result
 repack(const Input_surface& surface, const Program_options& options,
        const CGAL::Surface_mesh_texturing::Texture_atlas_options& library, Layout_report& report);
+
+/// Returns which components are equal, if these shall share their place; then the arrays of `library`
+/// are those of the representatives. Throws `Program_error`.
+std::optional<CGAL::Surface_mesh_texturing::Equal_parts>
+equal_parts(const Input_surface& surface, const Program_options& options,
+            CGAL::Surface_mesh_texturing::Texture_atlas_options& library, Layout_report& report);
 
 /// Measures what the options are about, if there are some.
 void measure_layout(const CGAL::Surface_mesh_texturing::Texture_atlas& atlas,

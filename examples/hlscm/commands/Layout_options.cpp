@@ -22,6 +22,21 @@ void add_repack(CLI::App& app, Layout_settings& layout)
       ->needs(repack);
 }
 
+// A light map is seen from far away, too.
+constexpr unsigned int mip_levels_of_lightmap = 2;
+
+void add_second_set(CLI::App& app, Program_options& options)
+{
+  app.add_flag("--lightmap", options.atlas.layout.is_lightmap,
+               "keep the texture coordinates of IN in atlas.glb and add the atlas as a second set, "
+               "with --mip-levels 2 unless given");
+  app.parse_complete_callback([&app, &options] {
+    if(options.atlas.layout.is_lightmap && app.count("--mip-levels") == 0) {
+      options.atlas.mip_levels = mip_levels_of_lightmap;
+    }
+  });
+}
+
 } // namespace
 
 void add_layout_options(CLI::App& app, Program_options& options)
@@ -42,6 +57,16 @@ void add_layout_options(CLI::App& app, Program_options& options)
   app.get_option("--limits")->excludes(app.get_option("--repack"));
   app.add_flag("--align", layout.is_aligned,
                "turn charts so that their borders run along the rows and columns of the texture");
+  app.add_flag("--udim", layout.is_udim,
+               "pages are the UDIM tiles 1001, 1002 ... of one plane, see --pages");
+  CLI::Option* stack = app.add_flag("--stack", layout.is_stacked,
+                                    "equal parts of IN, also mirrored ones, share their place");
+  stack->excludes(app.get_option("--repack"));
+  if(app.get_name() == "bake") {
+    stack->group(""); // where it is refused with a reason
+  } else {
+    add_second_set(app, options);
+  }
 }
 
 } // namespace hlscm

@@ -5,7 +5,11 @@
 
 #include "commands/Json_number.h"
 
+#include <CGAL/Surface_mesh_texturing/udim.h>
+
 namespace hlscm {
+
+namespace SMT = CGAL::Surface_mesh_texturing;
 
 void add_layout(const Layout_report& report, const Layout_settings& settings,
                 nlohmann::ordered_json& json)
@@ -22,6 +26,17 @@ void add_layout(const Layout_report& report, const Layout_settings& settings,
     layout["limits"]
         = {{"by", settings.limits == Chart_limits::GROUPS ? "groups" : "materials"},
            {"parts", report.parts}};
+  }
+  if(settings.is_stacked) {
+    layout["stacked"] = {{"components", report.components},
+                         {"copies", report.copies},
+                         {"mirrored_copies", report.mirrored_copies}};
+  }
+  if(settings.is_udim) {
+    layout["udim"] = {{"first", SMT::udim_tile(0)}, {"last", SMT::udim_tile(report.tiles - 1)}};
+  }
+  if(settings.is_lightmap) {
+    layout["lightmap"] = {{"texcoord", 1}};
   }
   layout["texels_per_unit_of_charts"] = {{"least", number(report.least_density)},
                                          {"most", number(report.most_density)}};
@@ -44,6 +59,13 @@ void add_layout_lines(const Layout_report& report, const Layout_settings& settin
   }
   if(report.mirrored_charts > 0) {
     text << ", charts mirrored as in the input: " << report.mirrored_charts;
+  }
+  if(settings.is_stacked) {
+    text << ", " << report.copies << " of " << report.components
+         << " components in the place of others (" << report.mirrored_copies << " mirrored)";
+  }
+  if(settings.is_udim) {
+    text << ", tiles " << SMT::udim_tile(0) << " to " << SMT::udim_tile(report.tiles - 1);
   }
   text << "\n";
 }

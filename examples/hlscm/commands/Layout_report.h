@@ -20,6 +20,9 @@ struct Layout_report
   std::size_t parts = 0;                     ///< groups or materials that are limits of charts
   double least_density = 0, most_density = 0; ///< texels along a unit of length, of all charts
   double axis_parallel = 0;                  ///< the part of the borders of charts in the texture
+  std::size_t tiles = 0;                     ///< of UDIM, from 1001 on
+  std::size_t components = 0;                ///< of the input, if equal ones share their place
+  std::size_t copies = 0, mirrored_copies = 0; ///< of these, those in the place of others
 };
 
 /// Adds them to the report, if there are such options.

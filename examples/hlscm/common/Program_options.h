@@ -57,12 +57,15 @@ struct Layout_settings
   std::string importance;    ///< an image on the input; empty: none
   Chart_limits limits = Chart_limits::NONE;
   bool is_aligned = false;   ///< borders of charts run along the axes
+  bool is_udim = false;      ///< pages are tiles of one plane
+  bool is_stacked = false;   ///< equal parts share their place
+  bool is_lightmap = false;  ///< the atlas is a second set of texture coordinates
 
   /// Whether there is anything to report.
   bool is_any() const
   {
     return is_repacked || !density.empty() || !importance.empty() || limits != Chart_limits::NONE
-           || is_aligned;
+           || is_aligned || is_udim || is_stacked || is_lightmap;
   }
 };
 
