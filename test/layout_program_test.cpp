@@ -162,15 +162,21 @@ TEST_F(Atlas, bakes_in_the_charts_of_the_input)
   EXPECT_EQ(error_in_texture(read_model(folder / "out/atlas.obj"), 128), "");
 }
 
-TEST_F(Atlas, names_charts_that_it_cannot_keep)
+TEST_F(Atlas, names_charts_that_are_not_one_to_one)
 {
   Textured_soup soup = textured_squares(4, {0.3, 0.3});
   std::swap(soup.uv[20], soup.uv[21]);
   const std::string flipped = write("flipped.obj", obj(soup));
-  const Outcome of_flipped = call("atlas", flipped, "out", {"--repack"});
-  EXPECT_EQ(of_flipped.exit_code, 1);
-  EXPECT_EQ(error_in_message(of_flipped.err, flipped, {"chart 1 of the texture has flipped parts",
-                                                       "such as face ", "--charts uv"}), "");
+  const Outcome refused = call("atlas", flipped, "out", {"--repack", "--strict"});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_EQ(error_in_message(refused.err, flipped, {"chart 1 of the texture has ",
+                                                    " flipped triangles of 18",
+                                                    "the first in face ", "--charts uv"}), "");
+  const Json report = call_well("atlas", flipped, "out", {"--repack"});
+  EXPECT_EQ(report["layout"]["repacked"]["charts_not_one_to_one"], 1);
+  EXPECT_GT(report["flips"], 0);
+  EXPECT_NE(report["warnings"].dump().find("chart 1 of the texture has "), std::string::npos);
+  fs::remove_all(folder / "out");
   soup = textured_squares(4, {0.3});
   for(auto& p : soup.uv) {
     p[1] = 0;

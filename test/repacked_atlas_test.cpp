@@ -151,8 +151,10 @@ TEST(Repacked_atlas, keeps_relative_sizes_if_that_is_asked_for)
   Random random(seed + 1);
   for(const auto& [name, mesh, atlas] : atlases()) {
     const Textured_triangle_mesh given = scattered(atlas, random);
+    SMT::Repacking_options as_given;
+    as_given.scale = SMT::Chart_scale::AS_GIVEN;
     const SMT::Repacked_atlas_result result
-      = SMT::repack_texture_atlas(given, small_texture(), SMT::Chart_scale::AS_GIVEN);
+      = SMT::repack_texture_atlas(given, small_texture(), as_given);
     ASSERT_EQ(result.error, "") << name << seed_text;
     EXPECT_EQ(error_in_atlas(mesh, result.atlas), "") << name << seed_text;
     const std::vector<double> all = scales(given, result.atlas);
@@ -222,8 +224,8 @@ TEST(Repacked_atlas, names_what_it_cannot_keep)
     return Uv(r * std::cos(2. * a), r * std::sin(2. * a));
   };
   auto result = error(ring(20, twice));
-  EXPECT_EQ(result.defect.kind, SMT::Texture_defect::OVERLAP);
-  EXPECT_EQ(result.defect.triangles[1] % 20, result.defect.triangles[0] % 20)
+  EXPECT_EQ(result.defects.at(0).kind, SMT::Texture_defect::OVERLAP);
+  EXPECT_EQ(result.defects.at(0).triangles[1] % 20, result.defects.at(0).triangles[0] % 20)
     << result.error; // the one that lies on it
   EXPECT_TRUE(result.atlas.mesh.triangles.empty());
   // A triangle turned over
@@ -234,16 +236,38 @@ TEST(Repacked_atlas, names_what_it_cannot_keep)
   const Uv corner = mesh.uv[0];
   mesh.uv[0] = Uv(3. * mesh.uv[8].x() - 2. * corner.x(), 3. * mesh.uv[8].y() - 2. * corner.y());
   result = error(mesh);
-  EXPECT_EQ(result.defect.kind, SMT::Texture_defect::FLIPPED_TRIANGLE) << result.error;
-  EXPECT_EQ(result.defect.chart, 0u);
-  const auto& flipped = mesh.triangles[result.defect.triangles[0]];
+  EXPECT_EQ(result.defects.at(0).kind, SMT::Texture_defect::FLIPPED_TRIANGLE) << result.error;
+  EXPECT_EQ(result.defects.at(0).chart, 0u);
+  const auto& flipped = mesh.triangles[result.defects.at(0).triangles[0]];
   EXPECT_NE(std::find(flipped.begin(), flipped.end(), 0u), flipped.end());
   EXPECT_NE(result.error.find("triangle "), std::string::npos) << result.error;
+  EXPECT_EQ(result.defects.at(0).size, mesh.triangles.size());
+  EXPECT_GE(result.defects.at(0).flipped, 1u);
+  // The same kept, with a second chart beside it
+  const Vertex_index first = Vertex_index(mesh.points.size());
+  for(const Triangle_indices& t : plane.triangles)
+    mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  for(const auto& p : plane.points) {
+    mesh.points.emplace_back(p.x(), p.y(), 9.);
+    mesh.uv.emplace_back(p.x(), p.y());
+  }
+  mesh.wedges = mesh.triangles;
+  SMT::Repacking_options keep;
+  keep.defects = SMT::Defective_charts::KEEP;
+  result = SMT::repack_texture_atlas(mesh, small_texture(), keep);
+  ASSERT_EQ(result.error, "");
+  ASSERT_EQ(result.defects.size(), 1u);
+  EXPECT_FALSE(result.report.charts.at(0).is_one_to_one);
+  EXPECT_TRUE(result.report.charts.at(1).is_one_to_one);
+  EXPECT_EQ(scales(mesh, result.atlas).size(), 2u);
+  EXPECT_EQ(result.report.distortion.flipped_faces, result.defects[0].flipped);
   // Nothing but a line
   for(Uv& p : mesh.uv)
     p = Uv(p.x(), 0.);
   result = error(mesh);
-  EXPECT_EQ(result.defect.kind, SMT::Texture_defect::NO_AREA) << result.error;
+  EXPECT_EQ(result.defects.at(0).kind, SMT::Texture_defect::NO_AREA) << result.error;
+  result = SMT::repack_texture_atlas(mesh, small_texture(), keep); // then there is nothing to keep
+  EXPECT_NE(result.error.find("has no area"), std::string::npos) << result.error;
   // No coordinates
   mesh.uv.pop_back();
   EXPECT_EQ(error(mesh).status, CGAL::Indexed_mesh::Mesh_status::BAD_MESH);

@@ -131,6 +131,7 @@ void add_bake_lines(const Bake_report& bake, std::ostringstream& text)
 std::vector<std::string> Atlas_report::all_warnings() const
 {
   std::vector<std::string> all = warnings;
+  all.insert(all.end(), layout.warnings.begin(), layout.warnings.end());
   if(atlas && atlas->stopped_early) {
     all.push_back("the time was up before the atlas was as good as it gets; see --time-limit");
   }

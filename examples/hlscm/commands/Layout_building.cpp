@@ -110,20 +110,27 @@ SMT::Texture_atlas_result repack(const Input_surface& surface, const Program_opt
 {
   require_uv(surface, options, "--repack");
   const SMT::Textured_triangle_mesh mesh = to_textured(surface);
-  const SMT::Chart_scale scale = options.atlas.layout.keeps_scale
-                                     ? SMT::Chart_scale::AS_GIVEN
-                                     : SMT::Chart_scale::EQUAL_DENSITY;
+  SMT::Repacking_options repacking;
+  repacking.scale = options.atlas.layout.keeps_scale ? SMT::Chart_scale::AS_GIVEN
+                                                     : SMT::Chart_scale::EQUAL_DENSITY;
+  repacking.defects
+      = options.is_strict ? SMT::Defective_charts::REFUSE : SMT::Defective_charts::KEEP;
   SMT::Repacked_atlas_result result
       = options.atlas.packer == Packer::HORIZON
-            ? SMT::repack_texture_atlas(mesh, library, scale, SMT::Horizon_packer())
-            : SMT::repack_texture_atlas(mesh, library, scale, SMT::Raster_packer());
-  if(result.defect.kind != SMT::Texture_defect::NONE) {
+            ? SMT::repack_texture_atlas(mesh, library, repacking, SMT::Horizon_packer())
+            : SMT::repack_texture_atlas(mesh, library, repacking, SMT::Raster_packer());
+  if(!result.defects.empty()) {
     const auto face = [&surface](std::uint32_t t) {
       return "face " + std::to_string(surface.surface.face[t]);
     };
-    throw Program_error(options.input, SMT::sentence_on(result.defect, face)
-                                           + ", take --charts uv instead of --repack, which maps "
-                                             "it anew");
+    const std::string sentence = SMT::sentence_on(result.defects[0], face);
+    if(result.status == CGAL::Indexed_mesh::Mesh_status::BAD_MESH) {
+      throw Program_error(options.input, sentence + ", take --charts uv instead of --repack, which "
+                                                    "maps it anew");
+    }
+    report.defective_charts = result.defects.size();
+    report.warnings.push_back("charts of the input that are not one-to-one and stay so: "
+                              + std::to_string(result.defects.size()) + ", such as " + sentence);
   }
   report.mirrored_charts = result.mirrored_charts;
   return std::move(result);

@@ -20,7 +20,8 @@ void add_layout(const Layout_report& report, const Layout_settings& settings,
   nlohmann::ordered_json layout;
   if(settings.is_repacked) {
     layout["repacked"] = {{"keeps_scale", settings.keeps_scale},
-                          {"mirrored_charts", report.mirrored_charts}};
+                          {"mirrored_charts", report.mirrored_charts},
+                          {"charts_not_one_to_one", report.defective_charts}};
   }
   if(settings.limits != Chart_limits::NONE) {
     layout["limits"]

@@ -10,6 +10,8 @@
 
 #include <cstddef>
 #include <ostream>
+#include <string>
+#include <vector>
 
 namespace hlscm {
 
@@ -17,6 +19,8 @@ namespace hlscm {
 struct Layout_report
 {
   std::size_t mirrored_charts = 0;           ///< of the input, packed anew
+  std::size_t defective_charts = 0;          ///< of these, those that are not one-to-one
+  std::vector<std::string> warnings;
   std::size_t parts = 0;                     ///< groups or materials that are limits of charts
   double least_density = 0, most_density = 0; ///< texels along a unit of length, of all charts
   double axis_parallel = 0;                  ///< the part of the borders of charts in the texture

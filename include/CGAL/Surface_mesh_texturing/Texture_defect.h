@@ -23,7 +23,23 @@ enum class Chart_scale
 };
 
 /// \ingroup PkgHLSCMTexturing
-/// What keeps a chart of a texture from being packed as it is, by exact predicates.
+/// What becomes of the charts of a texture whose maps are not one-to-one.
+enum class Defective_charts
+{
+  REFUSE, ///< they are an error
+  KEEP    ///< they stay as they are, and are reported
+};
+
+/// \ingroup PkgHLSCMTexturing
+/// How `repack_texture_atlas()` takes over charts.
+struct Repacking_options
+{
+  Chart_scale scale = Chart_scale::EQUAL_DENSITY;        ///< their sizes
+  Defective_charts defects = Defective_charts::REFUSE;   ///< those that are not one-to-one
+};
+
+/// \ingroup PkgHLSCMTexturing
+/// Why the map of a chart of a texture is not one-to-one, by exact predicates.
 struct Texture_defect
 {
   /// What is wrong.
@@ -38,6 +54,8 @@ struct Texture_defect
   std::size_t chart = 0; ///< where, in the order of `charts_of_texture()`
   /// The triangle, or both.
   std::array<std::uint32_t, 2> triangles = {{0, 0}};
+  std::size_t flipped = 0; ///< triangles of the chart on their back: the smaller part of its area
+  std::size_t size = 0;    ///< triangles of the chart
 };
 
 /// \ingroup PkgHLSCMTexturing
@@ -49,7 +67,9 @@ std::string sentence_on(const Texture_defect& defect, const Name& name)
   const std::string chart = "chart " + std::to_string(defect.chart) + " of the texture ";
   switch(defect.kind) {
   case Texture_defect::FLIPPED_TRIANGLE:
-    return chart + "has flipped parts, such as " + name(defect.triangles[0]);
+    return chart + "has " + std::to_string(defect.flipped)
+         + (defect.flipped == 1 ? " flipped triangle of " : " flipped triangles of ")
+         + std::to_string(defect.size) + ", the first in " + name(defect.triangles[0]);
   case Texture_defect::OVERLAP:
     return chart + "overlaps itself at " + name(defect.triangles[0]) + " and "
          + name(defect.triangles[1]);

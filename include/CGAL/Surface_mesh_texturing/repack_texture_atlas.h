@@ -21,7 +21,8 @@ namespace Surface_mesh_texturing {
 struct Repacked_atlas_result
   : Texture_atlas_result
 {
-  Texture_defect defect;           ///< what `error` says, if a chart cannot be kept
+  /// Of each chart that is not one-to-one. The error, if there is one for that, is the first.
+  std::vector<Texture_defect> defects;
   std::size_t mirrored_charts = 0; ///< charts that are mirrored as a whole, and stay so
 };
 
@@ -49,15 +50,18 @@ Packs the charts of a texture anew: each is turned, moved and scaled, and otherw
 
 Charts are those of `charts_of_texture()`, also such that are no disks; they may lie on each other, or
 anywhere in the plane, whose unit is the same in both directions. A chart that is mirrored as a whole
-stays mirrored (`Chart_report::is_mirrored`), and its distortion is that of its mirror image. Bad
-data give an error: those of `build_texture_atlas()`, texture coordinates that are missing or not
-finite, and a chart with a defect, which `Repacked_atlas_result::defect` names.
+stays mirrored (`Chart_report::is_mirrored`), and its distortion is that of its mirror image. Of a
+chart with flipped triangles, one that overlaps itself, or that has no area,
+`Repacked_atlas_result::defects` names the triangles; it is refused or kept, as
+`Repacking_options::defects` says. What is kept lies on itself in the texture as it did before, but on
+no other chart. Other bad data give an error: that of `build_texture_atlas()`, and texture coordinates
+that are missing or not finite.
 
 \tparam ConcurrencyTag as for `build_texture_atlas()`
 \tparam Packer a model of `ChartPacker`, or `Default` for `Raster_packer`
 \param mesh the surface and its texture
 \param options of these count `density`, `is_aligned`, `packing`, `seconds`, `threads` and `progress`
-\param scale how large charts become, before `options.density` counts
+\param repacking how charts are taken over, before `options.density` counts
 \param packer what packs them
 
 Expected time \f$ O(n \log n) \f$.
@@ -66,7 +70,8 @@ template <class ConcurrencyTag = Default, class Packer = Default>
 Repacked_atlas_result repack_texture_atlas(const Textured_triangle_mesh& mesh,
                                            const Texture_atlas_options& options
                                            = Texture_atlas_options(),
-                                           Chart_scale scale = Chart_scale::EQUAL_DENSITY,
+                                           const Repacking_options& repacking
+                                           = Repacking_options(),
                                            const Packer& packer = Packer())
 {
   const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
@@ -87,10 +92,11 @@ Repacked_atlas_result repack_texture_atlas(const Textured_triangle_mesh& mesh,
   };
   models.take_maps = [&](const Indexed_triangle_mesh& m, const Triangle_adjacency& adjacency,
                          Mesh_outcome& outcome) {
-    auto maps = internal::given_maps(m, adjacency, mesh, scale, result.defect);
-    outcome.fail(Mesh_status::BAD_MESH, sentence_on(result.defect, [](std::uint32_t t) {
-                   return "triangle " + std::to_string(t);
-                 }));
+    auto maps = internal::given_maps(m, adjacency, mesh, repacking, result.defects);
+    if(maps.empty() && !result.defects.empty())
+      outcome.fail(Mesh_status::BAD_MESH, sentence_on(result.defects[0], [](std::uint32_t t) {
+                     return "triangle " + std::to_string(t);
+                   }));
     return maps;
   };
   static_cast<Texture_atlas_result&>(result) = internal::build_atlas(surface, used, models);

@@ -62,21 +62,32 @@ inline std::optional<std::pair<std::size_t, std::size_t>> overlap_of(const Mappe
   return result;
 }
 
-// What keeps a chart from being packed as it is.
+// Why a map is not one-to-one.
 inline Texture_defect defect_of_chart(const Mapped_chart& map, double least_area)
 {
   namespace SMP = Surface_mesh_parameterization;
   const auto& triangles = map.chart.triangles;
   const Chart_distortion& d = map.report.distortion;
-  if(!(d.uv_area > 0.) && d.area > least_area)
-    return {Texture_defect::NO_AREA, 0, {triangles[0], triangles[0]}};
+  Texture_defect result;
+  result.size = triangles.size();
+  const auto take = [&](Texture_defect::Kind kind, std::size_t s, std::size_t t) {
+    result.kind = kind;
+    result.triangles = {{triangles[s], triangles[t]}};
+  };
+  if(!(d.uv_area > 0.) && d.area > least_area) {
+    take(Texture_defect::NO_AREA, 0, 0);
+    return result;
+  }
   const Orientation flipped = map.report.is_mirrored ? LEFT_TURN : RIGHT_TURN;
-  for(std::size_t t = 0; t < triangles.size(); ++t)
-    if(SMP::orientation_of(uv_triangle_of(map, t)) == flipped)
-      return {Texture_defect::FLIPPED_TRIANGLE, 0, {triangles[t], triangles[t]}};
-  if(const auto overlap = overlap_of(map))
-    return {Texture_defect::OVERLAP, 0, {triangles[overlap->first], triangles[overlap->second]}};
-  return {};
+  for(std::size_t t = triangles.size(); t-- > 0;)
+    if(SMP::orientation_of(uv_triangle_of(map, t)) == flipped) {
+      take(Texture_defect::FLIPPED_TRIANGLE, t, t);
+      ++result.flipped;
+    }
+  if(result.kind == Texture_defect::NONE)
+    if(const auto overlap = overlap_of(map))
+      take(Texture_defect::OVERLAP, overlap->first, overlap->second);
+  return result;
 }
 
 // A chart with the map that the texture gives it, in the texture's own unit, and its report.
@@ -123,35 +134,41 @@ inline void scale_given_maps(Chart_scale scale, std::vector<Mapped_chart>& maps)
   }
 }
 
-// The charts of a texture on `mesh`, which has its triangles, with their maps; or what is wrong with
-// the first chart that cannot be kept. In the order of their first triangles.
+// The charts of a texture on `mesh`, which has its triangles, with their maps, in the order of their
+// first triangles; `defects` gets those of all charts that have one. If one is refused, or the
+// texture has no area at all, there are no maps.
 inline std::vector<Mapped_chart> given_maps(const Indexed_triangle_mesh& mesh,
                                             const Triangle_adjacency& adjacency,
                                             const Textured_triangle_mesh& texture,
-                                            Chart_scale scale, Texture_defect& defect)
+                                            const Repacking_options& options,
+                                            std::vector<Texture_defect>& defects)
 {
   constexpr double negligible = 1e-12; // of the area of the surface, for charts without uv area
   std::vector<Chart_mesh> charts = chart_meshes(mesh, adjacency, charts_of_texture(texture));
   std::vector<Mapped_chart> maps(charts.size());
-  std::vector<Texture_defect> defects(charts.size());
+  std::vector<Texture_defect> all(charts.size());
   Blocked_execution::blocked_for(charts.size(), 1, [&](std::size_t begin, std::size_t end) {
     for(std::size_t i = begin; i < end; ++i)
       maps[i] = given_map(std::move(charts[i]), texture);
   });
-  double area = 0.;
-  for(const Mapped_chart& map : maps)
+  double area = 0., uv_area = 0.;
+  for(const Mapped_chart& map : maps) {
     area += map.report.distortion.area;
+    uv_area += map.report.distortion.uv_area;
+  }
   Blocked_execution::blocked_for(maps.size(), 1, [&](std::size_t begin, std::size_t end) {
     for(std::size_t i = begin; i < end; ++i)
-      defects[i] = defect_of_chart(maps[i], negligible * area);
+      all[i] = defect_of_chart(maps[i], negligible * area);
   });
-  for(std::size_t i = 0; i < defects.size(); ++i)
-    if(defects[i].kind != Texture_defect::NONE) {
-      defect = defects[i];
-      defect.chart = i;
-      return {};
+  for(std::size_t i = 0; i < all.size(); ++i)
+    if(all[i].kind != Texture_defect::NONE) {
+      all[i].chart = i;
+      maps[i].report.is_one_to_one = false;
+      defects.push_back(all[i]);
     }
-  scale_given_maps(scale, maps);
+  if(!defects.empty() && (options.defects == Defective_charts::REFUSE || !(uv_area > 0.)))
+    return {};
+  scale_given_maps(options.scale, maps);
   return maps;
 }
 
