@@ -261,6 +261,7 @@ TEST(Repacked_atlas, names_what_it_cannot_keep)
   EXPECT_TRUE(result.report.charts.at(1).is_one_to_one);
   EXPECT_EQ(scales(mesh, result.atlas).size(), 2u);
   EXPECT_EQ(result.report.distortion.flipped_faces, result.defects[0].flipped);
+  EXPECT_NEAR(densities(result.atlas)[0], densities(result.atlas)[1], 1e-6);
   // Nothing but a line
   for(Uv& p : mesh.uv)
     p = Uv(p.x(), 0.);

@@ -114,23 +114,36 @@ inline Mapped_chart given_map(Chart_mesh chart, const Textured_triangle_mesh& te
   return result;
 }
 
+// The area of a map, flipped triangles counted like others.
+inline double absolute_area(const Mapped_chart& map)
+{
+  double twice = 0.;
+  for(const Triangle_indices& t : map.chart.mesh.triangles) {
+    const auto p = map.uv[t[1]] - map.uv[t[0]], q = map.uv[t[2]] - map.uv[t[0]];
+    twice += std::abs(p.x() * q.y() - p.y() * q.x());
+  }
+  return 0.5 * twice;
+}
+
 // Scales the maps to the surface: each so that its area is that of its chart, or all by one factor.
 // Charts without area, here or there, take the common factor.
 inline void scale_given_maps(Chart_scale scale, std::vector<Mapped_chart>& maps)
 {
+  const auto factor = [](double area, double uv_area) { return std::sqrt(area / uv_area); };
+  const auto is_factor = [](double f) { return f > 0. && std::isfinite(f); };
   double area = 0., uv_area = 0.;
   for(const Mapped_chart& map : maps) {
     area += map.report.distortion.area;
-    uv_area += map.report.distortion.uv_area;
+    uv_area += absolute_area(map);
   }
-  const double common = area > 0. && uv_area > 0. ? std::sqrt(area / uv_area) : 1.;
+  const double common = is_factor(factor(area, uv_area)) ? factor(area, uv_area) : 1.;
   for(Mapped_chart& map : maps) {
     Chart_distortion& d = map.report.distortion;
-    if(scale == Chart_scale::EQUAL_DENSITY && scale_to_surface(d, map.uv))
-      continue;
+    const double own = factor(d.area, absolute_area(map));
+    const double used = scale == Chart_scale::EQUAL_DENSITY && is_factor(own) ? own : common;
     for(Point_2& p : map.uv)
-      p = Point_2(common * p.x(), common * p.y());
-    d.uv_area *= common * common;
+      p = Point_2(used * p.x(), used * p.y());
+    d.uv_area *= used * used;
   }
 }
 
