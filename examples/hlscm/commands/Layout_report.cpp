@@ -55,8 +55,9 @@ void add_layout_lines(const Layout_report& report, const Layout_settings& settin
        << " texels to a unit of length, " << 100 * report.axis_parallel
        << " % of the borders of charts along the axes";
   if(report.parts > 0) {
-    text << ", limits between " << report.parts
-         << (settings.limits == Chart_limits::GROUPS ? " groups" : " materials");
+    text << (settings.limits == Chart_limits::GROUPS ? ", limits between groups: "
+                                                     : ", limits between materials: ")
+         << report.parts;
   }
   if(report.mirrored_charts > 0) {
     text << ", charts mirrored as in the input: " << report.mirrored_charts;
