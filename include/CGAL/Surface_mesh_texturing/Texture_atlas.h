@@ -45,6 +45,12 @@ struct Texture_atlas_options
   /// For each triangle the texels that it is to have along a unit of length, relative to others; a
   /// chart gets the mean over its area. Empty for equal texel density.
   std::vector<float> density;
+  /// The price of seams that only serve to fill the pages: a chart is cut where it fits better in two
+  /// parts if that gains more than this part of the pages for a seam as long as the side of a page.
+  /// On a page of 1024 x 1024 texels, 0.02 is some 20 texels for each texel of the seam. The parts keep
+  /// the map of the chart. Infinity for no such cuts. There are none beyond `max_charts`, for a
+  /// segmenter that is not bounded, with a given density of texels, nor if there are very many charts.
+  double seam_price = 0.02;
   /// The metric to which charts are adapted, a tensor for each triangle, such as that of
   /// `signal_metric()`. A chart is mapped by `low_stretch_map()` in that metric if that is one-to-one,
   /// otherwise it gets its area in it; the bound of distortion holds before. Empty for none.
@@ -112,6 +118,7 @@ struct Texture_atlas_report
   std::vector<Chart_report> charts; ///< of each chart
   /// Charts of the first segmentation that failed on the fine mesh and were cut again.
   std::size_t recut_charts = 0;
+  std::size_t page_cuts = 0;      ///< cuts made to fill the pages; see `seam_price`
   std::size_t unwanted_seams = 0; ///< edges that are seams in spite of the option `no_seams`
   /// Whether `Texture_atlas_options::seconds` were over before the atlas was as good as it gets.
   bool stopped_early = false;

@@ -271,14 +271,18 @@ private:
 
 typedef std::vector<double> Packing_keys; // of the charts; the largest is placed first
 
-// The logarithms of the areas, rounded so that equal charts are equal.
+// The logarithm of the area, rounded so that equal charts are equal.
+inline double key_of(const Chart_outline& outline)
+{
+  const double thickened = outline.area + 1e-3 * outline.diameter * outline.diameter;
+  return thickened > 0. ? std::round(1e6 * std::log(thickened)) / 1e6 : -1e3;
+}
+
 inline Packing_keys keys_by_area(const std::vector<Chart_outline>& outlines)
 {
   Packing_keys keys;
-  for(const Chart_outline& o : outlines) {
-    const double thickened = o.area + 1e-3 * o.diameter * o.diameter;
-    keys.push_back(thickened > 0. ? std::round(1e6 * std::log(thickened)) / 1e6 : -1e3);
-  }
+  for(const Chart_outline& o : outlines)
+    keys.push_back(key_of(o));
   return keys;
 }
 

@@ -1,0 +1,400 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_FILLING_CHART_CUTS_H
+#define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_FILLING_CHART_CUTS_H
+
+#include <CGAL/Indexed_mesh/Triangle_adjacency.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/map_charts.h>
+#include <CGAL/Surface_mesh_texturing/internal/filling/Packing_estimate.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <queue>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+namespace internal {
+
+inline double distance(const Vector_2d& p, const Vector_2d& q)
+{
+  return std::hypot(p[0] - q[0], p[1] - q[1]);
+}
+
+// The outline of a polygon, lengths divided by `unit`.
+inline Chart_outline polygon_outline(const std::vector<Vector_2d>& polygon, double unit)
+{
+  Vector_2d low = polygon[0], high = polygon[0];
+  for(const Vector_2d& p : polygon)
+    for(int c = 0; c < 2; ++c) {
+      low[c] = (std::min)(low[c], p[c]);
+      high[c] = (std::max)(high[c], p[c]);
+    }
+  Chart_outline result;
+  result.centre = {0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])};
+  result.diameter = distance(low, high) / unit;
+  std::vector<Vector_2d> points;
+  for(const Vector_2d& p : polygon)
+    points.push_back({(p[0] - result.centre[0]) / unit, (p[1] - result.centre[1]) / unit});
+  result.parts.emplace_back();
+  for(std::size_t i = 0; i < points.size(); ++i) {
+    const Vector_2d &p = points[i], &q = points[(i + 1) % points.size()];
+    result.parts[0].push_back({p, q, 1});
+    result.area += 0.5 * (p[0] * q[1] - p[1] * q[0]);
+  }
+  result.area = std::abs(result.area);
+  result.angle = aligning_angle(points);
+  return result;
+}
+
+// A cut through a chart that leaves two disks.
+struct Chart_cut
+{
+  std::vector<Vertex_index> path; // along edges from border to border, in between off the border
+  double length = 0.;             // in the plane, in units of the outlines
+  std::array<Packable, 2> sides;  // what is to its right, from its first vertex on, and the other one
+};
+
+// A segment between two corners of a polygon, within it.
+struct Chord
+{
+  std::size_t from, to;  // corners
+  double length = 0.;
+  double part = 0.;      // of the area, on the smaller side
+  double along = 0.;     // how much it runs along the long side of the smallest rectangle, in [0, 1]
+  double gain = 0.;      // area of the convex hull that is not in those of both sides, less a price
+  bool is_out = false;   // taken, or near to one that is
+};
+
+// The chords of a polygon given counterclockwise, aligned by a rotation by `angle`.
+class Chord_finder
+{
+public:
+  Chord_finder(const std::vector<Vector_2d>& polygon, double angle)
+    : m_polygon(polygon), m_direction({std::cos(angle), -std::sin(angle)}), m_sums(1, 0.)
+  {
+    for(std::size_t i = 0; i < polygon.size(); ++i)
+      m_sums.push_back(m_sums.back() + 0.5 * wedge(polygon[i], polygon[(i + 1) % polygon.size()]));
+  }
+
+  double area() const { return m_sums.back(); }
+
+  std::vector<Chord> find() const
+  {
+    const std::size_t n = m_polygon.size();
+    const double hull = hull_area(m_polygon);
+    std::vector<Chord> result;
+    for(std::size_t i = 0; i < n; ++i)
+      for(std::size_t j = i + 2; j < n; ++j)
+        if((i > 0 || j + 1 < n) && measure(i, j, hull, result))
+          continue;
+    return result;
+  }
+
+private:
+  static double wedge(const Vector_2d& p, const Vector_2d& q) { return p[0] * q[1] - p[1] * q[0]; }
+
+  static double hull_area(const std::vector<Vector_2d>& points)
+  {
+    const std::vector<Vector_2d> hull = convex_hull(points);
+    double sum = 0.;
+    for(std::size_t i = 0; i < hull.size(); ++i)
+      sum += 0.5 * wedge(hull[i], hull[(i + 1) % hull.size()]);
+    return sum;
+  }
+
+  // Adds the chord if it is one.
+  bool measure(std::size_t i, std::size_t j, double hull, std::vector<Chord>& chords) const
+  {
+    constexpr double least_part = 0.06, price = 0.15; // of the root of the area
+    const Vector_2d &a = m_polygon[i], &b = m_polygon[j];
+    const double length = distance(a, b);
+    const double part = (m_sums[j] - m_sums[i] + 0.5 * wedge(b, a)) / area();
+    if(!(length > 0.) || !(part > least_part && part < 1. - least_part) || !is_within(i, j))
+      return false;
+    std::vector<Vector_2d> right(m_polygon.begin() + i, m_polygon.begin() + j + 1);
+    std::vector<Vector_2d> left(m_polygon.begin() + j, m_polygon.end());
+    left.insert(left.end(), m_polygon.begin(), m_polygon.begin() + i + 1);
+    Chord chord = {i, j};
+    chord.length = length;
+    chord.part = (std::min)(part, 1. - part);
+    chord.along
+      = std::abs(m_direction[0] * (b[0] - a[0]) + m_direction[1] * (b[1] - a[1])) / length;
+    chord.gain = (hull - hull_area(right) - hull_area(left)) / area()
+               - price * length / std::sqrt(area());
+    chords.push_back(chord);
+    return true;
+  }
+
+  // Whether the middle is inside and no side is crossed.
+  bool is_within(std::size_t i, std::size_t j) const
+  {
+    const std::size_t n = m_polygon.size();
+    const Vector_2d &a = m_polygon[i], &b = m_polygon[j];
+    const Vector_2d middle = {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
+    bool is_inside = false;
+    for(std::size_t k = 0, l = n - 1; k < n; l = k++) {
+      const Vector_2d &p = m_polygon[k], &q = m_polygon[l];
+      if((p[1] > middle[1]) != (q[1] > middle[1])
+         && middle[0] < (q[0] - p[0]) * (middle[1] - p[1]) / (q[1] - p[1]) + p[0])
+        is_inside = !is_inside;
+      if(k != i && k != j && l != i && l != j
+         && (cross(a, b, p) > 0.) != (cross(a, b, q) > 0.)
+         && (cross(p, q, a) > 0.) != (cross(p, q, b) > 0.))
+        return false;
+    }
+    return is_inside;
+  }
+
+  const std::vector<Vector_2d>& m_polygon;
+  Vector_2d m_direction;      // of the long side
+  std::vector<double> m_sums; // areas between the origin and the sides before each corner
+};
+
+// Finds cuts through a chart that is a disk: few, of those kinds that make charts easier to pack.
+class Chart_cut_finder
+{
+public:
+  // The map must outlive this; `no_seams` are marks of its edges, or none.
+  Chart_cut_finder(const Mapped_chart& map, std::vector<std::uint8_t> no_seams, double unit)
+    : m_map(map), m_no_seams(std::move(no_seams)), m_unit(unit)
+  {
+    find_loop();
+  }
+
+  // The polygon of the border, with so many corners at most.
+  std::vector<Vector_2d> polygon() const { return thinned(m_loop); }
+
+  std::vector<Chart_cut> find();
+
+private:
+  typedef std::vector<Vertex_index> Vertices;
+
+  static constexpr std::size_t most_corners = 256; // of an outline
+  static constexpr std::size_t most_ends = 56;     // of chords
+
+  const std::vector<Triangle_indices>& triangles() const { return m_map.chart.mesh.triangles; }
+  Vector_2d at(Vertex_index v) const { return {m_map.uv[v].x(), m_map.uv[v].y()}; }
+
+  void find_loop();
+  std::vector<std::size_t> ends_of_chords() const;
+  Vertices find_path(Vertex_index a, Vertex_index b, double band) const;
+  bool make(const Chord& chord, const std::vector<std::size_t>& ends, Chart_cut& cut) const;
+
+  std::vector<Vector_2d> thinned(const Vertices& loop) const
+  {
+    std::vector<Vector_2d> result;
+    const std::size_t n = (std::min)(loop.size(), most_corners);
+    for(std::size_t i = 0; i < n; ++i)
+      result.push_back(at(loop[i * loop.size() / n]));
+    return result;
+  }
+
+  const Mapped_chart& m_map;
+  std::vector<std::uint8_t> m_no_seams;
+  double m_unit;
+  Vertices m_loop;                  // the border, counterclockwise; none if it is not one loop
+  std::vector<bool> m_is_on_border; // of each vertex, once cuts are looked for
+  std::unique_ptr<Triangle_adjacency> m_adjacency;
+  std::unique_ptr<Indexed_mesh::Triangles_at_vertices> m_corners;
+};
+
+inline void Chart_cut_finder::find_loop()
+{
+  std::unordered_map<Vertex_index, Vertex_index> next;
+  for(const Border_edge& e : m_map.chart.border_edges())
+    next[e[0]] = e[1];
+  if(next.size() != m_map.chart.border.size() || next.empty())
+    return; // a vertex is there twice
+  const Vertex_index first = vertex_of(triangles(), m_map.chart.border[0]);
+  Vertex_index v = first;
+  do {
+    m_loop.push_back(v);
+    const auto found = next.find(v);
+    v = found == next.end() ? first : found->second;
+  } while(v != first && m_loop.size() < next.size());
+  if(m_loop.size() != next.size())
+    m_loop.clear(); // several loops
+}
+
+// Positions in the loop, evenly spaced.
+inline std::vector<std::size_t> Chart_cut_finder::ends_of_chords() const
+{
+  const std::size_t n = m_loop.size();
+  std::vector<double> sums(1, 0.);
+  for(std::size_t i = 0; i < n; ++i)
+    sums.push_back(sums.back() + distance(at(m_loop[i]), at(m_loop[(i + 1) % n])));
+  std::vector<std::size_t> result;
+  for(std::size_t i = 0, k = 0; i < n && k < most_ends; ++i)
+    if(n <= most_ends || sums[i] >= sums[n] * double(k) / double(most_ends)) {
+      result.push_back(i);
+      while(n > most_ends && k < most_ends && sums[i] >= sums[n] * double(k) / double(most_ends))
+        ++k;
+    }
+  return result;
+}
+
+// The shortest path of inner edges between two border vertices that is no farther than `band` from
+// the segment between them, and off the border but for its ends; what is beside the segment counts
+// more. Empty if there is none.
+inline Chart_cut_finder::Vertices Chart_cut_finder::find_path(Vertex_index a, Vertex_index b,
+                                                              double band) const
+{
+  constexpr double price_of_distance = 4.;
+  struct Reached
+  {
+    double length;
+    Vertex_index from;
+  };
+  typedef std::pair<double, Vertex_index> Offer;
+  const Vector_2d start = at(a), end = at(b);
+  const double length = distance(start, end);
+  const auto beside = [&](const Vector_2d& p) {
+    const double t = ((p[0] - start[0]) * (end[0] - start[0])
+                      + (p[1] - start[1]) * (end[1] - start[1])) / (length * length);
+    const double s = (std::max)(0., (std::min)(1., t));
+    return distance(p, {start[0] + s * (end[0] - start[0]), start[1] + s * (end[1] - start[1])});
+  };
+  std::unordered_map<Vertex_index, Reached> reached = {{a, {0., a}}};
+  std::priority_queue<Offer, std::vector<Offer>, std::greater<Offer>> offers;
+  offers.push({0., a});
+  const auto offer = [&](Vertex_index v, Vertex_index w, Halfedge h, double so_far) {
+    const Halfedge opposite = m_adjacency->opposite(h);
+    if(opposite == no_halfedge || (m_is_on_border[w] && w != b)
+       || (!m_no_seams.empty() && (is_marked(m_no_seams, h) || is_marked(m_no_seams, opposite))))
+      return;
+    const Vector_2d p = at(v), q = at(w);
+    const double aside = beside({0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1])});
+    if(aside > band)
+      return;
+    const double sum = so_far + distance(p, q) * (1. + price_of_distance * aside / length);
+    const auto [place, is_new] = reached.insert({w, {sum, v}});
+    if(!is_new && !(sum < place->second.length))
+      return;
+    place->second = {sum, v};
+    offers.push({sum, w});
+  };
+  while(!offers.empty()) {
+    const auto [sum, v] = offers.top();
+    offers.pop();
+    if(v == b)
+      break;
+    if(sum > reached.at(v).length)
+      continue;
+    for(const Halfedge* h = m_corners->begin(v); h != m_corners->end(v); ++h) {
+      offer(v, vertex_of(triangles(), next_halfedge(*h)), *h, sum);
+      const Halfedge before = previous_halfedge(*h);
+      offer(v, vertex_of(triangles(), before), before, sum);
+    }
+  }
+  Vertices path;
+  if(reached.count(b) == 0)
+    return path;
+  for(Vertex_index v = b; v != a; v = reached.at(v).from)
+    path.push_back(v);
+  path.push_back(a);
+  std::reverse(path.begin(), path.end());
+  return path;
+}
+
+// The cut along edges near to a chord; returns whether there is one.
+inline bool Chart_cut_finder::make(const Chord& chord, const std::vector<std::size_t>& ends,
+                                   Chart_cut& cut) const
+{
+  constexpr double first_band = 0.03, widest = 0.35; // of the length of the chord
+  constexpr double most_detour = 1.6, least_part = 0.04;
+  const std::size_t i = ends[chord.from], j = ends[chord.to];
+  const double edge = std::sqrt(std::abs(m_map.report.distortion.uv_area)
+                                / double(triangles().size()));
+  double band = (std::max)(first_band * chord.length, 3. * edge);
+  for(cut.path.clear(); cut.path.empty() && band < 4. * widest * chord.length; band *= 4.)
+    cut.path = find_path(m_loop[i], m_loop[j], (std::min)(band, widest * chord.length));
+  double length = 0.;
+  for(std::size_t k = 0; k + 1 < cut.path.size(); ++k)
+    length += distance(at(cut.path[k]), at(cut.path[k + 1]));
+  if(cut.path.empty() || length > most_detour * chord.length)
+    return false;
+  cut.length = length / m_unit;
+  Vertices first(m_loop.begin() + i, m_loop.begin() + j);
+  first.insert(first.end(), cut.path.rbegin(), cut.path.rend() - 1);
+  Vertices second(m_loop.begin() + j, m_loop.end());
+  second.insert(second.end(), m_loop.begin(), m_loop.begin() + i);
+  second.insert(second.end(), cut.path.begin(), cut.path.end() - 1);
+  cut.sides = {std::make_shared<Packable_shape>(polygon_outline(thinned(first), m_unit)),
+               std::make_shared<Packable_shape>(polygon_outline(thinned(second), m_unit))};
+  const double a = cut.sides[0]->outline().area, b = cut.sides[1]->outline().area;
+  return (std::min)(a, b) > least_part * (a + b);
+}
+
+// Cuts where the convex hulls of the sides are much smaller than that of the chart, and cuts across
+// and along it.
+inline std::vector<Chart_cut> Chart_cut_finder::find()
+{
+  constexpr std::size_t least_triangles = 8;
+  std::vector<Chart_cut> result;
+  if(triangles().size() < least_triangles || m_loop.size() < 4)
+    return result;
+  const std::vector<std::size_t> ends = ends_of_chords();
+  std::vector<Vector_2d> corners;
+  for(const std::size_t i : ends)
+    corners.push_back(at(m_loop[i]));
+  const Chord_finder finder(corners, aligning_angle(corners));
+  std::vector<Chord> chords = finder.find();
+  if(chords.empty())
+    return result;
+  m_adjacency = std::make_unique<Triangle_adjacency>(triangles());
+  m_corners = std::make_unique<Indexed_mesh::Triangles_at_vertices>(triangles(), m_map.uv.size());
+  m_is_on_border.assign(m_map.uv.size(), false);
+  for(const Vertex_index v : m_loop)
+    m_is_on_border[v] = true;
+  constexpr double never = 1e300, across = 0.25, along = 0.95;
+  const auto take = [&](const auto& cost) {
+    const auto less = [&](const Chord& c, const Chord& d) { return cost(c) < cost(d); };
+    const auto best = std::min_element(chords.begin(), chords.end(), less);
+    if(best->is_out || !(cost(*best) < never))
+      return;
+    Chart_cut cut;
+    if(make(*best, ends, cut))
+      result.push_back(std::move(cut));
+    const Chord taken = *best;
+    const auto apart = [](std::size_t i, std::size_t j) { return i > j ? i - j : j - i; };
+    for(Chord& c : chords)
+      c.is_out = c.is_out
+              || apart(c.from, taken.from) + apart(c.to, taken.to) <= corners.size() / 8;
+  };
+  const auto of_hulls = [](const Chord& c) { return c.is_out ? never : -c.gain; };
+  const auto crossing = [](double from, double to) {
+    return [=](const Chord& c) {
+      const bool is_allowed = !c.is_out && c.along < across && c.part >= from && c.part <= to;
+      return is_allowed ? c.length * (1. + c.along) : never;
+    };
+  };
+  const auto lengthwise = [](double from, double to) {
+    return [=](const Chord& c) {
+      const bool is_allowed = !c.is_out && c.along > along && c.part >= from && c.part <= to;
+      return is_allowed ? -c.along : never;
+    };
+  };
+  take(of_hulls);
+  take(crossing(0.38, 0.5));
+  take(crossing(0.25, 0.4));
+  take(of_hulls);
+  take(lengthwise(0.35, 0.5));
+  take(crossing(0., 0.25));
+  take(of_hulls);
+  take(lengthwise(0., 0.35));
+  return result;
+}
+
+} // namespace internal
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_INTERNAL_FILLING_CHART_CUTS_H

@@ -1,0 +1,145 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_FILLING_PACKING_ESTIMATE_H
+#define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_FILLING_PACKING_ESTIMATE_H
+
+#include <CGAL/Surface_mesh_texturing/Chart_packing.h>
+#include <CGAL/Surface_mesh_texturing/internal/packing/Chart_outline.h>
+#include <CGAL/Surface_mesh_texturing/internal/packing/Chart_raster.h>
+#include <CGAL/Surface_mesh_texturing/internal/packing/Place_search.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+namespace internal {
+
+// What is packed on trial: an outline, and its rasters, which are kept since it is packed many times.
+class Packable_shape
+{
+public:
+  explicit Packable_shape(Chart_outline outline) : m_outline(std::move(outline)) {}
+
+  const Chart_outline& outline() const { return m_outline; }
+
+  // In each direction, with `density` texels per unit of the outline. Called by several threads.
+  const std::vector<Chart_raster>& rasters(int level, double density, int rotations,
+                                           const Packing_raster& raster) const
+  {
+    const std::lock_guard<std::mutex> guard(m_mutex);
+    std::vector<Chart_raster>& result = m_rasters[level];
+    for(int r = int(result.size()); r < rotations; ++r)
+      result.push_back(chart_raster(m_outline, m_outline.angle + 2. * CGAL_PI * r / rotations,
+                                    density, raster, Rims::ALL));
+    return result;
+  }
+
+  // Rasters of lower levels are not needed any more.
+  void forget_below(int level) const { m_rasters.erase(m_rasters.begin(), m_rasters.lower_bound(level)); }
+
+private:
+  Chart_outline m_outline;
+  mutable std::mutex m_mutex;
+  mutable std::map<int, std::vector<Chart_raster>> m_rasters; // by level
+};
+
+typedef std::shared_ptr<const Packable_shape> Packable;
+
+// Estimates how densely shapes of a fixed area can be packed, by some orders on a coarse raster.
+//
+// Densities are levels: at level 0 the shapes would have the area of all pages, at level -64 half of
+// it.
+class Packing_estimate
+{
+public:
+  // `area` is that of all shapes, in units of the outlines.
+  Packing_estimate(const Packing_options& options, double area, std::size_t shapes)
+    : m_pages((std::max)(std::size_t(1), options.max_pages)),
+      m_raster(coarser_raster(exact_raster(options), (std::max)(96. * 96., 64. * double(shapes)))),
+      m_highest(std::sqrt(double(options.width) * double(options.height) * double(m_pages) / area))
+  {}
+
+  // The part of the pages that the shapes have at a level.
+  static double used(int level) { return std::exp2(level / levels_of_half); }
+  // The first level at which they have at least this part.
+  static int level_of(double used) { return int(std::ceil(levels_of_half * std::log2(used) - 1e-9)); }
+
+  // Texels along a unit of the outlines.
+  double density(int level) const { return m_highest * std::exp2(0.5 * level / levels_of_half); }
+
+  // The highest level found from `least` on, or `least` - 1 if none is.
+  int highest_level(const std::vector<Packable>& shapes, int least) const
+  {
+    constexpr int first_step = 4;
+    int low = least - 1, high = 1;
+    for(int level = least, step = first_step; high - low > 1;) {
+      if(fits(shapes, level))
+        low = level;
+      else
+        high = level;
+      if(low < least)
+        return low;
+      level = high > 0 ? (std::min)(0, low + step) : low + (high - low) / 2;
+      step *= 2;
+    }
+    return low;
+  }
+
+private:
+  static constexpr double levels_of_half = 64.;
+  static constexpr std::size_t orders = 3;
+  static constexpr int rotations = 8, rotations_alone = 48;
+
+  bool fits(const std::vector<Packable>& shapes, int level) const
+  {
+    const int directions = shapes.size() == 1 ? rotations_alone : rotations;
+    std::vector<const std::vector<Chart_raster>*> rasters;
+    Packing_keys keys;
+    for(const Packable& shape : shapes) {
+      keys.push_back(key_of(shape->outline()));
+      rasters.push_back(&shape->rasters(level, density(level), directions, m_raster));
+    }
+    for(std::size_t i = 0; i < (shapes.size() == 1 ? 1 : orders); ++i)
+      if(fits(rasters, order_of(i == 0 ? keys : perturbed(keys, i))))
+        return true;
+    return false;
+  }
+
+  bool fits(const std::vector<const std::vector<Chart_raster>*>& rasters,
+            const std::vector<std::uint32_t>& order) const
+  {
+    std::vector<Page_raster> pages;
+    for(const std::uint32_t shape : order) {
+      Place_search search(Place_criterion::SNUG);
+      for(std::size_t p = 0; p < m_pages && !search.best().is_found(); ++p) {
+        if(p == pages.size())
+          pages.emplace_back(m_raster.width, m_raster.height);
+        for(std::size_t r = 0; r < rasters[shape]->size(); ++r)
+          search.search((*rasters[shape])[r], pages[p], std::uint32_t(p), int(r));
+      }
+      const Raster_place& place = search.best();
+      if(!place.is_found())
+        return false;
+      pages[place.page].take((*rasters[shape])[place.rotation].padded, place.x, place.y);
+    }
+    return true;
+  }
+
+  std::size_t m_pages;
+  Packing_raster m_raster;
+  double m_highest; // the density of level 0
+};
+
+} // namespace internal
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_INTERNAL_FILLING_PACKING_ESTIMATE_H

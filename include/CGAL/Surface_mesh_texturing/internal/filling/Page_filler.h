@@ -1,0 +1,350 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_FILLING_PAGE_FILLER_H
+#define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_FILLING_PAGE_FILLER_H
+
+#include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/map_charts.h>
+#include <CGAL/Surface_mesh_texturing/internal/filling/Chart_cuts.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+namespace internal {
+
+// Cuts charts where that lets them be packed more densely. Their maps are kept.
+class Page_filler
+{
+public:
+  // What a cut must gain.
+  struct Terms
+  {
+    double seam_price;  // part of the pages for a cut as long as a page's side
+    double least_gain;  // part of the pages beyond that; less than 0 to go on through what is worse
+    double enough;      // no cut is needed once this part of the pages is used
+    std::size_t most_cuts;
+  };
+
+  // All of these must outlive this. `is_over()` says when to stop.
+  Page_filler(std::vector<Mapped_chart>& charts, const Packing_options& packing,
+              const Chart_mapping& mapping);
+
+  // Cuts until no cut is worth while; returns the number of cuts.
+  std::size_t run(const Terms& terms);
+
+  // The part of the pages that is used, about: final packings are denser.
+  double used() const { return Packing_estimate::used(m_level); }
+
+private:
+  struct Candidate
+  {
+    std::size_t chart, cut;
+    int level = 0;    // of the packing with this cut
+    double gain = 0.; // beyond the price
+  };
+
+  bool cut_once(const Terms& terms);
+  std::vector<Candidate> candidates();
+  void estimate(const Terms& terms, std::vector<Candidate>& candidates) const;
+  std::array<Mapped_chart, 2> parts_of(const Chart_cut& cut, const Mapped_chart& whole) const;
+  bool apply(const Terms& terms, const Candidate& candidate);
+
+  // The length of a cut in sides of a page.
+  double in_sides(double length) const { return length * m_estimate.density(m_level) / m_side; }
+
+  std::vector<Mapped_chart>& m_charts;
+  const Chart_mapping& m_mapping;
+  double m_unit; // of the outlines
+  double m_side; // of a page, in texels
+  std::vector<Packable> m_shapes;
+  std::vector<std::vector<Chart_cut>> m_cuts; // of each chart
+  std::vector<bool> m_has_cuts;
+  Packing_estimate m_estimate;
+  int m_level = 0; // of the packing so far
+};
+
+// The largest extent of a chart.
+inline double extent_of(const std::vector<Mapped_chart>& charts)
+{
+  double result = 0.;
+  for(const Mapped_chart& map : charts)
+    for(int c = 0; c < 2; ++c) {
+      const auto less = [c](const Point_2& p, const Point_2& q) { return p[c] < q[c]; };
+      const auto ends = std::minmax_element(map.uv.begin(), map.uv.end(), less);
+      if(!map.uv.empty())
+        result = (std::max)(result, (*ends.second)[c] - (*ends.first)[c]);
+    }
+  return result > 0. ? result : 1.;
+}
+
+inline Packable shape_of(const Mapped_chart& chart, double unit)
+{
+  const std::vector<Vector_2d> polygon = Chart_cut_finder(chart, {}, unit).polygon();
+  return std::make_shared<Packable_shape>(polygon.empty() ? Chart_outline()
+                                                          : polygon_outline(polygon, unit));
+}
+
+inline std::vector<Packable> shapes_of(const std::vector<Mapped_chart>& charts, double unit)
+{
+  std::vector<Packable> result(charts.size());
+  Blocked_execution::blocked_for(charts.size(), 1, [&](std::size_t i, std::size_t) {
+    result[i] = shape_of(charts[i], unit);
+  });
+  return result;
+}
+
+inline double area_of(const std::vector<Packable>& shapes)
+{
+  double sum = 0.;
+  for(const Packable& shape : shapes)
+    sum += shape->outline().area;
+  return sum;
+}
+
+inline Page_filler::Page_filler(std::vector<Mapped_chart>& charts, const Packing_options& packing,
+                                const Chart_mapping& mapping)
+  : m_charts(charts), m_mapping(mapping), m_unit(extent_of(charts)),
+    m_side(std::sqrt(double(packing.width) * double(packing.height))),
+    m_shapes(shapes_of(charts, m_unit)), m_cuts(charts.size()), m_has_cuts(charts.size(), false),
+    m_estimate(packing, area_of(m_shapes), charts.size())
+{
+  constexpr int lowest = -64 * 8, step = 16;
+  for(m_level = -step; m_level > lowest; m_level -= step) {
+    const int found = m_estimate.highest_level(m_shapes, m_level);
+    if(found >= m_level) {
+      m_level = found;
+      return;
+    }
+  }
+}
+
+inline std::size_t Page_filler::run(const Terms& terms)
+{
+  std::size_t cuts = 0;
+  while(cuts < terms.most_cuts && used() < terms.enough && m_mapping.has_time() && cut_once(terms))
+    ++cuts;
+  return cuts;
+}
+
+// The cuts of the charts with the largest diameters.
+inline std::vector<Page_filler::Candidate> Page_filler::candidates()
+{
+  constexpr std::size_t most_charts = 8;
+  std::vector<std::size_t> largest(m_charts.size());
+  std::iota(largest.begin(), largest.end(), std::size_t(0));
+  std::stable_sort(largest.begin(), largest.end(), [this](std::size_t i, std::size_t j) {
+    return m_shapes[i]->outline().diameter > m_shapes[j]->outline().diameter;
+  });
+  largest.resize((std::min)(largest.size(), most_charts));
+  Blocked_execution::blocked_for(largest.size(), 1, [&](std::size_t i, std::size_t) {
+    const std::size_t chart = largest[i];
+    if(m_cuts[chart].empty() && m_has_cuts[chart] == false)
+      m_cuts[chart] = Chart_cut_finder(m_charts[chart],
+                                       m_charts[chart].chart.sides(m_mapping.no_seams), m_unit)
+                        .find();
+  });
+  std::vector<Candidate> result;
+  for(const std::size_t chart : largest) {
+    m_has_cuts[chart] = true;
+    for(std::size_t cut = 0; cut < m_cuts[chart].size(); ++cut)
+      result.push_back({chart, cut});
+  }
+  return result;
+}
+
+// Finds what each cut gains, some at a time; those that gain less than the best so far are known no
+// better than that.
+inline void Page_filler::estimate(const Terms& terms, std::vector<Candidate>& candidates) const
+{
+  constexpr std::size_t at_a_time = 4;
+  double best = terms.least_gain;
+  for(std::size_t begin = 0; begin < candidates.size() && m_mapping.has_time();
+      begin += at_a_time) {
+    const std::size_t end = (std::min)(candidates.size(), begin + at_a_time);
+    Blocked_execution::blocked_for(end - begin, 1, [&](std::size_t i, std::size_t) {
+      Candidate& c = candidates[begin + i];
+      const Chart_cut& cut = m_cuts[c.chart][c.cut];
+      const double price = terms.seam_price * in_sides(cut.length);
+      std::vector<Packable> shapes = m_shapes;
+      shapes[c.chart] = cut.sides[0];
+      shapes.push_back(cut.sides[1]);
+      const double needed = used() + price + best;
+      c.gain = terms.least_gain - 1.;
+      const int least = needed < 1. ? Packing_estimate::level_of(needed) : 1;
+      if(least > 0)
+        return;
+      c.level = m_estimate.highest_level(shapes, least);
+      if(c.level >= least)
+        c.gain = Packing_estimate::used(c.level) - used() - price;
+    });
+    for(std::size_t i = begin; i < end; ++i)
+      best = (std::max)(best, candidates[i].gain);
+  }
+}
+
+// Makes the cut that gains the most, and whose parts can be mapped.
+inline bool Page_filler::cut_once(const Terms& terms)
+{
+  std::vector<Candidate> all = candidates();
+  estimate(terms, all);
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
+  for(const Candidate& c : all) {
+    if(!(c.gain >= terms.least_gain))
+      return false;
+    if(apply(terms, c))
+      return true;
+  }
+  return false;
+}
+
+// The triangles on the left of the path, which goes through a disk from border to border.
+inline std::vector<Triangle_index> left_of(const std::vector<Vertex_index>& path,
+                                           const std::vector<Triangle_indices>& triangles,
+                                           const Triangle_adjacency& adjacency)
+{
+  std::vector<std::pair<Vertex_index, Vertex_index>> edges;
+  for(std::size_t i = 0; i + 1 < path.size(); ++i) {
+    edges.push_back({path[i], path[i + 1]});
+    edges.push_back({path[i + 1], path[i]});
+  }
+  std::sort(edges.begin(), edges.end());
+  std::vector<bool> is_on_path(1);
+  for(const Vertex_index v : path) {
+    is_on_path.resize((std::max)(is_on_path.size(), std::size_t(v) + 1), false);
+    is_on_path[v] = true;
+  }
+  const auto is_cut = [&](Vertex_index v, Vertex_index w) {
+    return v < is_on_path.size() && is_on_path[v]
+        && std::binary_search(edges.begin(), edges.end(), std::make_pair(v, w));
+  };
+  std::vector<bool> is_left(triangles.size(), false);
+  std::vector<Triangle_index> result;
+  for(Triangle_index t = 0; t < triangles.size() && result.empty(); ++t)
+    for(int c = 0; c < 3; ++c)
+      if(triangles[t][c] == path[0] && triangles[t][(c + 1) % 3] == path[1]) {
+        is_left[t] = true;
+        result.push_back(t);
+      }
+  for(std::size_t i = 0; i < result.size(); ++i)
+    for(int c = 0; c < 3; ++c) {
+      const Triangle_indices& t = triangles[result[i]];
+      const Halfedge opposite = adjacency.opposite(result[i], c);
+      if(opposite == no_halfedge || is_left[triangle_of(opposite)] || is_cut(t[c], t[(c + 1) % 3]))
+        continue;
+      is_left[triangle_of(opposite)] = true;
+      result.push_back(triangle_of(opposite));
+    }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+// The chart of some triangles of a chart, with its map.
+inline Mapped_chart part_of(const Mapped_chart& whole, const Triangle_adjacency& adjacency,
+                            const std::vector<Triangle_index>& triangles)
+{
+  std::vector<bool> is_in(whole.chart.mesh.triangles.size(), false);
+  for(const Triangle_index t : triangles)
+    is_in[t] = true;
+  Chart_cutter<Triangle_adjacency> cut_out(whole.chart.mesh, adjacency);
+  Mapped_chart result;
+  result.chart = cut_out(triangles, [&](Halfedge h) {
+    const Halfedge opposite = adjacency.opposite(h);
+    return opposite != no_halfedge && is_in[triangle_of(h)] == is_in[triangle_of(opposite)];
+  });
+  for(Vertex_index& v : result.chart.vertices) {
+    result.uv.push_back(whole.uv[v]);
+    v = whole.chart.vertices[v];
+  }
+  for(Triangle_index& t : result.chart.triangles)
+    t = whole.chart.triangles[t];
+  result.report.faces = result.chart.triangles.size();
+  result.report.border_length
+    = border_length(result.chart.mesh, result.chart.border_edges());
+  result.report.distortion = measure_chart_distortion(result.chart.mesh, result.uv);
+  result.is_valid = true;
+  return result;
+}
+
+// The parts on both sides of a cut, the first one on the right of its path, with the map of the chart
+// or, where that is beyond the bound for a part alone, one of its own; invalid if there is none. Areas
+// in the plane to areas on the surface are in both as in the chart.
+inline std::array<Mapped_chart, 2> Page_filler::parts_of(const Chart_cut& cut,
+                                                         const Mapped_chart& whole) const
+{
+  const Indexed_triangle_mesh& mesh = whole.chart.mesh;
+  const Triangle_adjacency adjacency(mesh.triangles);
+  std::array<std::vector<Triangle_index>, 2> sides;
+  sides[1] = left_of(cut.path, mesh.triangles, adjacency);
+  for(Triangle_index t = 0, i = 0; t < mesh.triangles.size(); ++t)
+    if(i < sides[1].size() && sides[1][i] == t)
+      ++i;
+    else
+      sides[0].push_back(t);
+  const Chart_distortion before = measure_chart_distortion(mesh, whole.uv);
+  std::array<Mapped_chart, 2> result;
+  for(int side = 0; side < 2; ++side) {
+    Mapped_chart& part = result[side];
+    if(sides[side].empty())
+      return {};
+    part = part_of(whole, adjacency, sides[side]);
+    part.is_valid = !m_mapping.is_bounded || part.report.distortion.is_within(m_mapping.bound)
+                 || !before.is_within(m_mapping.bound);
+    if(!part.is_valid) {
+      part = map_chart(std::move(part.chart), m_mapping);
+      if(!part.is_valid)
+        return {};
+    }
+    Chart_distortion& after = part.report.distortion;
+    const double scale = std::sqrt(before.uv_area / before.area * (after.area / after.uv_area));
+    if(!(scale > 0.) || !std::isfinite(scale))
+      return {};
+    for(Point_2& p : part.uv)
+      p = Point_2(scale * p.x(), scale * p.y());
+    after.uv_area *= scale * scale;
+  }
+  result[0].report.repaired_flips += whole.report.repaired_flips;
+  return result;
+}
+
+// Makes a cut, if it gains enough with the parts as they are; the second one becomes the last chart.
+inline bool Page_filler::apply(const Terms& terms, const Candidate& candidate)
+{
+  const Chart_cut& cut = m_cuts[candidate.chart][candidate.cut];
+  std::array<Mapped_chart, 2> parts = parts_of(cut, m_charts[candidate.chart]);
+  if(!parts[0].is_valid || !parts[1].is_valid)
+    return false;
+  std::vector<Packable> shapes = m_shapes;
+  shapes[candidate.chart] = shape_of(parts[0], m_unit);
+  shapes.push_back(shape_of(parts[1], m_unit));
+  const int least = Packing_estimate::level_of(
+    used() + terms.seam_price * in_sides(cut.length) + terms.least_gain);
+  const int level = m_estimate.highest_level(shapes, least);
+  if(level < least)
+    return false;
+  m_level = level;
+  m_shapes = std::move(shapes);
+  m_charts[candidate.chart] = std::move(parts[0]);
+  m_charts.push_back(std::move(parts[1]));
+  m_cuts[candidate.chart].clear();
+  m_cuts.emplace_back();
+  m_has_cuts[candidate.chart] = false;
+  m_has_cuts.push_back(false);
+  for(const Packable& shape : m_shapes)
+    shape->forget_below(m_level);
+  return true;
+}
+
+} // namespace internal
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_INTERNAL_FILLING_PAGE_FILLER_H
