@@ -7,6 +7,7 @@
 #include <CGAL/Blocked_execution/Progress.h>
 #include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Surface_mesh_texturing/Chart_segmenters.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/Atlas_models.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/adapt_chart.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/map_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/filling/Page_filler.h>
@@ -64,23 +65,6 @@ inline void measure_atlas(const Texture_atlas& atlas, Texture_atlas_report& repo
   report.utilisation = area / (width * height * double(atlas.number_of_pages));
 }
 
-// What finds, maps and packs the charts of an atlas. The types of the models end here: what follows
-// is compiled once.
-struct Atlas_models
-{
-  std::function<Segmentation_result(const Indexed_triangle_mesh&, const Texture_atlas_options&)>
-    segment;
-  bool is_bounded = true;      // ChartSegmenter::Is_bounded
-  bool is_for_any_mesh = true; // ChartSegmenter::Is_for_any_mesh
-  bool is_own = true;          // the default segmenter, which checks meshes and cuts charts to disks
-  std::function<std::vector<Point_2>(const Indexed_triangle_mesh&)> parameterize;
-  std::function<Packing_result(const std::vector<Chart_shape>&, const Packing_options&)> pack;
-  // Charts with maps that are there already, in the place of what segments and parameterizes.
-  std::function<std::vector<Mapped_chart>(const Indexed_triangle_mesh&, const Triangle_adjacency&,
-                                          Mesh_outcome&)>
-    take_maps;
-};
-
 // Builds an atlas by these models.
 CGAL_HLSCM_INLINE Texture_atlas_result build_atlas(const Indexed_triangle_mesh& mesh,
                                                    const Texture_atlas_options& options,
@@ -99,7 +83,8 @@ public:
 
   Texture_atlas_result run()
   {
-    if(check() && (m_models.take_maps ? take_maps() : segment() && map() && cut_for_pages()) && pack())
+    if(check() && (m_models.take_maps ? take_maps() : segment() && map() && cut_for_pages())
+       && pack())
       fill();
     m_result.report.stopped_early = m_was_over;
     m_result.report.seconds_total = m_watch.seconds();
