@@ -4,10 +4,11 @@
 #
 # Installs the Debian packages that are missing, as root or by sudo.
 #
-# Usage: scripts/install_dependencies.sh [--doc] [--bench] [--coverage]
+# Usage: scripts/install_dependencies.sh [--doc] [--bench] [--coverage] [--python]
 #   --doc       also what the manual needs
 #   --bench     also what the benchmarks need: plots, memory, and the libraries of peers
 #   --coverage  also gcovr
+#   --python    also what the Python module and its tests need
 
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -24,7 +25,11 @@ for option in "$@"; do
     --doc) packages+=(doxygen) ;;
     --bench) packages+=(python3-matplotlib valgrind libopenblas0-pthread draco) ;;
     --coverage) packages+=(gcovr) ;;
-    *) fail "unknown option $option; there are --doc, --bench and --coverage" ;;
+    --python)
+      packages+=(pybind11-dev python3-dev python3-mypy python3-numpy python3-pip python3-scipy
+                 python3-setuptools python3-wheel)
+      ;;
+    *) fail "unknown option $option; there are --doc, --bench, --coverage and --python" ;;
   esac
 done
 

@@ -2,21 +2,21 @@
 # Copyright (c) 2026  The HLSCM for CGAL authors.
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# Installs what is missing, builds all but the benchmarks, and runs all tests.
+# Installs what is missing, builds all but the benchmarks, the Python module too, and runs all tests.
 #
 # Usage: scripts/test.sh [ARGUMENT of ctest]...      for instance: scripts/test.sh -L core
 
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 cd "$root"
-scripts/install_dependencies.sh
+scripts/install_dependencies.sh --python
 
 # Also for the builds that tests start
 CMAKE_BUILD_PARALLEL_LEVEL="$(number_of_jobs)"
 export CMAKE_BUILD_PARALLEL_LEVEL
 
 say "building"
-cmake --preset release >&2
+cmake --preset release -D HLSCM_BUILD_PYTHON=ON >&2
 cmake --build --preset release >&2
 
 HLSCM_DATA_DIR="$(scripts/debian_meshes.sh "$root/build/release/meshes")"

@@ -72,6 +72,30 @@ inline double weighted_quantile(const std::vector<std::pair<float, float>>& valu
   return values.back().first;
 }
 
+// What becomes of a triangle with edges x and y when they become p and q.
+struct Triangle_distortion
+{
+  double area = 0., uv_area = 0.; // the latter is signed
+  double ratio = 1.;              // sigma_1 / sigma_2, if both areas are greater than 0
+};
+
+template <class Vector_3, class Vector_2>
+Triangle_distortion triangle_distortion(const Vector_3& x, const Vector_3& y, const Vector_2& p,
+                                        const Vector_2& q)
+{
+  const double xx = x * x, xy = x * y, yy = y * y;
+  const double area = std::sqrt((std::max)(0., xx * yy - xy * xy)); // twice
+  const double uv_area = p.x() * q.y() - p.y() * q.x();
+  Triangle_distortion result = {0.5 * area, 0.5 * uv_area};
+  if(!(area > 0.) || !(uv_area > 0.))
+    return result;
+  // Dirichlet energy: (sigma_1^2 + sigma_2^2) times the area
+  const double energy = ((p * p) * yy - 2. * (p * q) * xy + (q * q) * xx) / area;
+  const double half = (std::max)(1., 0.5 * energy / uv_area); // (r + 1/r) / 2
+  result.ratio = half + std::sqrt(half * half - 1.);
+  return result;
+}
+
 } // namespace internal
 
 /*!
@@ -89,25 +113,20 @@ measure_chart_distortion(const Indexed_mesh::Indexed_triangle_mesh& mesh,
   Chart_distortion result;
   std::vector<std::pair<float, float>> scales, ratios;
   for(const auto& t : mesh.triangles) {
-    const auto x = mesh.points[t[1]] - mesh.points[t[0]], y = mesh.points[t[2]] - mesh.points[t[0]];
-    const auto p = uv[t[1]] - uv[t[0]], q = uv[t[2]] - uv[t[0]];
-    const double xx = x * x, xy = x * y, yy = y * y;
-    const double area = std::sqrt((std::max)(0., xx * yy - xy * xy)); // twice
-    const double uv_area = p.x() * q.y() - p.y() * q.x();
-    result.uv_area += 0.5 * uv_area;
-    result.area += 0.5 * area;
+    const internal::Triangle_distortion d = internal::triangle_distortion(
+      mesh.points[t[1]] - mesh.points[t[0]], mesh.points[t[2]] - mesh.points[t[0]],
+      uv[t[1]] - uv[t[0]], uv[t[2]] - uv[t[0]]);
+    result.uv_area += d.uv_area;
+    result.area += d.area;
     const Orientation sign = SMP::orientation_of(
       {SMP::Uv_point(uv[t[0]].x(), uv[t[0]].y()), SMP::Uv_point(uv[t[1]].x(), uv[t[1]].y()),
        SMP::Uv_point(uv[t[2]].x(), uv[t[2]].y())});
     result.flipped_faces += sign == RIGHT_TURN ? 1 : 0;
     result.degenerate_faces += sign == COLLINEAR ? 1 : 0;
-    if(!(area > 0.) || !(uv_area > 0.))
+    if(!(d.area > 0.) || !(d.uv_area > 0.))
       continue;
-    // Dirichlet energy: (sigma_1^2 + sigma_2^2) times the area
-    const double energy = ((p * p) * yy - 2. * (p * q) * xy + (q * q) * xx) / area;
-    const double half = (std::max)(1., 0.5 * energy / uv_area); // (r + 1/r) / 2
-    scales.push_back({float(uv_area / area), float(area)});
-    ratios.push_back({float(half + std::sqrt(half * half - 1.)), float(area)});
+    scales.push_back({float(d.uv_area / d.area), float(d.area)});
+    ratios.push_back({float(d.ratio), float(d.area)});
   }
   std::sort(ratios.begin(), ratios.end());
   std::sort(scales.begin(), scales.end());

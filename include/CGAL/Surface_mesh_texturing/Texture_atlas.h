@@ -10,6 +10,7 @@
 #include <CGAL/Surface_mesh_texturing/Chart_distortion.h>
 #include <CGAL/Surface_mesh_texturing/Chart_packing.h>
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
+#include <CGAL/Surface_mesh_texturing/atlas_measures.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -51,6 +52,9 @@ struct Texture_atlas_options
   /// the map of the chart. Infinity for no such cuts. There are none beyond `max_charts`, for a
   /// segmenter that is not bounded, with a given density of texels, nor if there are very many charts.
   double seam_price = 0.02;
+  /// The part of the pages that is to be used: charts are cut, whatever the seams cost, until it is. If
+  /// no cut helps any more, `Texture_atlas_report::utilisation` is less. 0 for what `seam_price` says.
+  double min_used = 0.;
   /// The metric to which charts are adapted, a tensor for each triangle, such as that of
   /// `signal_metric()`. A chart is mapped by `low_stretch_map()` in that metric if that is one-to-one,
   /// otherwise it gets its area in it; the bound of distortion holds before. Empty for none.
@@ -125,8 +129,11 @@ struct Texture_atlas_report
   double seam_length = 0.;     ///< of all seams, each once, without the border of the surface
   /// Of the whole atlas, in texels to units of length: so `area_scale_range` compares charts too.
   Surface_mesh_parameterization::Distortion_measures distortion;
+  Seam_measures seams;         ///< what the seams are like
+  Texel_measures texels;       ///< how evenly the texels are given to the surface
   double texels_per_unit = 0.; ///< mean texels along a unit of length of the mesh
   double utilisation = 0.;     ///< area of all triangles to that of the pages
+  double texel_utilisation = 0.; ///< texels that charts touch to all texels of the pages
   double seconds_segment = 0.; ///< time of the segmentation
   double seconds_map = 0.;     ///< time of the maps, their validation, and of cutting charts again
   double seconds_pack = 0.;    ///< time of the packing

@@ -203,8 +203,7 @@ Returns the atlas of a surface some of whose components share their place with o
 
 The invariants of `Texture_atlas` hold but for the last one: triangles overlap if, and only if, they
 have the same stand-in; those of mirrored copies are mirrored. The report has each chart as often as
-it is there, and the length of all seams; its distortion and utilisation are those of `atlas`. Linear
-time.
+it is there, and all seams; its distortion, texels and utilisation are those of `atlas`. Linear time.
 */
 inline Texture_atlas_result stacked_atlas(const Indexed_triangle_mesh& mesh,
                                           const Equal_parts& parts, Texture_atlas_result atlas)
@@ -249,6 +248,7 @@ inline Texture_atlas_result stacked_atlas(const Indexed_triangle_mesh& mesh,
   result.atlas.charts = charts_between(adjacency, std::move(seams));
   result.report.charts.clear();
   result.report.seam_length = internal::seam_length(mesh, adjacency, result.atlas.charts);
+  result.report.seams = measure_seams(mesh, adjacency, result.atlas.charts);
   for(Triangle_index t = 0; t < mesh.triangles.size(); ++t)
     if(result.atlas.charts.chart[t] == result.atlas.page.size()) {
       const std::uint32_t chart = atlas.atlas.charts.chart[parts.stand_in[t]];

@@ -86,7 +86,7 @@ Repacked_atlas_result repack_texture_atlas(const Textured_triangle_mesh& mesh,
   used.metric.clear();
   used.no_seams.clear();
   internal::Atlas_models models;
-  models.is_own = false;
+  models.is_own = models.is_bounded = false;
   models.pack = [&](const std::vector<Chart_shape>& charts, const Packing_options& o) {
     return pack_charts(charts, o, used_packer);
   };

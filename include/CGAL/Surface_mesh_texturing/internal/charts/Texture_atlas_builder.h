@@ -10,7 +10,7 @@
 #include <CGAL/Surface_mesh_texturing/internal/charts/Atlas_models.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/adapt_chart.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/map_charts.h>
-#include <CGAL/Surface_mesh_texturing/internal/filling/Page_filler.h>
+#include <CGAL/Surface_mesh_texturing/internal/filling/Filled_packing.h>
 #include <CGAL/Surface_mesh_texturing/internal/mapped_charts/align_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/mapped_charts/scale_by_density.h>
 #include <CGAL/Surface_mesh_texturing/internal/mapped_charts/seam_length.h>
@@ -83,8 +83,7 @@ public:
 
   Texture_atlas_result run()
   {
-    if(check() && (m_models.take_maps ? take_maps() : segment() && map() && cut_for_pages())
-       && pack())
+    if(check() && (m_models.take_maps ? take_maps() : segment() && map()) && pack())
       fill();
     m_result.report.stopped_early = m_was_over;
     m_result.report.seconds_total = m_watch.seconds();
@@ -104,7 +103,6 @@ private:
             m_options.coarse_faces, {}, [this] { return is_over(); }};
   }
   void map_charts_within(const Distortion_bound& bound, double begin, double end);
-  bool cut_for_pages();
   bool pack();
   void fill();
 
@@ -159,6 +157,10 @@ inline bool Texture_atlas_builder::check()
   m_result.fail(Mesh_status::BAD_OPTIONS, Indexed_mesh::metric_error(m_mesh, m_options.metric));
   if(!m_options.no_seams.empty())
     m_result.fail(foreign_seams_error(m_mesh, m_options.no_seams));
+  if(!(m_options.seam_price >= 0.))
+    m_result.fail(Mesh_status::BAD_OPTIONS, "the price of seams is not a number from 0 on");
+  if(!(m_options.min_used >= 0. && m_options.min_used < 1.))
+    m_result.fail(Mesh_status::BAD_OPTIONS, "the part of the pages to use is not in [0, 1)");
   if(!std::isfinite(m_options.seconds) || m_options.seconds < 0.)
     m_result.fail(Mesh_status::BAD_OPTIONS, "the limit of time is not a finite number from 0 on");
   if(m_result.is_ok() && !m_models.is_own)
@@ -269,47 +271,27 @@ inline bool Texture_atlas_builder::take_maps()
   return m_result.is_ok() && proceed(0.8, 0.8, 0.);
 }
 
-// Cuts charts that then fill the pages better.
-inline bool Texture_atlas_builder::cut_for_pages()
-{
-  constexpr std::size_t most_charts = 200, most_cuts = 16; // with more there is dust for all gaps
-  constexpr double least_gain = 0.004, all = 1.;
-  const Blocked_execution::Stopwatch watch;
-  if(!m_models.is_bounded || !std::isfinite(m_options.seam_price) || m_maps.size() > most_charts
-     || m_options.packing.texels_per_unit > 0.)
-    return true;
-  std::size_t most = most_cuts;
-  if(m_options.max_charts > 0)
-    most = (std::min)(most, m_options.max_charts - (std::min)(m_options.max_charts, m_maps.size()));
-  Chart_mapping mapping = chart_mapping(m_options.bound);
-  mapping.no_seams = m_options.no_seams;
-  mapping.is_bounded = m_options.metric.empty();
-  Page_filler filler(m_maps, m_options.packing, mapping);
-  m_result.report.page_cuts = filler.run({m_options.seam_price, least_gain, all, most});
-  std::sort(m_maps.begin(), m_maps.end(), [](const Mapped_chart& a, const Mapped_chart& b) {
-    return a.chart.triangles.front() < b.chart.triangles.front();
-  });
-  m_result.report.seconds_pack = watch.seconds();
-  return m_result.is_ok() && proceed(0.8, 0.85, 1.);
-}
-
 inline bool Texture_atlas_builder::pack()
 {
   const Blocked_execution::Stopwatch watch;
   if(m_options.is_aligned)
     align_charts(m_maps);
-  std::vector<Chart_shape> shapes;
-  for(const Mapped_chart& map : m_maps)
-    shapes.push_back({map.uv, map.chart.mesh.triangles});
   Packing_options packing = m_options.packing;
   packing.quarter_turns_only = packing.quarter_turns_only || m_options.is_aligned;
   packing.is_enough = [this, is_enough = packing.is_enough] {
     return is_over() || (is_enough && is_enough());
   };
-  packing.progress = [this](double part) { return proceed(0.85, 1., part); };
-  m_packing = m_models.pack(shapes, packing);
+  packing.progress = [this](double part) { return proceed(0.8, 1., part); };
+  Chart_mapping mapping = chart_mapping(m_options.bound);
+  mapping.no_seams = m_options.no_seams;
+  mapping.is_bounded = m_options.metric.empty();
+  const Filled_packing::Pack pack_shapes
+    = [&](const std::vector<Chart_shape>& shapes) { return m_models.pack(shapes, packing); };
+  Filled_packing filled(m_options, mapping, pack_shapes, m_maps);
+  m_packing = filled.run(m_models.is_bounded);
+  m_result.report.page_cuts = filled.number_of_cuts();
   m_result.fail(m_packing);
-  m_result.report.seconds_pack += watch.seconds();
+  m_result.report.seconds_pack = watch.seconds();
   return m_result.is_ok() && proceed(1., 1., 1.);
 }
 
@@ -342,6 +324,9 @@ inline void Texture_atlas_builder::fill()
   report.unwanted_seams
     = number_of_seams_on(m_mesh.triangles, atlas.charts, m_options.no_seams);
   report.seam_length = seam_length(m_mesh, *m_adjacency, atlas.charts);
+  report.texel_utilisation = m_packing.texel_utilisation;
+  report.seams = measure_seams(m_mesh, *m_adjacency, atlas.charts);
+  report.texels = measure_texels(atlas.mesh, atlas.charts, atlas.width, atlas.height);
   measure_atlas(atlas, report);
 }
 

@@ -59,7 +59,8 @@ struct Chart_cut
 {
   std::vector<Vertex_index> path; // along edges from border to border, in between off the border
   double length = 0.;             // in the plane, in units of the outlines
-  std::array<Packable, 2> sides;  // what is to its right, from its first vertex on, and the other one
+  std::array<Packable, 2> sides;  // what is on its right, and on its left
+  bool is_rejected = false;       // it was tried, and gained too little
 };
 
 // A segment between two corners of a polygon, within it.
@@ -178,7 +179,7 @@ private:
   typedef std::vector<Vertex_index> Vertices;
 
   static constexpr std::size_t most_corners = 256; // of an outline
-  static constexpr std::size_t most_ends = 56;     // of chords
+  static constexpr std::size_t most_ends = 40;     // of chords
 
   const std::vector<Triangle_indices>& triangles() const { return m_map.chart.mesh.triangles; }
   Vector_2d at(Vertex_index v) const { return {m_map.uv[v].x(), m_map.uv[v].y()}; }

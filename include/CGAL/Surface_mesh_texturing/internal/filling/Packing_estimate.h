@@ -95,7 +95,7 @@ public:
 
 private:
   static constexpr double levels_of_half = 64.;
-  static constexpr std::size_t orders = 3;
+  static constexpr std::size_t orders = 2;
   static constexpr int rotations = 8, rotations_alone = 48;
 
   bool fits(const std::vector<Packable>& shapes, int level) const

@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -31,6 +32,7 @@ public:
     double least_gain;  // part of the pages beyond that; less than 0 to go on through what is worse
     double enough;      // no cut is needed once this part of the pages is used
     std::size_t most_cuts;
+    std::size_t most_charts; // 0 for any number
   };
 
   // All of these must outlive this. `is_over()` says when to stop.
@@ -54,7 +56,7 @@ private:
   bool cut_once(const Terms& terms);
   std::vector<Candidate> candidates();
   void estimate(const Terms& terms, std::vector<Candidate>& candidates) const;
-  std::array<Mapped_chart, 2> parts_of(const Chart_cut& cut, const Mapped_chart& whole) const;
+  std::vector<Mapped_chart> parts_of(const Chart_cut& cut, const Mapped_chart& whole) const;
   bool apply(const Terms& terms, const Candidate& candidate);
 
   // The length of a cut in sides of a page.
@@ -129,7 +131,8 @@ inline Page_filler::Page_filler(std::vector<Mapped_chart>& charts, const Packing
 inline std::size_t Page_filler::run(const Terms& terms)
 {
   std::size_t cuts = 0;
-  while(cuts < terms.most_cuts && used() < terms.enough && m_mapping.has_time() && cut_once(terms))
+  while(cuts < terms.most_cuts && used() < terms.enough
+        && (terms.most_charts == 0 || m_charts.size() < terms.most_charts) && m_mapping.has_time() && cut_once(terms))
     ++cuts;
   return cuts;
 }
@@ -137,7 +140,7 @@ inline std::size_t Page_filler::run(const Terms& terms)
 // The cuts of the charts with the largest diameters.
 inline std::vector<Page_filler::Candidate> Page_filler::candidates()
 {
-  constexpr std::size_t most_charts = 8;
+  constexpr std::size_t most_charts = 6;
   std::vector<std::size_t> largest(m_charts.size());
   std::iota(largest.begin(), largest.end(), std::size_t(0));
   std::stable_sort(largest.begin(), largest.end(), [this](std::size_t i, std::size_t j) {
@@ -155,7 +158,8 @@ inline std::vector<Page_filler::Candidate> Page_filler::candidates()
   for(const std::size_t chart : largest) {
     m_has_cuts[chart] = true;
     for(std::size_t cut = 0; cut < m_cuts[chart].size(); ++cut)
-      result.push_back({chart, cut});
+      if(!m_cuts[chart][cut].is_rejected)
+        result.push_back({chart, cut});
   }
   return result;
 }
@@ -274,12 +278,13 @@ inline Mapped_chart part_of(const Mapped_chart& whole, const Triangle_adjacency&
   return result;
 }
 
-// The parts on both sides of a cut, the first one on the right of its path, with the map of the chart
-// or, where that is beyond the bound for a part alone, one of its own; invalid if there is none. Areas
-// in the plane to areas on the surface are in both as in the chart.
-inline std::array<Mapped_chart, 2> Page_filler::parts_of(const Chart_cut& cut,
-                                                         const Mapped_chart& whole) const
+// The parts on both sides of a cut, the first one on the right of its path, with the map of the chart.
+// A part that is beyond the bound alone is mapped anew, or cut further if that is not enough. Areas in
+// the plane to areas on the surface are in all as in the chart. Nothing if that takes too many parts.
+inline std::vector<Mapped_chart> Page_filler::parts_of(const Chart_cut& cut,
+                                                       const Mapped_chart& whole) const
 {
+  constexpr std::size_t most_parts = 5;
   const Indexed_triangle_mesh& mesh = whole.chart.mesh;
   const Triangle_adjacency adjacency(mesh.triangles);
   std::array<std::vector<Triangle_index>, 2> sides;
@@ -290,22 +295,28 @@ inline std::array<Mapped_chart, 2> Page_filler::parts_of(const Chart_cut& cut,
     else
       sides[0].push_back(t);
   const Chart_distortion before = measure_chart_distortion(mesh, whole.uv);
-  std::array<Mapped_chart, 2> result;
-  for(int side = 0; side < 2; ++side) {
-    Mapped_chart& part = result[side];
-    if(sides[side].empty())
+  std::vector<Mapped_chart> result;
+  for(const std::vector<Triangle_index>& side : sides) {
+    if(side.empty())
       return {};
-    part = part_of(whole, adjacency, sides[side]);
-    part.is_valid = !m_mapping.is_bounded || part.report.distortion.is_within(m_mapping.bound)
-                 || !before.is_within(m_mapping.bound);
-    if(!part.is_valid) {
-      part = map_chart(std::move(part.chart), m_mapping);
-      if(!part.is_valid)
-        return {};
+    Mapped_chart part = part_of(whole, adjacency, side);
+    const bool is_allowed = !m_mapping.is_bounded || !before.is_within(m_mapping.bound)
+                         || part.report.distortion.is_within(m_mapping.bound);
+    if(is_allowed) {
+      result.push_back(std::move(part));
+      continue;
     }
+    std::vector<Chart_mesh> beyond;
+    beyond.push_back(std::move(part.chart));
+    std::size_t recut;
+    for(Mapped_chart& smaller : map_charts(std::move(beyond), m_mapping,
+                                           [](double) { return true; }, recut))
+      result.push_back(std::move(smaller));
+  }
+  for(Mapped_chart& part : result) {
     Chart_distortion& after = part.report.distortion;
     const double scale = std::sqrt(before.uv_area / before.area * (after.area / after.uv_area));
-    if(!(scale > 0.) || !std::isfinite(scale))
+    if(!(scale > 0.) || !std::isfinite(scale) || result.size() > most_parts)
       return {};
     for(Point_2& p : part.uv)
       p = Point_2(scale * p.x(), scale * p.y());
@@ -315,16 +326,19 @@ inline std::array<Mapped_chart, 2> Page_filler::parts_of(const Chart_cut& cut,
   return result;
 }
 
-// Makes a cut, if it gains enough with the parts as they are; the second one becomes the last chart.
+// Makes a cut, if it gains enough with the parts as they are; all but the first become the last charts.
 inline bool Page_filler::apply(const Terms& terms, const Candidate& candidate)
 {
-  const Chart_cut& cut = m_cuts[candidate.chart][candidate.cut];
-  std::array<Mapped_chart, 2> parts = parts_of(cut, m_charts[candidate.chart]);
-  if(!parts[0].is_valid || !parts[1].is_valid)
+  Chart_cut& cut = m_cuts[candidate.chart][candidate.cut];
+  cut.is_rejected = true;
+  std::vector<Mapped_chart> parts = parts_of(cut, m_charts[candidate.chart]);
+  if(parts.empty())
     return false;
   std::vector<Packable> shapes = m_shapes;
-  shapes[candidate.chart] = shape_of(parts[0], m_unit);
-  shapes.push_back(shape_of(parts[1], m_unit));
+  for(const Mapped_chart& part : parts)
+    shapes.push_back(shape_of(part, m_unit));
+  shapes[candidate.chart] = std::move(shapes[m_shapes.size()]);
+  shapes.erase(shapes.begin() + m_shapes.size());
   const int least = Packing_estimate::level_of(
     used() + terms.seam_price * in_sides(cut.length) + terms.least_gain);
   const int level = m_estimate.highest_level(shapes, least);
@@ -333,11 +347,11 @@ inline bool Page_filler::apply(const Terms& terms, const Candidate& candidate)
   m_level = level;
   m_shapes = std::move(shapes);
   m_charts[candidate.chart] = std::move(parts[0]);
-  m_charts.push_back(std::move(parts[1]));
+  std::move(parts.begin() + 1, parts.end(), std::back_inserter(m_charts));
   m_cuts[candidate.chart].clear();
-  m_cuts.emplace_back();
+  m_cuts.resize(m_charts.size());
   m_has_cuts[candidate.chart] = false;
-  m_has_cuts.push_back(false);
+  m_has_cuts.resize(m_charts.size(), false);
   for(const Packable& shape : m_shapes)
     shape->forget_below(m_level);
   return true;

@@ -1,0 +1,147 @@
+# Copyright (c) 2026  The HLSCM for CGAL authors.
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The module gives the same numbers as the program hlscm of the same build, to the bit."""
+
+import os
+import subprocess
+import tempfile
+import unittest
+
+import numpy as np
+
+import hlscm
+import meshes
+
+PROGRAM = os.environ.get("HLSCM_PROGRAM", "")
+
+
+@unittest.skipUnless(PROGRAM, "HLSCM_PROGRAM does not name the program hlscm")
+class Same_as_program(unittest.TestCase):
+    def setUp(self):
+        self.work = tempfile.TemporaryDirectory()
+        self.addCleanup(self.work.cleanup)
+
+    def path(self, name):
+        return os.path.join(self.work.name, name)
+
+    def run_program(self, *words):
+        subprocess.run([PROGRAM, *words, "--quiet"], check=True)
+
+    def map_of_program(self, vertices, faces, *options):
+        meshes.write_ply(self.path("in.ply"), vertices, faces)
+        self.run_program("parameterize", self.path("in.ply"), "-o", self.path("out.ply"), *options)
+        return meshes.read_ply_uv(self.path("out.ply"))
+
+    def assert_same_bits(self, a, b):
+        self.assertEqual(a.dtype, b.dtype)
+        self.assertEqual(a.shape, b.shape)
+        self.assertEqual(int(np.count_nonzero(a.view(np.uint64) != b.view(np.uint64))), 0)
+
+    def test_conformal_maps_with_pins(self):
+        pins = {0: (0., 0.), 40: (1., 0.25), 700: (0.25, 0.5)}
+        words = [word for v, (x, y) in pins.items() for word in ("--pin", f"{v}={x},{y}")]
+        for mesh in (meshes.hills(40), meshes.hills(90, seed=1)):
+            for method in ("hlscm", "cascadic", "lscm", "direct"):
+                with self.subTest(method=method, faces=len(mesh[1])):
+                    uv = hlscm.parameterize(*mesh, pins=pins, method=method)
+                    self.assert_same_bits(
+                        uv, self.map_of_program(*mesh, "--method", method, *words))
+
+    def test_tolerance_and_repair(self):
+        pins = {0: (0., 0.), 89: (1., 0.)}
+        mesh = meshes.hills(90, height=1., seed=2)
+        words = ("--pin", "0=0,0", "--pin", "89=1,0", "--tolerance", "1e-5")
+        uv = hlscm.parameterize(*mesh, pins=pins, tolerance=1e-5)
+        self.assert_same_bits(uv, self.map_of_program(*mesh, *words))
+        # Edges are added up in another order for the unit of a repair.
+        repaired = hlscm.parameterize(*mesh, pins=pins, tolerance=1e-5, repair_flips=True)
+        there = self.map_of_program(*mesh, *words, "--repair-flips")
+        self.assertGreater(len(hlscm.certify(*mesh, uv).flipped_faces), 0)
+        self.assertEqual(len(hlscm.certify(*mesh, repaired).flipped_faces), 0)
+        np.testing.assert_allclose(repaired, there, rtol=0, atol=1e-12)
+
+    def test_maps_without_pins_up_to_a_similarity(self):
+        # The program moves them into the unit square.
+        mesh = meshes.hills(60, seed=3)
+        for method in ("hlscm", "spectral"):
+            uv = hlscm.parameterize(*mesh, method=method) @ [1, 1j]
+            there = self.map_of_program(*mesh, "--method", method) @ [1, 1j]
+            scale = (there[-1] - there[0]) / (uv[-1] - uv[0])
+            self.assertLess(abs(uv * scale + (there[0] - uv[0] * scale) - there).max(), 1e-12)
+
+    def test_whole_surfaces_up_to_a_similarity(self):
+        for vertices, faces in (meshes.torus(), meshes.two_parts()):
+            made = hlscm.unwrap(vertices, faces, mend=True)
+            meshes.write_ply(self.path("in.ply"), vertices, faces)
+            self.run_program("parameterize", self.path("in.ply"), "-o", self.path("out.obj"))
+            _, _, uv, uv_faces = meshes.read_obj(self.path("out.obj"))
+            here = made.uvs[made.indices].reshape(-1, 2) @ [1, 1j]
+            there = uv[uv_faces].reshape(-1, 2) @ [1, 1j]
+            scale = (there[-1] - there[0]) / (here[-1] - here[0])
+            self.assertLess(abs(here * scale + (there[0] - here[0] * scale) - there).max(), 1e-9)
+
+    def test_low_stretch_maps(self):
+        mesh = meshes.hills(60, height=0.7, seed=4)
+        pins = {0: (0., 0.), 59: (1.5, 0.), 3599: (1.5, 2.)}
+        words = [word for v, (x, y) in pins.items() for word in ("--pin", f"{v}={x},{y}")]
+        for energy in ("symmetric-dirichlet", "mips", "arap", "area"):
+            with self.subTest(energy=energy):
+                uv = hlscm.low_stretch(*mesh, pins=pins, energy=energy)
+                self.assert_same_bits(uv, self.map_of_program(
+                    *mesh, "--method", "low-stretch", "--energy", energy, *words))
+        uv = hlscm.low_stretch(*mesh, pins=pins, one_to_one=True,
+                               metric=hlscm.signal_metric(*mesh))
+        self.assert_same_bits(uv, self.map_of_program(
+            *mesh, "--method", "low-stretch", "--one-to-one", "--signal", "normals", *words))
+
+    def test_atlases(self):
+        for mesh in (meshes.torus(), meshes.two_parts(), meshes.hills(50)):
+            for options, words in (({}, ()), ({"resolution": 300, "padding": 5, "method": "spectral"},
+                                              ("--texture", "300", "--padding", "5", "--method",
+                                               "spectral"))):
+                with self.subTest(faces=len(mesh[1]), **options):
+                    made = hlscm.atlas(*mesh, full=True, **options)
+                    meshes.write_ply(self.path("in.ply"), *mesh)
+                    self.run_program("atlas", self.path("in.ply"), "-o", self.path("atlas"), *words)
+                    vertices, faces, uv, uv_faces = meshes.read_obj(self.path("atlas/atlas.obj"))
+                    self.assert_same_bits(vertices, np.asarray(mesh[0]))
+                    np.testing.assert_array_equal(faces, mesh[1])
+                    self.assert_same_bits(made.uv[made.indices], uv[uv_faces])
+
+    def test_levels_and_their_file(self):
+        vertices, faces = meshes.torus()
+        made = hlscm.atlas(vertices, faces, full=True)
+        hlscm.write_mesh(self.path("in.obj"), made)
+        self.run_program("levels", self.path("in.obj"), "-o", self.path("levels"), "--lossless",
+                         "--faces", "700,200", "--format", "obj,pm")
+        pm = hlscm.ProgressiveMesh(made)
+        with open(self.path("levels/mesh.pm"), "rb") as file:
+            self.assertEqual(pm.to_bytes(lossless=True), file.read())
+        for wanted in (700, 200):
+            level = pm.level(wanted)
+            there = meshes.read_obj(self.path(f"levels/level_{len(level.faces)}.obj"))
+            self.assert_same_bits(level.vertices, there[0])
+            np.testing.assert_array_equal(level.faces, there[1])
+            self.assert_same_bits(level.uv[level.uv_faces], there[2][there[3]])
+
+    def test_normal_maps(self):
+        mesh = meshes.hills(60, seed=5)
+        meshes.write_ply(self.path("in.ply"), *mesh)
+        made = hlscm.atlas(*mesh, full=True, resolution=128)
+        light = hlscm.ProgressiveMesh(made).level(800)
+        for space in ("tangent", "object"):
+            self.run_program("bake", self.path("in.ply"), "-o", self.path("bake"), "--faces", "800",
+                             "--texture", "128", "--bits", "16", "--space", space)
+            image = hlscm.bake_normal_map(made, light, resolution=128, space=space)
+            there = meshes.read_png(self.path("bake/normal.png"))
+            np.testing.assert_array_equal(hlscm.encode(image, bits=16), there)
+
+    def test_any_number_of_threads(self):
+        mesh = meshes.hills(150, seed=6)
+        for function in (hlscm.parameterize, hlscm.spectral, hlscm.low_stretch,
+                         lambda *m, **o: hlscm.atlas(*m, full=True, **o).uv):
+            self.assert_same_bits(function(*mesh, threads=1), function(*mesh, threads=2))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,130 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_FILLING_FILLED_PACKING_H
+#define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_FILLING_FILLED_PACKING_H
+
+#include <CGAL/Surface_mesh_texturing/Texture_atlas.h>
+#include <CGAL/Surface_mesh_texturing/internal/filling/Page_filler.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+namespace internal {
+
+// Packs the charts of an atlas, cut where that fills the pages better.
+class Filled_packing
+{
+public:
+  typedef std::function<Packing_result(const std::vector<Chart_shape>&)> Pack;
+
+  // All of these must outlive this.
+  Filled_packing(const Texture_atlas_options& options, const Chart_mapping& mapping,
+                 const Pack& pack, std::vector<Mapped_chart>& charts)
+    : m_options(options), m_mapping(mapping), m_pack(pack), m_charts(charts)
+  {}
+
+  // The charts are then in the order of their first triangles.
+  Packing_result run(bool may_cut)
+  {
+    constexpr std::size_t most_charts = 200; // with more there is dust for all gaps
+    if(may_cut && m_charts.size() <= most_charts && m_options.packing.texels_per_unit == 0.
+       && (std::isfinite(m_options.seam_price) || m_options.min_used > 0.))
+      cut_and_pack();
+    else
+      m_packing = pack();
+    if(m_packing.is_ok())
+      sort_charts();
+    return std::move(m_packing);
+  }
+
+  std::size_t number_of_cuts() const { return m_number_of_cuts; }
+
+private:
+  Packing_result pack() const
+  {
+    std::vector<Chart_shape> shapes;
+    for(const Mapped_chart& map : m_charts)
+      shapes.push_back({map.uv, map.chart.mesh.triangles});
+    return m_pack(shapes);
+  }
+
+  void cut_and_pack()
+  {
+    constexpr std::size_t most_cuts = 16;
+    constexpr double least_gain = 0.005, all = 1.;
+    Page_filler filler(m_charts, m_options.packing, m_mapping);
+    if(std::isfinite(m_options.seam_price))
+      m_number_of_cuts
+        = filler.run({m_options.seam_price, least_gain, all, most_cuts, m_options.max_charts});
+    m_packing = pack();
+    if(m_packing.is_ok() && m_packing.utilisation < m_options.min_used)
+      cut_until_used(filler);
+  }
+
+  // Some cuts, which only help together, and a packing, until enough is used or no more of it is.
+  void cut_until_used(Page_filler& filler)
+  {
+    constexpr int failures_allowed = 2;
+    constexpr std::size_t most_cuts = 4;
+    constexpr double least_gain = -0.005, clearly_more = 0.002;
+    std::vector<Mapped_chart> best = m_charts;
+    std::size_t number = m_number_of_cuts;
+    for(int failures = 0; failures < failures_allowed && m_mapping.has_time()
+                          && m_packing.utilisation < m_options.min_used;) {
+      const std::size_t cuts
+        = filler.run({0., least_gain, 1., most_cuts, m_options.max_charts});
+      if(cuts == 0)
+        break;
+      number += cuts;
+      Packing_result packing = pack();
+      if(!packing.is_ok()) {
+        m_packing = std::move(packing);
+        return;
+      }
+      failures = packing.utilisation > m_packing.utilisation + clearly_more ? 0 : failures + 1;
+      if(packing.utilisation <= m_packing.utilisation)
+        continue;
+      m_packing = std::move(packing);
+      best = m_charts;
+      m_number_of_cuts = number;
+    }
+    m_charts = std::move(best);
+  }
+
+  void sort_charts()
+  {
+    std::vector<std::size_t> order(m_charts.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::sort(order.begin(), order.end(), [this](std::size_t i, std::size_t j) {
+      return m_charts[i].chart.triangles.front() < m_charts[j].chart.triangles.front();
+    });
+    std::vector<Mapped_chart> charts;
+    std::vector<Chart_placement> placements;
+    for(const std::size_t i : order) {
+      charts.push_back(std::move(m_charts[i]));
+      placements.push_back(m_packing.placements[i]);
+    }
+    m_charts = std::move(charts);
+    m_packing.placements = std::move(placements);
+  }
+
+  const Texture_atlas_options& m_options;
+  const Chart_mapping& m_mapping;
+  const Pack& m_pack;
+  std::vector<Mapped_chart>& m_charts;
+  Packing_result m_packing;
+  std::size_t m_number_of_cuts = 0;
+};
+
+} // namespace internal
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_INTERNAL_FILLING_FILLED_PACKING_H
