@@ -64,7 +64,8 @@ struct Texture_atlas_options
   /// one-to-one maps: `Texture_atlas_report::unwanted_seams`. Empty for none.
   std::vector<std::uint8_t> no_seams;
   /// Whether charts are turned so that as much as possible of their borders, and of the creases in
-  /// them, runs along the rows and columns of the texture; then by quarters only.
+  /// them, runs along the rows and columns of the texture; then by quarters only. Parts of a chart
+  /// that is cut to fill the pages (`seam_price`) keep its direction.
   bool is_aligned = false;
   /// The textures, and how charts are placed in them.
   Packing_options packing;
