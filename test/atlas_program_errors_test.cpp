@@ -23,28 +23,38 @@ namespace program_test {
 // What options do is in the other tests; here, that each that is listed is known.
 TEST_F(Atlas, has_the_options_that_help_lists)
 {
-  const std::string in = write("in.obj", obj(cut_torus(8, 2)));
+  const Textured_soup torus = cut_torus(8, 2);
+  const std::string in = write("in.obj", "g all\n" + obj(torus));
+  std::string ones;
+  for(std::size_t f = 0; f < torus.surface.faces.size(); ++f) {
+    ones += "1\n";
+  }
+  const std::string density = write("density.txt", ones);
   ASSERT_EQ(call("atlas", in, "first", {"--texture", "64"}).exit_code, 0);
   const std::vector<Texts> of_both{
       {"--texture", "32", "--padding", "0", "--mip-levels", "1", "--max-area-scale", "2",
-       "--max-quasi-conformal", "1.5", "--max-charts", "3", "--pages", "2", "--packer", "horizon",
-       "--method", "spectral", "--threads", "1", "--ply", "--pictures", path("pictures"), "--signal",
+       "--max-quasi-conformal", "1.5", "--max-charts", "3", "--seam-price", "0.1",
+       "--min-used", "20", "--pages", "2", "--packer", "horizon", "--method", "spectral", "--threads", "1", "--ply", "--pictures", path("pictures"), "--signal",
        "normals", "--signal-weight", "2"},
       {"--texture", "64", "--charts", "uv", "--packer", "raster", "--packing-time", "0.001",
-       "--method", "border-first", "--report", path("other.json")},
+       "--method", "border-first", "--report", path("other.json"), "--limits", "groups",
+       "--density", density},
       {"--texture", "64", "--one-disk", "--method", "cascadic", "--quiet", "--strict", "--weld", "0",
-       "--time-limit", "1000"}};
+       "--time-limit", "1000"},
+      {"--texture", "64", "--repack", "--keep-scale", "--align", "--udim", "--importance",
+       path("first/checker.png")}};
+  const std::vector<Texts> of_atlas{{"--stack"}, {}, {}, {"--lightmap"}};
   const std::vector<Texts> of_bake{
       {"--faces", "50", "--samples", "3", "--space", "object", "--bits", "16", "--displacement"},
       {"--error", "1%", "--space", "tangent", "--bits", "8", "--colors", path("first/checker.png")},
-      {"--target", path("first/atlas.obj")}};
+      {"--target", path("first/atlas.obj")},
+      {"--faces", "50"}};
   for(const std::string command : {"atlas", "bake"}) {
     std::set<std::string> listed, known{"--help", "--output"};
     for(std::size_t i = 0; i < of_both.size(); ++i) {
       Texts options = of_both[i];
-      if(command == "bake") {
-        options.insert(options.end(), of_bake[i].begin(), of_bake[i].end());
-      }
+      const Texts& more = command == "bake" ? of_bake[i] : of_atlas[i];
+      options.insert(options.end(), more.begin(), more.end());
       const Outcome outcome = call(command, in, "out", options);
       EXPECT_EQ(outcome.exit_code, 0) << command << " " << i << ": " << outcome.err;
       EXPECT_EQ(outcome.out.empty(), options[2] == "--one-disk") << outcome.out;

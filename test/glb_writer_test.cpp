@@ -149,6 +149,53 @@ TEST(Writers, glb_is_read_by_tinygltf)
   }
 }
 
+// Each corner of each triangle finds its point and both its coordinates, whatever the seams of both.
+TEST(Writers, glb_has_two_sets_of_texture_coordinates)
+{
+  Mesh mesh = sheet(9);
+  const auto cut = add_cut_uv(mesh);
+  SMT::Textured_model model;
+  model.mesh = SMM::with_wedges(SMM::textured_triangle_mesh(mesh, [&](auto h) { return cut[h]; }));
+  const std::size_t n = model.mesh.triangles.size();
+  for(std::size_t t = 0; t < n; ++t) { // the other one is cut elsewhere, into single triangles there
+    for(int c = 0; c < 3; ++c) {
+      const SMT::Vertex_index v = model.mesh.triangles[t][c];
+      model.base_uv.emplace_back(double(v) / 128. + (t < n / 4 ? double(t) : 0.), double(c) / 2.);
+    }
+    model.base_wedges.push_back({SMT::Vertex_index(3 * t), SMT::Vertex_index(3 * t + 1),
+                                 SMT::Vertex_index(3 * t + 2)});
+  }
+  model.textures = {{"color.png", "the colors"}};
+  model.materials.resize(1);
+  model.materials[0].color = 0;
+  const tinygltf::Model read = read_glb(glb_of(model));
+  const tinygltf::Primitive& primitive = read.meshes.at(0).primitives.at(0);
+  const auto indices = numbers<std::uint32_t>(read, primitive.indices);
+  const auto points = numbers<float>(read, primitive.attributes.at("POSITION"));
+  const auto first = numbers<float>(read, primitive.attributes.at("TEXCOORD_0"));
+  const auto second = numbers<float>(read, primitive.attributes.at("TEXCOORD_1"));
+  ASSERT_EQ(indices.size(), 3 * n);
+  for(std::size_t i = 0; i < indices.size(); ++i) {
+    const std::size_t t = i / 3, k = indices[i];
+    const Point_2& p = model.base_uv[model.base_wedges[t][i % 3]];
+    const Point_2& q = model.mesh.uv[model.mesh.wedges[t][i % 3]];
+    EXPECT_EQ(points[3 * k], float(model.mesh.points[model.mesh.triangles[t][i % 3]].x()));
+    EXPECT_EQ(first[2 * k], float(p.x()));
+    EXPECT_EQ(first[2 * k + 1], float(1 - p.y()));
+    EXPECT_EQ(second[2 * k], float(q.x()));
+    EXPECT_EQ(second[2 * k + 1], float(1 - q.y()));
+  }
+  const auto& texture = read.materials.at(0).pbrMetallicRoughness.baseColorTexture;
+  EXPECT_EQ(texture.texCoord, 1);
+  EXPECT_EQ(primitive.attributes.count("TANGENT"), 0u);
+  std::ostringstream os; // what does not fit is not written
+  model.base_wedges.back()[0] = SMT::Vertex_index(model.base_uv.size());
+  EXPECT_FALSE(SMT::IO::write_GLB(os, model));
+  model.base_wedges.pop_back();
+  EXPECT_FALSE(SMT::IO::write_GLB(os, model));
+  EXPECT_EQ(os.str(), "");
+}
+
 TEST(Writers, glb_of_a_mesh_has_its_normals)
 {
   Mesh mesh;

@@ -19,7 +19,7 @@ public:
   /// `status`; `FAILED` without); sets `placements`, `pages` and `texels_per_unit`.
   ///
   /// The packing must not depend on the number of threads; nor, but for the scale, on the unit of
-  /// length.
+  /// length. With `quarter_turns_only` all angles are whole multiples of a quarter turn.
   ///
   /// \pre there is at least one chart; the coordinates and sizes of all are finite; the entries of
   /// `triangles` are smaller than `uv.size()`; the options are those of a packing: the padding

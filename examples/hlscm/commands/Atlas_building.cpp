@@ -3,6 +3,7 @@
 
 #include "commands/Atlas_building.h"
 
+#include "commands/Layout_building.h"
 #include "commands/Signal.h"
 #include "reading/Given_charts.h"
 #include "common/Interruption.h"
@@ -51,6 +52,20 @@ SMT::Texture_atlas_result build(const Indexed_triangle_mesh& mesh,
   return build(mesh, library, segmenter, parameterizer, settings.packer);
 }
 
+// The same with seams where they have to be.
+SMT::Texture_atlas_result build_between(const Indexed_triangle_mesh& mesh,
+                                        const SMT::Texture_atlas_options& library,
+                                        const std::vector<std::uint8_t>& limits,
+                                        const std::optional<SMT::Face_charts>& charts,
+                                        const Atlas_settings& settings)
+{
+  return charts ? build(mesh, library,
+                        SMT::Constrained_segmenter<SMT::Given_charts_segmenter>(
+                            limits, SMT::Given_charts_segmenter(*charts)),
+                        settings)
+                : build(mesh, library, SMT::Constrained_segmenter<>(limits), settings);
+}
+
 } // namespace
 
 Built_atlas build_atlas(const Input_surface& surface, const Program_options& options,
@@ -61,7 +76,7 @@ Built_atlas build_atlas(const Input_surface& surface, const Program_options& opt
   library.max_charts = options.atlas.max_charts;
   library.seam_price = options.atlas.seam_price.value_or(library.seam_price);
   library.min_used = 0.01 * options.atlas.min_used;
-  const auto charts = given_charts(surface, options);
+  auto charts = given_charts(surface, options);
   const double share = options.command == Command::BAKE ? share_of_atlas : 1;
   library.seconds = share * options.atlas.time_limit;
   library.packing.time_budget = options.atlas.packing_time;
@@ -76,15 +91,33 @@ Built_atlas build_atlas(const Input_surface& surface, const Program_options& opt
   library.progress = [&progress](double part) { return progress.try_advance(part); };
   progress.start_stage("atlas");
   const CGAL::Blocked_execution::Thread_scope threads(options.library.threads);
-  const Indexed_triangle_mesh& mesh = surface.surface.mesh;
+  Layout_report layout;
+  std::vector<std::uint8_t> limits = limits_of_charts(surface, options, layout);
+  set_layout(surface, options, library);
+  const std::optional<SMT::Equal_parts> parts = equal_parts(surface, options, library, layout);
+  if(parts) {
+    limits = parts->of_representatives(limits);
+    if(charts) {
+      charts = SMT::charts_between(parts->representatives.triangles,
+                                   parts->of_representatives(charts->seams));
+    }
+  }
+  const Indexed_triangle_mesh& mesh = parts ? parts->representatives : surface.surface.mesh;
   SMT::Texture_atlas_result result
-      = charts ? build(mesh, library, SMT::Given_charts_segmenter(*charts), options.atlas)
-               : build(mesh, library, SMT::Chart_growth_segmenter(), options.atlas);
+      = options.atlas.layout.is_repacked ? repack(surface, options, library, layout)
+        : !limits.empty() ? build_between(mesh, library, limits, charts, options.atlas)
+        : charts ? build(mesh, library, SMT::Given_charts_segmenter(*charts), options.atlas)
+                 : build(mesh, library, SMT::Chart_growth_segmenter(), options.atlas);
   Interruption::check();
   if(!result.error.empty()) {
     throw Program_error(options.input, result.error);
   }
-  return {std::move(result.atlas), std::move(result.report)};
+  if(parts) {
+    result = SMT::stacked_atlas(surface.surface.mesh, *parts, std::move(result));
+  }
+  measure_layout(result.atlas, options, layout);
+  return {std::move(result.atlas), std::move(result.report), layout,
+          parts ? parts->triangle : std::vector<std::uint32_t>()};
 }
 
 } // namespace hlscm

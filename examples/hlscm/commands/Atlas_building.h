@@ -4,11 +4,15 @@
 #ifndef HLSCM_PROGRAM_ATLAS_BUILDING_H
 #define HLSCM_PROGRAM_ATLAS_BUILDING_H
 
+#include "commands/Layout_report.h"
 #include "common/Program_options.h"
 #include "common/Progress_bar.h"
 #include "reading/Surface_reading.h"
 
 #include <CGAL/Surface_mesh_texturing/Texture_atlas.h>
+
+#include <cstdint>
+#include <vector>
 
 namespace hlscm {
 
@@ -16,6 +20,8 @@ struct Built_atlas
 {
   CGAL::Surface_mesh_texturing::Texture_atlas atlas;
   CGAL::Surface_mesh_texturing::Texture_atlas_report report;
+  Layout_report layout;
+  std::vector<std::uint32_t> packed; ///< the triangles that are in the place of no others; empty: all
 };
 
 /// Builds the atlas of a surface as the options want it; throws `Program_error`.

@@ -21,14 +21,14 @@ constexpr std::size_t largest_texture = 32768, many = 1000000000;
 void add_price(CLI::App& app, const std::string& name, std::optional<double>& price,
                const std::string& description)
 {
-  const auto read = [&price](const std::string& text) {
+  const auto read = [&price, name](const std::string& text) {
     const char* end = text.data() + text.size();
     double value = 0;
     if(text == "inf") {
       value = std::numeric_limits<double>::infinity();
     } else if(const auto [last, error] = std::from_chars(text.data(), end, value);
               error != std::errc() || last != end || !(value >= 0) || !std::isfinite(value)) {
-      throw CLI::ValidationError(text + " is not a number from 0 on, or inf");
+      throw CLI::ValidationError(name, text + " is not a number from 0 on, or inf");
     }
     price = value;
   };
@@ -80,6 +80,7 @@ void add_atlas_options(CLI::App& app, Program_options& o)
       "how charts are mapped; border-first: with the least change of areas; the others are those of "
       "parameterize (default border-first)");
   add_signal(app, o);
+  add_layout_options(app, o);
   add_threads(app, o.library.threads);
   app.add_flag("--ply", atlas.writes_ply, "write binary PLY, too");
 }
@@ -158,6 +159,10 @@ void check_bake(const Program_options& options)
                      + int(!options.bake.target.empty());
   if(models != 1) {
     throw CLI::ValidationError("bake", "give one of --faces, --error and --target");
+  }
+  if(options.atlas.layout.is_stacked) {
+    throw CLI::ValidationError("--stack", "parts that share texels cannot have a bake each, leave "
+                                          "that out or bake one of them alone");
   }
   if(!options.signal.empty() && !options.bake.target.empty()) {
     throw CLI::ValidationError("--signal", "the light model of --target has its texture coordinates, "

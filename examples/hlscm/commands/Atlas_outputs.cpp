@@ -15,7 +15,9 @@
 #include <CGAL/Surface_mesh_texturing/IO/GLB.h>
 #include <CGAL/Surface_mesh_texturing/IO/OBJ.h>
 #include <CGAL/Surface_mesh_texturing/IO/PLY.h>
+#include <CGAL/Surface_mesh_texturing/udim.h>
 
+#include <algorithm>
 #include <iostream>
 #include <utility>
 
@@ -24,6 +26,7 @@ namespace hlscm {
 namespace {
 
 namespace fs = std::filesystem;
+namespace SMT = CGAL::Surface_mesh_texturing;
 using CGAL::Surface_mesh_texturing::Texture_atlas;
 
 constexpr std::size_t checker_size = 1024, checker_squares = 64; // each way
@@ -63,6 +66,15 @@ std::vector<Mesh_line> lines_of_model(const Read_mesh& file, const Texture_atlas
   return lines;
 }
 
+// An atlas on the tiles of UDIM, which are one page.
+Texture_atlas on_tiles(Texture_atlas atlas)
+{
+  atlas.mesh = SMT::with_udim_coordinates(std::move(atlas.mesh), pages_of_triangles(atlas));
+  std::fill(atlas.page.begin(), atlas.page.end(), 0u);
+  atlas.number_of_pages = 1;
+  return atlas;
+}
+
 // The faces of the file in the atlas, with the normals of the model unless it has its own.
 Read_mesh faces_of_model(const Input_surface& input, const Texture_atlas& atlas,
                          const Textured_model& model, std::vector<std::string>& warnings)
@@ -83,8 +95,8 @@ Read_mesh faces_of_model(const Input_surface& input, const Texture_atlas& atlas,
 
 } // namespace
 
-Model_outputs::Model_outputs(Folder_outputs& folder, std::string name, bool has_ply)
-  : m_name(std::move(name)), m_obj(folder.create(m_name + ".obj")),
+Model_outputs::Model_outputs(Folder_outputs& folder, std::string name, bool has_ply, bool is_udim)
+  : m_name(std::move(name)), m_is_udim(is_udim), m_obj(folder.create(m_name + ".obj")),
     m_mtl(folder.create(m_name + ".mtl")), m_glb(folder.create(m_name + ".glb")),
     m_ply(has_ply ? &folder.create(m_name + ".ply") : nullptr)
 {}
@@ -93,12 +105,20 @@ void Model_outputs::write(Textured_model model, const Read_mesh* faces)
 {
   namespace IO = CGAL::Surface_mesh_texturing::IO;
   model.name = m_name;
+  std::optional<Textured_model> tiled;
+  if(m_is_udim) {
+    model.mesh = SMT::with_udim_coordinates(std::move(model.mesh), model.page);
+    tiled = model;
+    tiled->page.clear();
+    tiled->materials.resize(1);
+  }
+  const Textured_model& text = tiled ? *tiled : model;
   if(faces != nullptr) {
     write_obj(*faces, m_obj);
   } else {
-    m_obj.write([&](std::ostream& stream) { return IO::write_OBJ(stream, model); });
+    m_obj.write([&](std::ostream& stream) { return IO::write_OBJ(stream, text); });
   }
-  m_mtl.write([&](std::ostream& stream) { return IO::write_MTL(stream, model); });
+  m_mtl.write([&](std::ostream& stream) { return IO::write_MTL(stream, text); });
   m_glb.write([&](std::ostream& stream) { return IO::write_GLB(stream, model); });
   if(m_ply != nullptr) {
     m_ply->write([&](std::ostream& stream) { return IO::write_PLY(stream, model.mesh); });
@@ -108,7 +128,8 @@ void Model_outputs::write(Textured_model model, const Read_mesh* faces)
 Atlas_outputs::Atlas_outputs(const Program_options& options)
   : m_options(options),
     m_folder(options.output, {options.input, options.atlas.charts, options.bake.target,
-                              options.bake.colours}),
+                              options.bake.colours, options.atlas.layout.density,
+                              options.atlas.layout.importance}),
     m_report(m_folder.create_anywhere(options.report.empty()
                                           ? fs::path(options.output) / "report.json"
                                           : fs::path(options.report)))
@@ -116,8 +137,10 @@ Atlas_outputs::Atlas_outputs(const Program_options& options)
   if(!options.bake.target.empty()) {
     return;
   }
-  m_model.emplace(m_folder, "atlas", options.atlas.writes_ply);
-  m_checker = &m_folder.create("checker.png");
+  m_model.emplace(m_folder, "atlas", options.atlas.writes_ply, options.atlas.layout.is_udim);
+  if(!options.atlas.layout.is_udim) {
+    m_checker = &m_folder.create("checker.png");
+  }
   if(!options.pictures.empty()) {
     m_pictures.emplace(m_folder.files(), options.pictures);
   }
@@ -127,17 +150,30 @@ void Atlas_outputs::write(const Input_surface& input, const Texture_atlas& atlas
                           Progress_bar& progress, std::vector<std::string>& warnings)
 {
   progress.start_stage("writing");
-  Textured_model model = CGAL::Surface_mesh_texturing::textured_model(atlas);
-  model.textures.push_back({"checker.png", checkerboard_png(checker_size, checker_squares)});
+  const bool is_udim = m_options.atlas.layout.is_udim;
+  Textured_model model = SMT::textured_model(atlas);
+  model.textures.push_back({is_udim ? SMT::udim_file_name("checker") : "checker.png",
+                            checkerboard_png(checker_size, checker_squares)});
   for(Texture_material& material : model.materials) {
     material.color = 0;
   }
-  m_checker->put(model.textures[0].png);
+  for(std::size_t page = 0; is_udim && page < atlas.number_of_pages; ++page) {
+    m_folder.create(SMT::udim_file_name("checker", page)).put(model.textures[0].png);
+  }
+  if(m_checker != nullptr) {
+    m_checker->put(model.textures[0].png);
+  }
+  if(m_options.atlas.layout.is_lightmap) {
+    Textured_triangle_mesh base = to_textured(input);
+    model.base_uv = std::move(base.uv);
+    model.base_wedges = std::move(base.wedges);
+  }
   if(input.surface.repairs.sentences().empty() && input.file.lines.empty()) {
     m_model->write(std::move(model));
     return;
   }
-  const Read_mesh faces = faces_of_model(input, atlas, model, warnings);
+  const Read_mesh faces
+      = faces_of_model(input, is_udim ? on_tiles(atlas) : atlas, model, warnings);
   m_model->write(std::move(model), &faces);
 }
 
@@ -181,13 +217,26 @@ Texture_atlas make_atlas(const Input_surface& surface, const Program_options& op
   Built_atlas built = build_atlas(surface, options, progress);
   report.atlas = std::move(built.report);
   report.wanted_utilisation = 0.01 * options.atlas.min_used;
+  report.layout = std::move(built.layout);
   report.wedges = built.atlas.mesh.uv.size();
   report.pages = built.atlas.number_of_pages;
   report.width = built.atlas.width;
   report.height = built.atlas.height;
   const Stopwatch measuring;
-  report.overlapping_texels = overlapping_texels(
-      built.atlas.mesh, pages_of_triangles(built.atlas), built.atlas.width, built.atlas.height);
+  Textured_triangle_mesh mesh; // what counts of it, without parts in the place of others
+  mesh.uv = built.atlas.mesh.uv;
+  std::vector<std::uint32_t> page = pages_of_triangles(built.atlas);
+  if(built.packed.empty()) {
+    mesh.wedges = built.atlas.mesh.wedges;
+  } else {
+    for(std::size_t i = 0; i < built.packed.size(); ++i) {
+      mesh.wedges.push_back(built.atlas.mesh.wedges[built.packed[i]]);
+      page[i] = page[built.packed[i]]; // ascending
+    }
+    page.resize(built.packed.size());
+  }
+  report.overlapping_texels
+      = overlapping_texels(mesh, page, built.atlas.width, built.atlas.height);
   report.seconds_measure = measuring.seconds();
   return std::move(built.atlas);
 }

@@ -20,13 +20,15 @@ namespace hlscm {
 class Model_outputs
 {
 public:
-  Model_outputs(Folder_outputs& folder, std::string name, bool has_ply);
+  /// With UDIM the pages are tiles of one plane, and .obj has one material for all.
+  Model_outputs(Folder_outputs& folder, std::string name, bool has_ply, bool is_udim);
 
   /// Writes it. `faces`, if there are some, are what NAME.obj has in the place of the triangles.
   void write(Textured_model model, const Read_mesh* faces = nullptr);
 
 private:
   std::string m_name;
+  bool m_is_udim;
   Output_file& m_obj;
   Output_file& m_mtl;
   Output_file& m_glb;

@@ -157,6 +157,7 @@ void add_bake_lines(const Bake_report& bake, std::ostringstream& text)
 std::vector<std::string> Atlas_report::all_warnings() const
 {
   std::vector<std::string> all = warnings;
+  all.insert(all.end(), layout.warnings.begin(), layout.warnings.end());
   if(atlas && atlas->stopped_early) {
     all.push_back("the time was up before the atlas was as good as it gets; see --time-limit");
   }
@@ -205,6 +206,7 @@ std::string to_json(const Atlas_report& report, const Program_options& options)
   if(report.atlas) {
     json["texture_vertices"] = report.wedges;
     json.update(to_json(*report.atlas));
+    add_layout(report.layout, options.atlas.layout, json);
   }
   if(report.bake) {
     json["light"] = to_json(*report.bake);
@@ -227,6 +229,7 @@ std::string to_table(const Atlas_report& report, const Program_options& options)
        << " of them in more than one triangle\n";
   if(report.atlas) {
     add_atlas_lines(*report.atlas, report.faces, text);
+    add_layout_lines(report.layout, options.atlas.layout, text);
   }
   if(report.bake) {
     add_bake_lines(*report.bake, text);

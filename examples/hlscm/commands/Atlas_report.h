@@ -4,6 +4,7 @@
 #ifndef HLSCM_PROGRAM_ATLAS_REPORT_H
 #define HLSCM_PROGRAM_ATLAS_REPORT_H
 
+#include "commands/Layout_report.h"
 #include "common/Program_options.h"
 
 #include <CGAL/Indexed_mesh/surface_of_soup.h>
@@ -56,6 +57,7 @@ struct Atlas_report
   double wanted_utilisation = 0; ///< asked for by --min-used, in [0, 1]
   /// Without, if the light model has texture coordinates of its own.
   std::optional<CGAL::Surface_mesh_texturing::Texture_atlas_report> atlas;
+  Layout_report layout; ///< what options of the layout made of it
   std::vector<std::pair<std::string, std::size_t>> files; ///< names, and sizes in bytes
   double seconds_read = 0, seconds_measure = 0, seconds_write = 0;
   double peak_memory_mb = 0; ///< of the process (2^20 bytes), before pictures

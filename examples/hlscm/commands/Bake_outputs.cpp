@@ -7,6 +7,7 @@
 #include "writing/Texture_sheet.h"
 
 #include <CGAL/Surface_mesh_texturing/Texture_image.h>
+#include <CGAL/Surface_mesh_texturing/udim.h>
 
 #include <utility>
 
@@ -16,10 +17,11 @@ namespace SMT = CGAL::Surface_mesh_texturing;
 
 namespace {
 
-// NAME.png, NAME_2.png ...
-std::string page_name(const std::string& name, std::size_t page)
+// NAME.png, NAME_2.png ...; or NAME.1001.png, NAME.1002.png ...
+std::string page_name(const std::string& name, std::size_t page, bool is_udim)
 {
-  return name + (page == 0 ? "" : "_" + std::to_string(page + 1)) + ".png";
+  return is_udim ? SMT::udim_file_name(name, page)
+                 : name + (page == 0 ? "" : "_" + std::to_string(page + 1)) + ".png";
 }
 
 template <typename Integer>
@@ -32,7 +34,8 @@ std::string png_of(const SMT::Texture_image& image, double lowest, double highes
 } // namespace
 
 Bake_outputs::Bake_outputs(Folder_outputs& folder, const Program_options& options)
-  : m_folder(folder), m_options(options), m_model(folder, "light", options.atlas.writes_ply)
+  : m_folder(folder), m_options(options),
+    m_model(folder, "light", options.atlas.writes_ply, options.atlas.layout.is_udim)
 {}
 
 SMT::Texture_image Bake_outputs::write(const Baking_input& input, const Baked_images& images,
@@ -53,10 +56,12 @@ SMT::Texture_image Bake_outputs::write(const Baking_input& input, const Baked_im
                                   images.normals, -1, 1);
 }
 
-Texture_file Bake_outputs::put(const std::string& name, std::string png)
+Texture_file Bake_outputs::put(const std::string& name, std::size_t page, std::string png)
 {
-  m_folder.create(name).put(png);
-  return {name, std::move(png)};
+  const bool is_udim = m_options.atlas.layout.is_udim;
+  const std::string file = page_name(name, page, is_udim);
+  m_folder.create(file).put(png);
+  return {is_udim ? SMT::udim_file_name(name) : file, std::move(png)};
 }
 
 Textured_model Bake_outputs::light_model(const Baking_input& input,
@@ -76,12 +81,12 @@ void Bake_outputs::put_normal_maps(const Image& normals, Textured_model& model)
   const std::size_t pages = model.materials.size();
   for(std::size_t page = 0; page < pages; ++page) {
     const Image image = page_of_sheet(normals, page, pages);
-    const std::string name = page_name("normal", page);
     const std::string png = png_of<std::uint8_t>(image, -1, 1);
-    put(name, m_options.bake.bits == 16 ? png_of<std::uint16_t>(image, -1, 1) : png);
+    const Texture_file file = put(
+        "normal", page, m_options.bake.bits == 16 ? png_of<std::uint16_t>(image, -1, 1) : png);
     if(!m_options.bake.is_object_space) {
       model.materials[page].normal_map = model.textures.size();
-      model.textures.push_back({name, png});
+      model.textures.push_back({file.name, png});
     }
   }
 }
@@ -92,7 +97,7 @@ void Bake_outputs::put_colours(const Image& colours, Textured_model& model)
   for(std::size_t page = 0; page < pages; ++page) {
     const Image image = page_of_sheet(colours, page, pages);
     model.materials[page].color = model.textures.size();
-    model.textures.push_back(put(page_name("color", page), png_of<std::uint8_t>(image, 0, 1)));
+    model.textures.push_back(put("color", page, png_of<std::uint8_t>(image, 0, 1)));
   }
 }
 
@@ -100,7 +105,7 @@ void Bake_outputs::put_displacement(const Baked_images& images, std::size_t page
 {
   for(std::size_t page = 0; images.displacement && page < pages; ++page) {
     const Image image = page_of_sheet(*images.displacement, page, pages);
-    put(page_name("displacement", page),
+    put("displacement", page,
         png_of<std::uint16_t>(image, images.lowest, images.highest));
   }
 }

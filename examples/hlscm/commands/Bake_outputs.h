@@ -13,7 +13,8 @@
 namespace hlscm {
 
 /// The light model and its textures: light.obj, light.mtl, light.glb, normal.png and what else the
-/// options ask for. Pages beyond the first are numbered: normal.png, normal_2.png ...
+/// options ask for. Pages beyond the first are numbered: normal.png, normal_2.png ...; or as tiles of
+/// UDIM, normal.1001.png, normal.1002.png ...
 class Bake_outputs
 {
 public:
@@ -26,7 +27,7 @@ public:
 private:
   using Image = CGAL::Surface_mesh_texturing::Texture_image;
 
-  Texture_file put(const std::string& name, std::string png);
+  Texture_file put(const std::string& name, std::size_t page, std::string png);
   Textured_model light_model(const Baking_input& input, const Baked_images& images) const;
   void put_normal_maps(const Image& normals, Textured_model& model);
   void put_colours(const Image& colours, Textured_model& model);

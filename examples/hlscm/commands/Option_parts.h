@@ -75,6 +75,10 @@ void add_weld(CLI::App& app, Program_options& options);
 
 void add_report_and_quiet(CLI::App& app, Program_options& options);
 
+/// Adds what `atlas` and `bake` are told about what the input has already, and how the texture is to
+/// be laid out.
+void add_layout_options(CLI::App& app, Program_options& options);
+
 /// Adds the commands `atlas` and `bake`.
 void add_atlas_commands(CLI::App& app, Program_options& options);
 

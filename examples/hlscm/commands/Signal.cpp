@@ -4,15 +4,14 @@
 #include "commands/Signal.h"
 
 #include "common/Program_error.h"
+#include "reading/Face_numbers.h"
 #include "reading/Image_reading.h"
 
 #include <CGAL/Surface_mesh_parameterization/Signal_metric.h>
 #include <CGAL/Surface_mesh_texturing/surface_signals.h>
 
-#include <charconv>
-#include <cmath>
+#include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <utility>
 
@@ -32,44 +31,13 @@ bool is_image(const std::string& file)
   return end == ".png" || end == ".jpg" || end == ".jpeg" || end == ".bmp" || end == ".tga";
 }
 
-// The numbers of a text file, with white space between.
-std::vector<double> read_numbers(const std::string& name)
-{
-  std::ifstream file(name);
-  if(!file) {
-    throw Program_error(name, "cannot be opened, give a file with a number for each face");
-  }
-  std::vector<double> numbers;
-  for(std::string word; file >> word;) {
-    double number = 0;
-    const auto end = word.data() + word.size();
-    const auto result = std::from_chars(word.data(), end, number);
-    if(result.ec != std::errc() || result.ptr != end || !std::isfinite(number) || number < 0) {
-      throw Program_error(name, "its word " + std::to_string(numbers.size() + 1)
-                                    + " is not a number of 0 or more: " + word.substr(0, 20));
-    }
-    numbers.push_back(number);
-  }
-  return numbers;
-}
-
 SMP::Face_tensors metric_of_importance(const Input_surface& input, const Program_options& options)
 {
   if(options.command == Command::PARAMETERIZE && options.method) {
     throw Program_error(options.signal, "the importance of faces says nothing of angles, which are "
                                         "all that a conformal map keeps, take --method low-stretch");
   }
-  const std::vector<double> of_faces = read_numbers(options.signal);
-  const std::size_t faces = input.file.soup.number_of_faces();
-  if(of_faces.size() != faces) {
-    throw Program_error(options.signal, "it has " + std::to_string(of_faces.size()) + " numbers, but "
-                                            + options.input + " has " + std::to_string(faces)
-                                            + " faces, give one for each of them");
-  }
-  std::vector<double> importance;
-  for(const std::uint32_t face : input.surface.face) {
-    importance.push_back(of_faces[face]);
-  }
+  const std::vector<double> importance = read_face_numbers(options.signal, input, options.input);
   return SMP::importance_metric(input.surface.mesh, importance, options.signal_weight);
 }
 

@@ -45,6 +45,30 @@ struct Length
 /// What packs an atlas.
 enum class Packer { RASTER, HORIZON };
 
+/// Between what faces of the input seams shall be.
+enum class Chart_limits { NONE, GROUPS, MATERIALS };
+
+/// Of `atlas` and `bake`: what the input has already, and how the texture is to be laid out.
+struct Layout_settings
+{
+  bool is_repacked = false;  ///< the charts of the input stay, and are placed anew
+  bool keeps_scale = false;  ///< then: their sizes, too
+  std::string density;       ///< a file with a number for each face; empty: none
+  std::string importance;    ///< an image on the input; empty: none
+  Chart_limits limits = Chart_limits::NONE;
+  bool is_aligned = false;   ///< borders of charts run along the axes
+  bool is_udim = false;      ///< pages are tiles of one plane
+  bool is_stacked = false;   ///< equal parts share their place
+  bool is_lightmap = false;  ///< the atlas is a second set of texture coordinates
+
+  /// Whether there is anything to report.
+  bool is_any() const
+  {
+    return is_repacked || !density.empty() || !importance.empty() || limits != Chart_limits::NONE
+           || is_aligned || is_udim || is_stacked || is_lightmap;
+  }
+};
+
 /// Of `atlas` and `bake`.
 struct Atlas_settings
 {
@@ -64,6 +88,7 @@ struct Atlas_settings
   /// Of `Conformal_chart_parameterizer`; none: `Border_first_chart_parameterizer`
   std::optional<CGAL::Surface_mesh_parameterization::Conformal_method> method;
   bool writes_ply = false;
+  Layout_settings layout;
 };
 
 /// Of `bake`.

@@ -63,6 +63,9 @@ struct Packing_options
   /// 48 while the density of 2 to 64 charts is raised, see `Raster_packer`. Charts are never
   /// mirrored.
   int rotations = 0;
+  /// Whether charts are only turned by quarters from where they lie in their planes, in the place of
+  /// `rotations`, so that what is parallel to the axes stays so.
+  bool quarter_turns_only = false;
   /// The number of pages that must do; 0: as many as needed, for a given `texels_per_unit`.
   std::size_t max_pages = 1;
   /// The texels of a unit of length; 0: the most with which all charts fit on `max_pages` pages.

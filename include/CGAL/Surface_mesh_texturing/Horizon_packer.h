@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_TEXTURING_HORIZON_PACKER_H
 
 #include <CGAL/Surface_mesh_texturing/internal/packing/Density_search.h>
+#include <CGAL/Surface_mesh_texturing/internal/packing/keep_axes.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -162,7 +163,8 @@ public:
                             const Packing_options& options) const
   {
     double unit = 1.;
-    const std::vector<internal::Chart_outline> outlines = internal::chart_outlines(charts, unit);
+    std::vector<internal::Chart_outline> outlines = internal::chart_outlines(charts, unit);
+    internal::keep_axes(options, outlines);
     const internal::Packing_raster raster = internal::exact_raster(options);
     const auto pack = [&](double density) {
       return internal::horizon_packing(outlines, unit, density, raster, options);

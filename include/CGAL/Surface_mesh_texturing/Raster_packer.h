@@ -6,6 +6,7 @@
 
 #include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Surface_mesh_texturing/internal/packing/Raster_packing_search.h>
+#include <CGAL/Surface_mesh_texturing/internal/packing/keep_axes.h>
 
 #include <vector>
 
@@ -61,8 +62,9 @@ CGAL_HLSCM_INLINE Packing_result Raster_packer::operator()(const std::vector<Cha
                                                            const Packing_options& options) const
 {
   double unit = 1.;
-  const std::vector<internal::Chart_outline> outlines = internal::chart_outlines(charts, unit);
-  internal::Raster_packing_search search(outlines, unit, options);
+  std::vector<internal::Chart_outline> outlines = internal::chart_outlines(charts, unit);
+  const Packing_options used = internal::keep_axes(options, outlines);
+  internal::Raster_packing_search search(outlines, unit, used);
   return search.run();
 }
 #endif

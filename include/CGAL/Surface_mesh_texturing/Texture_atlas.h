@@ -63,6 +63,10 @@ struct Texture_atlas_options
   /// by `Chart_growth_segmenter`, and where charts are cut again, as far as charts can be disks with
   /// one-to-one maps: `Texture_atlas_report::unwanted_seams`. Empty for none.
   std::vector<std::uint8_t> no_seams;
+  /// Whether charts are turned so that as much as possible of their borders, and of the creases in
+  /// them, runs along the rows and columns of the texture; then by quarters only. Parts of a chart
+  /// that is cut to fill the pages (`seam_price`) keep its direction.
+  bool is_aligned = false;
   /// The textures, and how charts are placed in them.
   Packing_options packing;
   /// The seconds after which the atlas is finished in the quickest way that makes it valid: no more
@@ -106,6 +110,7 @@ struct Chart_report
   std::size_t repaired_flips = 0;///< triangles that were flipped before its map was repaired
   bool is_one_to_one = true;     ///< whether its map is one-to-one, by exact predicates
   std::size_t page = 0;          ///< its texture
+  bool is_mirrored = false;      ///< as a whole, in a texture that was packed anew
 };
 
 /*!

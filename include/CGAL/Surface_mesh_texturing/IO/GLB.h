@@ -8,6 +8,7 @@
 #include <CGAL/Surface_mesh_texturing/IO/Textured_model.h>
 #include <CGAL/Surface_mesh_texturing/internal/writing/Byte_output.h>
 #include <CGAL/Surface_mesh_texturing/internal/writing/Glb_placement.h>
+#include <CGAL/Surface_mesh_texturing/internal/writing/Uv_pairs.h>
 
 #include <algorithm>
 #include <array>
@@ -58,13 +59,18 @@ public:
     : m_model(model), m_placement(model.mesh.triangles, [&model](Vertex_index v) -> const auto& {
         return model.mesh.points[v];
       })
-  {}
+  {
+    if(has_base())
+      m_pairs = pair_up(model);
+  }
 
   bool write(std::ostream& os)
   {
     add_vertices();
     const bool has_tangents = !m_model.frames.corners.empty();
-    const auto& corners = has_tangents ? m_model.frames.corners : m_model.mesh.wedges;
+    const auto& corners = has_base()    ? m_pairs.corners
+                          : has_tangents ? m_model.frames.corners
+                                         : m_model.mesh.wedges;
     std::vector<std::vector<Triangle_indices>> triangles(
       (std::max<std::size_t>)(m_model.materials.size(), 1));
     for(std::size_t t = 0; t < corners.size(); ++t)
@@ -81,9 +87,13 @@ public:
   }
 
 private:
-  // One for each wedge, or for each frame.
+  bool has_base() const { return !m_model.base_wedges.empty(); }
+
+  // One for each wedge, for each frame, or for each pair of texture coordinates.
   std::vector<Tangent_frame> vertices() const
   {
+    if(has_base())
+      return m_pairs.vertices;
     if(!m_model.frames.corners.empty())
       return m_model.frames.frames;
     std::vector<Tangent_frame> result;
@@ -113,7 +123,13 @@ private:
     const std::size_t n = points.size();
     m_attributes["POSITION"] = m_glb.add_positions(m_glb.add_vertices(points), points, n);
     m_attributes["NORMAL"] = m_glb.add_vectors(m_glb.add_vertices(normals), n, "VEC3");
-    m_attributes["TEXCOORD_0"] = m_glb.add_vectors(m_glb.add_vertices(uv), n, "VEC2");
+    m_attributes[has_base() ? "TEXCOORD_1" : "TEXCOORD_0"]
+      = m_glb.add_vectors(m_glb.add_vertices(uv), n, "VEC2");
+    if(has_base()) {
+      for(std::size_t i = 0; i < n; ++i)
+        uv[i] = to_gltf_uv(m_model.base_uv[m_pairs.base[i]]);
+      m_attributes["TEXCOORD_0"] = m_glb.add_vectors(m_glb.add_vertices(uv), n, "VEC2");
+    }
     if(!m_model.frames.corners.empty())
       m_attributes["TANGENT"] = m_glb.add_vectors(m_glb.add_vertices(tangents), n, "VEC4");
   }
@@ -123,7 +139,7 @@ private:
     const Texture_material material
       = m_model.materials.empty() ? Texture_material() : m_model.materials[page];
     const int color = texture(material.color), normal_map = texture(material.normal_map);
-    return m_glb.add_material(material_name(page), color, normal_map);
+    return m_glb.add_material(material_name(page), color, normal_map, has_base() ? 1 : 0);
   }
 
   // Each picture is stored once.
@@ -138,6 +154,7 @@ private:
   }
 
   const Textured_model& m_model;
+  Uv_pairs m_pairs; // if there are two sets of texture coordinates
   Glb_placement m_placement;
   Glb_builder m_glb;
   std::map<std::string, int> m_attributes;
@@ -274,7 +291,8 @@ namespace IO {
 
 Writes a model as glTF 2.0 in one binary file (GLB), its pictures in it: a vertex for each texture
 coordinate, or for each of `model.frames.frames` if there are tangents, and a primitive with a
-material for each page that has triangles. If the model has no normals, they are those of
+material for each page that has triangles. A second set of texture coordinates is TEXCOORD_1; see
+`Textured_model`. If the model has no normals, they are those of
 `vertex_normals()`. Numbers are rounded to floats. Where that would move points by more than a
 thousandth of the mean edge, as far from the origin, positions are relative to the centre of the
 bounding box, and the node has the translation (and, for boxes smaller than 2^-60 or larger than
@@ -290,6 +308,7 @@ inline bool write_GLB(std::ostream& os, const Textured_model& model)
 {
   return internal::can_be_written(model) && !model.mesh.triangles.empty()
       && internal::are_within_floats(model.mesh.points, model.mesh.uv)
+      && internal::are_within_floats(model.mesh.points, model.base_uv)
       && internal::Glb_of_model(model).write(os);
 }
 

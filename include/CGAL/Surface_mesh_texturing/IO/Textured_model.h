@@ -50,7 +50,8 @@ The struct `Textured_model` is a mesh with texture coordinates and all that file
 Invariant: `page` is empty, which stands for one page, or as long as `mesh.triangles`, with entries
 smaller than `materials.size()`; the entries of `materials` are smaller than `textures.size()`, or
 `none`; `frames.normals` is empty or has a vector for each vertex; `frames.corners` is empty or made
-by `tangent_frames()` for this mesh.
+by `tangent_frames()` for this mesh, and then there is no second set of texture coordinates; the
+entries of `base_wedges` are smaller than `base_uv.size()`.
 */
 struct Textured_model
 {
@@ -60,6 +61,12 @@ struct Textured_model
   std::vector<Texture_material> materials; ///< of each page
   std::vector<Texture_file> textures;      ///< the pictures of all materials
   Tangent_frames frames;                   ///< normals of the vertices, and perhaps tangents
+  /// Another set of texture coordinates, such as those of colors where `mesh` has those of a light
+  /// map; and for each corner of a triangle its own. GLB files have it as the first set, TEXCOORD_0,
+  /// and that of `mesh` as the second, to which textures refer; other formats leave it out. Empty for
+  /// none.
+  std::vector<Textured_triangle_mesh::Point_2> base_uv;
+  std::vector<Triangle_indices> base_wedges; ///< empty, or as long as `mesh.triangles`
 };
 
 /// \ingroup PkgHLSCMTextureFiles
@@ -144,6 +151,14 @@ inline bool has_valid_frames(const Textured_model& model)
          });
 }
 
+inline bool has_valid_base(const Textured_model& model)
+{
+  return model.base_wedges.empty()
+      || (model.frames.corners.empty()
+          && can_be_written(model.mesh.points, model.mesh.triangles, model.base_uv,
+                            model.base_wedges));
+}
+
 // Whether the invariants of a model hold.
 inline bool can_be_written(const Textured_model& model)
 {
@@ -151,7 +166,7 @@ inline bool can_be_written(const Textured_model& model)
     return number == Texture_material::none || number < model.textures.size();
   };
   const std::size_t pages = (std::max<std::size_t>)(model.materials.size(), 1);
-  return can_be_written(model.mesh) && has_valid_frames(model)
+  return can_be_written(model.mesh) && has_valid_frames(model) && has_valid_base(model)
       && (model.page.empty() || model.page.size() == model.mesh.triangles.size())
       && std::all_of(model.page.begin(), model.page.end(),
                      [pages](std::uint32_t page) { return page < pages; })

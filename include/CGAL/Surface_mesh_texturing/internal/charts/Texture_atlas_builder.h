@@ -7,9 +7,13 @@
 #include <CGAL/Blocked_execution/Progress.h>
 #include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Surface_mesh_texturing/Chart_segmenters.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/Atlas_models.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/adapt_chart.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/map_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/filling/Filled_packing.h>
+#include <CGAL/Surface_mesh_texturing/internal/mapped_charts/align_charts.h>
+#include <CGAL/Surface_mesh_texturing/internal/mapped_charts/scale_by_density.h>
+#include <CGAL/Surface_mesh_texturing/internal/mapped_charts/seam_length.h>
 
 #include <atomic>
 #include <cmath>
@@ -24,21 +28,6 @@ namespace CGAL {
 namespace Surface_mesh_texturing {
 namespace internal {
 
-// The length of the seams between triangles, each once.
-inline double seam_length(const Indexed_triangle_mesh& mesh, const Triangle_adjacency& adjacency,
-                          const Face_charts& charts)
-{
-  double sum = 0.;
-  for(std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-    for(int c = 0; c < 3; ++c) {
-      const std::uint32_t opposite = adjacency.opposite(t, c);
-      if(opposite != no_halfedge && 3 * t + std::uint32_t(c) < opposite && charts.is_seam(t, c))
-        sum += std::sqrt(squared_distance(mesh.points[mesh.triangles[t][c]],
-                                          mesh.points[mesh.triangles[t][(c + 1) % 3]]));
-    }
-  return sum;
-}
-
 // The charts whose triangles these are, with all seams between wedges.
 inline Face_charts charts_of_maps(const Triangle_adjacency& adjacency,
                                   const std::vector<Mapped_chart>& maps)
@@ -48,25 +37,6 @@ inline Face_charts charts_of_maps(const Triangle_adjacency& adjacency,
     for(const Halfedge h : map.chart.border)
       mark(seams, 3 * map.chart.triangles[triangle_of(h)] + corner_of(h));
   return charts_between(adjacency, std::move(seams));
-}
-
-// Makes the charts as large as their density asks for.
-inline void scale_by_density(const std::vector<float>& density, Mapped_chart& map)
-{
-  if(density.empty())
-    return;
-  double sum = 0., all = 0.;
-  const Indexed_triangle_mesh& mesh = map.chart.mesh;
-  for(std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Triangle_indices& vs = mesh.triangles[t];
-    const double area
-      = std::sqrt(squared_area(mesh.points[vs[0]], mesh.points[vs[1]], mesh.points[vs[2]]));
-    sum += area * density[map.chart.triangles[t]];
-    all += area;
-  }
-  const double scale = all > 0. ? sum / all : 1.;
-  for(Point_2& p : map.uv)
-    p = Point_2(scale * p.x(), scale * p.y());
 }
 
 // Measures the whole atlas, in texels.
@@ -95,19 +65,6 @@ inline void measure_atlas(const Texture_atlas& atlas, Texture_atlas_report& repo
   report.utilisation = area / (width * height * double(atlas.number_of_pages));
 }
 
-// What finds, maps and packs the charts of an atlas. The types of the models end here: what follows
-// is compiled once.
-struct Atlas_models
-{
-  std::function<Segmentation_result(const Indexed_triangle_mesh&, const Texture_atlas_options&)>
-    segment;
-  bool is_bounded = true;      // ChartSegmenter::Is_bounded
-  bool is_for_any_mesh = true; // ChartSegmenter::Is_for_any_mesh
-  bool is_own = true;          // the default segmenter, which checks meshes and cuts charts to disks
-  std::function<std::vector<Point_2>(const Indexed_triangle_mesh&)> parameterize;
-  std::function<Packing_result(const std::vector<Chart_shape>&, const Packing_options&)> pack;
-};
-
 // Builds an atlas by these models.
 CGAL_HLSCM_INLINE Texture_atlas_result build_atlas(const Indexed_triangle_mesh& mesh,
                                                    const Texture_atlas_options& options,
@@ -126,7 +83,7 @@ public:
 
   Texture_atlas_result run()
   {
-    if(check() && segment() && map() && pack())
+    if(check() && (m_models.take_maps ? take_maps() : segment() && map()) && pack())
       fill();
     m_result.report.stopped_early = m_was_over;
     m_result.report.seconds_total = m_watch.seconds();
@@ -139,6 +96,7 @@ private:
   Segmentation_result find_charts(const Indexed_triangle_mesh& mesh, double begin, double end);
   Segmentation_result try_charts(const Indexed_triangle_mesh& mesh);
   bool map();
+  bool take_maps();
   Chart_mapping chart_mapping(const Distortion_bound& bound) const // of any mesh
   {
     return {m_models.parameterize, bound, m_models.is_bounded, m_options.least_fill,
@@ -302,10 +260,24 @@ inline void Texture_atlas_builder::map_charts_within(const Distortion_bound& bou
                       m_result.report.recut_charts);
 }
 
+inline bool Texture_atlas_builder::take_maps()
+{
+  const Blocked_execution::Stopwatch watch;
+  m_adjacency.emplace(m_mesh.triangles);
+  m_maps = m_models.take_maps(m_mesh, *m_adjacency, m_result);
+  for(Mapped_chart& chart : m_maps)
+    scale_by_density(m_options.density, chart);
+  m_result.report.seconds_map = watch.seconds();
+  return m_result.is_ok() && proceed(0.8, 0.8, 0.);
+}
+
 inline bool Texture_atlas_builder::pack()
 {
   const Blocked_execution::Stopwatch watch;
+  if(m_options.is_aligned)
+    align_charts(m_maps);
   Packing_options packing = m_options.packing;
+  packing.quarter_turns_only = packing.quarter_turns_only || m_options.is_aligned;
   packing.is_enough = [this, is_enough = packing.is_enough] {
     return is_over() || (is_enough && is_enough());
   };

@@ -121,12 +121,13 @@ public:
     return int(m_images.size()) - 1;
   }
 
-  // Adds a material of a rough, white surface that is seen from both sides, with textures or -1;
-  // returns its number.
-  int add_material(const std::string& name, int color, int normal_map)
+  // Adds a material of a rough, white surface that is seen from both sides, with textures or -1, by
+  // the texture coordinates of the set `uv_set`; returns its number.
+  int add_material(const std::string& name, int color, int normal_map, int uv_set = 0)
   {
-    const auto texture = [](const std::string& key, int number) {
-      return number < 0 ? "" : '"' + key + "\":{\"index\":" + std::to_string(number) + "},";
+    const std::string set = uv_set == 0 ? "" : ",\"texCoord\":" + std::to_string(uv_set);
+    const auto texture = [&set](const std::string& key, int number) {
+      return number < 0 ? "" : '"' + key + "\":{\"index\":" + std::to_string(number) + set + "},";
     };
     m_materials.push_back("{\"doubleSided\":true,\"name\":" + json_text(name) + ','
                           + texture("normalTexture", normal_map) + "\"pbrMetallicRoughness\":{"

@@ -1,0 +1,82 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "commands/Option_parts.h"
+
+#include <string>
+
+namespace hlscm {
+
+namespace {
+
+// Throws what contradicts what.
+void check_layout(const CLI::App& app, const Layout_settings& layout)
+{
+  for(const char* other : {"--max-area-scale", "--max-quasi-conformal", "--max-charts", "--charts",
+                           "--one-disk", "--method", "--signal", "--limits", "--seam-price", "--min-used"}) {
+    if(layout.is_repacked && app.count(other) > 0) {
+      throw CLI::ValidationError("--repack", "it keeps the charts and maps of IN, leave "
+                                                 + std::string(other) + " out");
+    }
+  }
+  for(const char* other : {"--charts", "--one-disk"}) {
+    if(app.count("--min-used") > 0 && app.count(other) > 0) {
+      throw CLI::ValidationError("--min-used", "charts that are given are not cut, leave it or "
+                                                   + std::string(other) + " out");
+    }
+  }
+  if(layout.is_repacked && layout.is_stacked) {
+    throw CLI::ValidationError("--repack", "it keeps each chart in a place of its own, leave --stack "
+                                           "out");
+  }
+  if(layout.keeps_scale && !layout.is_repacked) {
+    throw CLI::ValidationError("--keep-scale", "it needs --repack");
+  }
+  if(!layout.density.empty() && !layout.importance.empty()) {
+    throw CLI::ValidationError("--importance", "the densities are given already, leave it or "
+                                               "--density out");
+  }
+}
+
+// A light map is seen from far away, too.
+constexpr unsigned int mip_levels_of_lightmap = 2;
+
+} // namespace
+
+void add_layout_options(CLI::App& app, Program_options& options)
+{
+  Layout_settings& layout = options.atlas.layout;
+  app.add_flag("--repack", layout.is_repacked,
+               "keep the charts and maps of the texture coordinates of IN, only place them anew");
+  app.add_flag("--keep-scale", layout.keeps_scale,
+               "with --repack: charts keep their sizes beside each other (default: equal density)");
+  app.add_option("--density", layout.density,
+                 "texels along a unit of length, to other faces: a file with a number for each face")
+      ->type_name("FILE");
+  app.add_option("--importance", layout.importance,
+                 "the same by an image on the texture coordinates of IN: white 1, black 1/16")
+      ->type_name("IMAGE");
+  add_choice<Chart_limits>(
+      app, "--limits", {{"groups", Chart_limits::GROUPS}, {"materials", Chart_limits::MATERIALS}},
+      layout.limits, "seams between faces of different groups, or materials, of IN");
+  app.add_flag("--align", layout.is_aligned,
+               "turn charts so that their borders run along the rows and columns of the texture");
+  app.add_flag("--udim", layout.is_udim,
+               "pages are the UDIM tiles 1001, 1002 ... of one plane, see --pages");
+  CLI::Option* stack = app.add_flag("--stack", layout.is_stacked,
+                                    "equal parts of IN, also mirrored ones, share their place");
+  if(app.get_name() == "bake") {
+    stack->group(""); // where it is refused with a reason
+  } else {
+    app.add_flag("--lightmap", layout.is_lightmap,
+                 "atlas.glb keeps the texture coordinates of IN, the atlas is its second set");
+  }
+  app.parse_complete_callback([&app, &options] {
+    check_layout(app, options.atlas.layout);
+    if(options.atlas.layout.is_lightmap && app.count("--mip-levels") == 0) {
+      options.atlas.mip_levels = mip_levels_of_lightmap;
+    }
+  });
+}
+
+} // namespace hlscm

@@ -1,0 +1,84 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "reading/Face_numbers.h"
+
+#include "common/Program_error.h"
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <utility>
+
+namespace hlscm {
+
+namespace {
+
+std::vector<double> read_numbers(const std::string& name)
+{
+  std::ifstream file(name);
+  if(!file) {
+    throw Program_error(name, "cannot be opened, give a file with a number for each face");
+  }
+  std::vector<double> numbers;
+  for(std::string word; file >> word;) {
+    double number = 0;
+    const auto end = word.data() + word.size();
+    const auto result = std::from_chars(word.data(), end, number);
+    if(result.ec != std::errc() || result.ptr != end || !std::isfinite(number) || number < 0) {
+      throw Program_error(name, "its word " + std::to_string(numbers.size() + 1)
+                                    + " is not a number of 0 or more: " + word.substr(0, 20));
+    }
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
+bool begins_with(const std::string& text, const std::string& keyword)
+{
+  return text == keyword || text.rfind(keyword + " ", 0) == 0;
+}
+
+} // namespace
+
+std::vector<double> read_face_numbers(const std::string& name, const Input_surface& surface,
+                                      const std::string& input)
+{
+  const std::vector<double> of_faces = read_numbers(name);
+  const std::size_t faces = surface.file.soup.number_of_faces();
+  if(of_faces.size() != faces) {
+    throw Program_error(name, "it has " + std::to_string(of_faces.size()) + " numbers, but " + input
+                                  + " has " + std::to_string(faces)
+                                  + " faces, give one for each of them");
+  }
+  std::vector<double> result;
+  for(const std::uint32_t face : surface.surface.face) {
+    result.push_back(of_faces[face]);
+  }
+  return result;
+}
+
+std::vector<std::uint32_t> part_of_triangles(const Input_surface& surface, Name_of_part name)
+{
+  std::map<std::string, std::uint32_t> numbers;
+  std::string object, part;
+  std::vector<std::uint32_t> result;
+  auto line = surface.file.lines.begin();
+  for(const std::uint32_t face : surface.surface.face) { // ascending
+    for(; line != surface.file.lines.end() && line->face <= face; ++line) {
+      if(name == Name_of_part::MATERIAL ? begins_with(line->text, "usemtl")
+                                        : begins_with(line->text, "g")) {
+        part = line->text;
+      } else if(name == Name_of_part::GROUP && begins_with(line->text, "o")) {
+        object = line->text;
+      }
+    }
+    const std::string key = object + "\n" + part;
+    result.push_back(numbers.insert({key, std::uint32_t(numbers.size())}).first->second);
+  }
+  return numbers.size() == 1 && object.empty() && part.empty() ? std::vector<std::uint32_t>()
+                                                               : result;
+}
+
+} // namespace hlscm

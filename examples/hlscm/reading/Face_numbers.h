@@ -1,0 +1,28 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef HLSCM_PROGRAM_FACE_NUMBERS_H
+#define HLSCM_PROGRAM_FACE_NUMBERS_H
+
+#include "reading/Surface_reading.h"
+
+#include <string>
+#include <vector>
+
+namespace hlscm {
+
+/// Reads a text file with a number of 0 or more for each face of the input, white space between, and
+/// returns the number of each triangle; throws `Program_error`.
+std::vector<double> read_face_numbers(const std::string& name, const Input_surface& surface,
+                                      const std::string& input);
+
+/// What parts a mesh into parts that have names.
+enum class Name_of_part { GROUP, MATERIAL };
+
+/// Returns for each triangle the number of its group (with its object) or of its material, counted
+/// from 0 in their order, equal names being one; empty if the file has no such names.
+std::vector<std::uint32_t> part_of_triangles(const Input_surface& surface, Name_of_part name);
+
+} // namespace hlscm
+
+#endif // HLSCM_PROGRAM_FACE_NUMBERS_H
