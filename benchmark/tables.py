@@ -382,6 +382,44 @@ def one_to_one():
                   "energy", "time with / without"], lines)
 
 
+def geometric_mean(values):
+    return math.exp(statistics.mean(math.log(value) for value in values))
+
+
+def full_pages():
+    """Atlases with and without cuts for the page, by the size of the model."""
+    rows = read("full_pages.csv")
+    lines = []
+    for low, high in ((1000, 3000), (3000, 10000), (10000, 30000), (30000, 300000), (1000, 300000)):
+        some = [row for row in rows if low <= int(row["faces"]) < high]
+
+        def mean(column, some=some):
+            return geometric_mean([float(row[column]) for row in some])
+        poor = [sum(float(row[column]) < 0.6 for row in some) for column in ("used_uncut", "used")]
+        lines.append([f"{low:,} to {high:,}", str(len(some)),
+                      f"{mean('charts_uncut'):.1f}, {mean('charts'):.1f}",
+                      f"{mean('used_uncut'):.3f}, {mean('used'):.3f}", f"{poor[0]}, {poor[1]}",
+                      f"{mean('seconds_uncut'):.2f}, {mean('seconds'):.2f}"])
+    return table(["faces", "models", "charts, without and with cuts", "texture used", "models below 0.6",
+                  "seconds"], lines)
+
+
+def full_pages_peer():
+    """The same models by xatlas, where it ended."""
+    rows = [row for row in read("full_pages.csv") if row["peer_used"]]
+    lines = []
+    for low, high in ((1000, 3000), (3000, 10000), (10000, 300000)):
+        some = [row for row in rows if low <= int(row["faces"]) < high]
+
+        def mean(column, some=some):
+            return geometric_mean([max(1e-3, float(row[column])) for row in some])
+        lines.append([f"{low:,} to {high:,}", str(len(some)),
+                      f"{mean('charts'):.1f}, {mean('peer_charts'):.1f}",
+                      f"{mean('used'):.3f}, {mean('peer_used'):.3f}",
+                      f"{mean('seconds'):.2f}, {mean('peer_seconds'):.2f}"])
+    return table(["faces", "models", "charts: ours, xatlas", "texture used", "seconds"], lines)
+
+
 def memory_of_commands():
     """Bytes a face of each command at a million faces."""
     rows = [row for row in read("memory.csv") if row["chart"] == "terrain_1000k"]
@@ -394,7 +432,7 @@ def memory_of_commands():
 TABLES = {table.__name__: table for table in (
     million_faces, ratios, scaling, growth, stages, stages_two_threads, atlases,
     atlases_beside_paper, atlases_short, live, levels, compile_time, reading, low_stretch, one_to_one,
-    equation_peers, signals, which_map, memory_of_commands)}
+    equation_peers, signals, which_map, full_pages, full_pages_peer, memory_of_commands)}
 BEGIN, END = "<!-- table ", "<!-- end of table -->"
 
 

@@ -102,9 +102,13 @@ Repacked_atlas_result repack_texture_atlas(const Textured_triangle_mesh& mesh,
   static_cast<Texture_atlas_result&>(result) = internal::build_atlas(surface, used, models);
   for(const Chart_report& chart : result.report.charts)
     result.mirrored_charts += chart.is_mirrored ? 1 : 0;
-  if(result.mirrored_charts > 0)
-    internal::measure_atlas(internal::with_all_upright(result.atlas, result.report.charts),
-                            result.report);
+  if(result.mirrored_charts > 0) {
+    const Texture_atlas upright
+      = internal::with_all_upright(result.atlas, result.report.charts);
+    internal::measure_atlas(upright, result.report);
+    result.report.texels
+      = measure_texels(upright.mesh, upright.charts, upright.width, upright.height);
+  }
   return result;
 }
 
