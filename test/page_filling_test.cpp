@@ -41,7 +41,10 @@ SMT::Texture_atlas_options with_price(double price)
 std::vector<Named_mesh> bad_shapes()
 {
   const Indexed_triangle_mesh strip = with_noise(grid(160, 8), 0.1, seed);
-  std::vector<Named_mesh> result = {{"strip", strip}, {"hills", with_hills(grid(120, 10), 1.5, seed)}};
+  std::vector<Named_mesh> result = {{"strip", strip}};
+  if(is_sanitized)
+    return result;
+  result.push_back({"hills", with_hills(grid(120, 10), 1.5, seed)});
   result.push_back({"ring", moved(strip, [](const Point_3& p) {
     const double angle = 0.035 * p.x(), radius = 24. + p.y();
     return Point_3(radius * std::cos(angle), radius * std::sin(angle), 0.);
@@ -72,12 +75,12 @@ TEST(Page_filling, cuts_give_a_valid_atlas_that_is_used_more)
     EXPECT_EQ(whole.report.page_cuts, 0u) << shape.name << seed_text;
     EXPECT_GE(filled.report.charts.size(), whole.report.charts.size() + filled.report.page_cuts);
     // Never less; and much more where a chart is long
-    EXPECT_GE(filled.report.utilisation, whole.report.utilisation) << shape.name << seed_text;
+    EXPECT_GE(filled.report.utilisation, whole.report.utilisation - 1e-9) << shape.name << seed_text;
     EXPECT_GT(filled.report.utilisation, 0.6) << shape.name << seed_text;
     EXPECT_EQ(filled.report.page_cuts == 0, are_equal(whole.atlas, filled.atlas))
       << shape.name << seed_text;
     if(shape.name == "strip") {
-      EXPECT_GT(filled.report.utilisation, 0.8) << seed_text;
+      EXPECT_GT(filled.report.utilisation, whole.report.utilisation + 0.4) << seed_text;
     }
     for(const SMT::Chart_report& chart : filled.report.charts) {
       EXPECT_TRUE(chart.is_one_to_one) << shape.name << seed_text;
@@ -165,10 +168,25 @@ TEST(Page_filling, as_much_is_used_as_is_asked_for_or_less_for_want_of_cuts)
     const auto result = SMT::build_texture_atlas(mesh, options);
     ASSERT_EQ(result.error, "");
     EXPECT_EQ(error_in_atlas(mesh, result.atlas), "") << wanted << seed_text;
-    EXPECT_GE(result.report.utilisation, used) << wanted << seed_text;
+    EXPECT_GE(result.report.utilisation, used - 1e-9) << wanted << seed_text;
     if(wanted < 0.9) {
       EXPECT_GE(result.report.utilisation, wanted) << seed_text;
     }
+  }
+}
+
+// Also where the charts stay as they were without that, since the cuts turned out to be no good.
+TEST(Page_filling, is_valid_and_used_no_less_if_more_is_asked_for)
+{
+  for(const Named_mesh& shape : bad_shapes()) {
+    SMT::Texture_atlas_options options = with_price(0.02);
+    const auto usual = SMT::build_texture_atlas(shape.mesh, options);
+    options.min_used = 0.85;
+    const auto more = SMT::build_texture_atlas(shape.mesh, options);
+    ASSERT_EQ(more.error, "") << shape.name << seed_text;
+    EXPECT_EQ(error_in_atlas(shape.mesh, more.atlas), "") << shape.name << seed_text;
+    EXPECT_GE(more.report.utilisation, usual.report.utilisation - 1e-9) << shape.name << seed_text;
+    EXPECT_GE(more.report.page_cuts, usual.report.page_cuts) << shape.name << seed_text;
   }
 }
 

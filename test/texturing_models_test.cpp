@@ -21,8 +21,8 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <set>
 #include <limits>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>

@@ -72,8 +72,14 @@ private:
     } else {
       m_packing = pack();
     }
-    if(m_packing.is_ok() && m_packing.utilisation < m_options.min_used)
+    if(!m_packing.is_ok() || m_packing.utilisation >= m_options.min_used)
+      return;
+    if(m_number_of_cuts > 0) {
       cut_until_used(filler);
+    } else { // the charts are not those of the filler any more
+      Page_filler anew(m_charts, m_options.packing, m_mapping);
+      cut_until_used(anew);
+    }
   }
 
   // The charts without cuts, if they fill the pages as well.
@@ -92,9 +98,9 @@ private:
   // Some cuts, which only help together, and a packing, until enough is used or no more of it is.
   void cut_until_used(Page_filler& filler)
   {
-    constexpr int failures_allowed = 2;
+    constexpr int failures_allowed = 3;
     constexpr std::size_t most_cuts = 4;
-    constexpr double least_gain = -0.005, clearly_more = 0.002;
+    constexpr double least_gain = -0.02, clearly_more = 0.002;
     std::vector<Mapped_chart> best = m_charts;
     std::size_t number = m_number_of_cuts;
     for(int failures = 0; failures < failures_allowed && m_mapping.has_time()

@@ -70,7 +70,11 @@ public:
   // The part of the pages that the shapes have at a level.
   static double used(int level) { return std::exp2(level / levels_of_half); }
   // The first level at which they have at least this part.
-  static int level_of(double used) { return int(std::ceil(levels_of_half * std::log2(used) - 1e-9)); }
+  static int level_of(double used)
+  {
+    constexpr double least = 0x1p-16; // what is less makes no difference
+    return int(std::ceil(levels_of_half * std::log2((std::max)(least, used)) - 1e-9));
+  }
 
   // Texels along a unit of the outlines.
   double density(int level) const { return m_highest * std::exp2(0.5 * level / levels_of_half); }
