@@ -39,7 +39,8 @@ def atlas(program, mesh, work, *options):
 def of_peer(peer, obj, limit):
     try:
         done = subprocess.run([peer, obj], capture_output=True, text=True, timeout=limit)
-        return ",".join(done.stdout.strip().split(",")[:3]) if done.returncode == 0 else ",,"
+        lines = done.stdout.strip().splitlines()
+        return ",".join(lines[-1].split(",")[:3]) if done.returncode == 0 and lines else ",,"
     except subprocess.TimeoutExpired:
         return f",,>{limit:g}"
 

@@ -281,12 +281,17 @@ inline bool Texture_atlas_builder::pack()
   packing.is_enough = [this, is_enough = packing.is_enough] {
     return is_over() || (is_enough && is_enough());
   };
-  packing.progress = [this](double part) { return proceed(0.8, 1., part); };
+  double left = 1.; // of this stage: each packing, whose number is not known before, is half of that
+  packing.progress = [&](double part) { return proceed(0.8, 1., 1. - left * (1. - 0.5 * part)); };
   Chart_mapping mapping = chart_mapping(m_options.bound);
   mapping.no_seams = m_options.no_seams;
   mapping.is_bounded = m_options.metric.empty();
   const Filled_packing::Pack pack_shapes
-    = [&](const std::vector<Chart_shape>& shapes) { return m_models.pack(shapes, packing); };
+    = [&](const std::vector<Chart_shape>& shapes) {
+        Packing_result result = m_models.pack(shapes, packing);
+        left *= 0.5;
+        return result;
+      };
   Filled_packing filled(m_options, mapping, pack_shapes, m_maps);
   m_packing = filled.run(m_models.is_bounded);
   m_result.report.page_cuts = filled.number_of_cuts();
