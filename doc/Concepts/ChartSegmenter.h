@@ -20,6 +20,7 @@ public:
   /// `CGAL::Tag_true` if charts shall be within `Texture_atlas_options::bound`: those that are not
   /// are cut again, up to `max_charts`. `CGAL::Tag_false` if charts stay as they are, however much
   /// they are distorted, as long as their maps are one-to-one.
+  /// Charts that are bounded may also be cut to fill the pages; see `Texture_atlas_options::seam_price`.
   typedef unspecified_type Is_bounded;
 
   /// `CGAL::Tag_true` if charts of any mesh can be found, and so of a coarser one than that of the
