@@ -24,11 +24,13 @@ namespace Surface_mesh_texturing {
 /*!
 \ingroup PkgHLSCMTexturing
 
-What the seams of charts are like. The border of the surface is no seam. None of the measures depends
-on the unit of length.
+What the seams of charts are like. The border of the surface is no seam. None of the measures but
+`length` depends on the unit of length.
 */
 struct Seam_measures
 {
+  /// The length of all seams, each once.
+  double length = 0.;
   /// The length of all seams, each once, to the root of the area of the surface.
   double relative_length = 0.;
   /// The part of their length on edges whose triangles have normals that differ by 30 degrees or more.
@@ -112,7 +114,8 @@ inline Seam_measures measure_seams(const Indexed_triangle_mesh& mesh,
   Seam_measures result;
   if(!internal::adjacency_error(mesh, adjacency, charts).is_ok())
     return result;
-  double length = 0., on_creases = 0., in_concavities = 0., area = 0.;
+  double& length = result.length;
+  double on_creases = 0., in_concavities = 0., area = 0.;
   for(Triangle_index t = 0; t < mesh.triangles.size(); ++t) {
     const Triangle_indices& vs = mesh.triangles[t];
     area += std::sqrt(squared_area(mesh.points[vs[0]], mesh.points[vs[1]], mesh.points[vs[2]]));

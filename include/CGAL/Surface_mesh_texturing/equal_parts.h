@@ -8,7 +8,6 @@
 #include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Surface_mesh_texturing/Texture_atlas.h>
 #include <CGAL/Surface_mesh_texturing/internal/mapped_charts/Part_matcher.h>
-#include <CGAL/Surface_mesh_texturing/internal/mapped_charts/seam_length.h>
 
 #include <algorithm>
 #include <array>
@@ -247,8 +246,8 @@ inline Texture_atlas_result stacked_atlas(const Indexed_triangle_mesh& mesh,
   const Triangle_adjacency adjacency(mesh.triangles);
   result.atlas.charts = charts_between(adjacency, std::move(seams));
   result.report.charts.clear();
-  result.report.seam_length = internal::seam_length(mesh, adjacency, result.atlas.charts);
   result.report.seams = measure_seams(mesh, adjacency, result.atlas.charts);
+  result.report.seam_length = result.report.seams.length;
   for(Triangle_index t = 0; t < mesh.triangles.size(); ++t)
     if(result.atlas.charts.chart[t] == result.atlas.page.size()) {
       const std::uint32_t chart = atlas.atlas.charts.chart[parts.stand_in[t]];

@@ -6,8 +6,7 @@
 
 #include <CGAL/Surface_mesh_parameterization/Signal_metric.h>
 #include <CGAL/Surface_mesh_texturing/Texture_image.h>
-#include <CGAL/Surface_mesh_texturing/bake.h>
-#include <CGAL/Surface_mesh_texturing/internal/baking/Uv_rasterizer.h>
+#include <CGAL/Surface_mesh_texturing/internal/baking/texels_of_triangles.h>
 #include <CGAL/Surface_mesh_texturing/tangent_frames.h>
 
 #include <algorithm>
@@ -77,30 +76,16 @@ Linear time in the numbers of triangles and of texels.
 inline Face_tensors image_signal(const Textured_triangle_mesh& mesh, const Texture_image& image)
 {
   Face_tensors result;
-  if(result.fail(internal::atlas_error(mesh, "the surface"))
-     || result.fail(internal::image_error(image, "the image")))
-    return result;
-  if(!std::all_of(image.texels.begin(), image.texels.end(), [](float x) { return std::isfinite(x); })
-     && result.fail(Mesh_status::BAD_OPTIONS, "the image has a value that is not a finite number"))
+  if(result.fail(internal::image_on_surface_error(mesh, image)))
     return result;
   std::vector<internal::Image_slope> slopes(mesh.triangles.size());
-  const internal::Uv_rasterizer raster(mesh.uv, mesh.wedges, image.width, image.height, image.height);
-  for(std::size_t band = 0; band < raster.number_of_bands(); ++band)
-    raster.visit(band, [&](std::uint32_t t, std::int64_t x, std::int64_t y) {
-      slopes[t].add(image, std::size_t(x), std::size_t(y));
-    });
-  const auto texel = [](double fraction, std::size_t size) {
-    const double inside = fraction - std::floor(fraction);
-    return (std::min)(size - 1, std::size_t(inside * double(size)));
-  };
+  internal::visit_texels_of_triangles(
+    mesh, image, [&](std::uint32_t t, std::size_t x, std::size_t y) { slopes[t].add(image, x, y); });
   const Indexed_triangle_mesh surface = {mesh.points, mesh.triangles};
   for(std::size_t t = 0; t < slopes.size(); ++t) {
-    internal::Image_slope& slope = slopes[t];
+    const internal::Image_slope& slope = slopes[t];
     const Triangle_indices& w = mesh.wedges[t];
     const auto &a = mesh.uv[w[0]], &b = mesh.uv[w[1]], &c = mesh.uv[w[2]];
-    if(slope.texels == 0)
-      slope.add(image, texel((a.x() + b.x() + c.x()) / 3., image.width),
-                texel(1. - (a.y() + b.y() + c.y()) / 3., image.height));
     const Surface_mesh_parameterization::internal::Linear_gradient gradient(surface, t);
     const Vector_3 u = (b.x() - a.x()) * gradient.first + (c.x() - a.x()) * gradient.second;
     const Vector_3 v = (b.y() - a.y()) * gradient.first + (c.y() - a.y()) * gradient.second;

@@ -13,7 +13,6 @@
 #include <CGAL/Surface_mesh_texturing/internal/filling/Filled_packing.h>
 #include <CGAL/Surface_mesh_texturing/internal/mapped_charts/align_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/mapped_charts/scale_by_density.h>
-#include <CGAL/Surface_mesh_texturing/internal/mapped_charts/seam_length.h>
 
 #include <atomic>
 #include <cmath>
@@ -328,9 +327,9 @@ inline void Texture_atlas_builder::fill()
   report.texels_per_unit = m_packing.texels_per_unit;
   report.unwanted_seams
     = number_of_seams_on(m_mesh.triangles, atlas.charts, m_options.no_seams);
-  report.seam_length = seam_length(m_mesh, *m_adjacency, atlas.charts);
   report.texel_utilisation = m_packing.texel_utilisation;
   report.seams = measure_seams(m_mesh, *m_adjacency, atlas.charts);
+  report.seam_length = report.seams.length;
   report.texels = measure_texels(atlas.mesh, atlas.charts, atlas.width, atlas.height);
   measure_atlas(atlas, report);
 }
