@@ -39,3 +39,8 @@ number_of_jobs() {
   [ "$jobs" -ge 1 ] || jobs=1
   echo "$jobs"
 }
+
+# Whether there is all that the pages for browsers are built with.
+can_build_pages() {
+  command -v node >/dev/null && command -v npm >/dev/null && command -v esbuild >/dev/null
+}

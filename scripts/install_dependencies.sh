@@ -4,11 +4,12 @@
 #
 # Installs the Debian packages that are missing, as root or by sudo.
 #
-# Usage: scripts/install_dependencies.sh [--doc] [--bench] [--coverage] [--python]
+# Usage: scripts/install_dependencies.sh [--doc] [--bench] [--coverage] [--python] [--web]
 #   --doc       also what the manual needs
 #   --bench     also what the benchmarks need: plots, memory, and the libraries of peers
 #   --coverage  also gcovr
 #   --python    also what the Python module and its tests need
+#   --web       also what the pages for browsers and their tests need
 
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -29,7 +30,12 @@ for option in "$@"; do
       packages+=(pybind11-dev python3-dev python3-mypy python3-numpy python3-pip python3-scipy
                  python3-setuptools python3-wheel)
       ;;
-    *) fail "unknown option $option; there are --doc, --bench, --coverage and --python" ;;
+    --web)
+      packages+=(chromium emscripten esbuild)
+      command -v node >/dev/null || packages+=(nodejs)
+      command -v npm >/dev/null || packages+=(npm)
+      ;;
+    *) fail "unknown option $option; there are --doc, --bench, --coverage, --python and --web" ;;
   esac
 done
 

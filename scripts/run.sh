@@ -4,8 +4,9 @@
 #
 # Installs what is missing, builds the program hlscm, and makes with it a texture atlas of MESH, a
 # light model with a normal map, one tenth as large, and levels of detail; before that, if MESH has a
-# border and no handles, its map as a whole. Without MESH, a real one of 25,888 triangles from
-# Debian's package libcgal-demo.
+# border and no handles, its map as a whole; and at the end, if node, npm and esbuild are installed, a
+# page for browsers that shows all. Without MESH, a real one of 25,888 triangles from Debian's package
+# libcgal-demo.
 #
 # Usage: scripts/run.sh [MESH]
 
@@ -22,7 +23,11 @@ cd "$root"
 scripts/install_dependencies.sh
 
 say "building"
-cmake --preset release >&2
+web=OFF
+if can_build_pages; then
+  web=ON
+fi
+cmake --preset release -D HLSCM_BUILD_WEB="$web" >&2
 cmake --build --preset release --target hlscm --parallel "$(number_of_jobs)" >&2
 
 build="$root/build/release"
@@ -55,11 +60,23 @@ faces="$(fact faces)"
 say "making levels of detail"
 "$hlscm" levels "$map" -o "$output/levels" --pictures "$output/levels"
 
+page="none: scripts/install_dependencies.sh --web installs what it needs"
+if [ "$web" = ON ]; then
+  say "making a page for browsers"
+  if cmake --build --preset release --target hlscm_web_viewer >&2 &&
+    "$hlscm" view "$output/light" -o "$output/$name.html"; then
+    page="$output/$name.html"
+  else
+    page="none, it could not be built"
+  fi
+fi
+
 cat <<END
 
 Mesh with texture coordinates: $map
 Texture atlas:                 $output/light/atlas.obj, atlas.glb
 Light model with a normal map: $output/light/light.obj, light.glb, normal.png
 Levels of detail:              $output/levels/level_*.obj, levels.glb, mesh.pm
+Page for browsers:             $page
 Reports and pictures:          $output and its folders, *.json and *.png
 END

@@ -3,6 +3,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # Installs what is missing, builds all but the benchmarks, the Python module too, and runs all tests.
+# The pages for browsers are built and tested if what they need is installed, which
+# scripts/install_dependencies.sh --web does.
 #
 # Usage: scripts/test.sh [ARGUMENT of ctest]...      for instance: scripts/test.sh -L core
 
@@ -16,7 +18,16 @@ CMAKE_BUILD_PARALLEL_LEVEL="$(number_of_jobs)"
 export CMAKE_BUILD_PARALLEL_LEVEL
 
 say "building"
-cmake --preset release -D HLSCM_BUILD_PYTHON=ON >&2
+options=(-D HLSCM_BUILD_PYTHON=ON -D HLSCM_BUILD_WEB=OFF)
+if ! can_build_pages; then
+  say "without the pages for browsers: scripts/install_dependencies.sh --web installs what they need"
+elif cmake --preset release "${options[@]}" -D HLSCM_BUILD_WEB=ON >&2 &&
+  cmake --build --preset release --target hlscm_web >&2; then
+  options+=(-D HLSCM_BUILD_WEB=ON)
+else
+  say "without the pages for browsers, which could not be built"
+fi
+cmake --preset release "${options[@]}" >&2
 cmake --build --preset release >&2
 
 HLSCM_DATA_DIR="$(scripts/debian_meshes.sh "$root/build/release/meshes")"

@@ -237,7 +237,7 @@ TEST_F(Atlas, is_mapped_and_packed_as_is_asked_for)
   std::map<std::string, Json> reports;
   for(Texts options : std::vector<Texts>{
           {"--packer", "raster"}, {"--packer", "horizon"}, {"--packing-time", "0.05"},
-          {"--method", "border-first"}, {"--method", "spectral"}, {"--method", "hlscm"},
+          {"--method", "border-first"}, {"--method", "low-stretch"}, {"--method", "spectral"}, {"--method", "hlscm"},
           {"--method", "cascadic"}}) {
     const std::string name = options[0] + " " + options[1];
     options.insert(options.end(), {"--texture", "256"});

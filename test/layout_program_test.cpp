@@ -1,8 +1,8 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Runs `hlscm atlas` on what a person has already: texture coordinates, densities, groups and
-// materials; and with wishes for the layout.
+// Runs `hlscm atlas` on what a person has already: texture coordinates and densities; and with wishes
+// for the layout.
 
 #include <support/program_atlases.h>
 #include <support/textured_soups.h>
@@ -53,24 +53,6 @@ Textured_soup textured_squares(std::size_t n, const std::vector<double>& factor)
   return result;
 }
 
-// An OBJ file with a line before some faces.
-std::string with_lines(const std::string& file, const std::vector<std::string>& before_faces)
-{
-  std::istringstream in(file);
-  std::string result;
-  std::size_t face = 0;
-  for(std::string line; std::getline(in, line);) {
-    if(line.rfind("f ", 0) == 0) {
-      if(!before_faces[face].empty()) {
-        result += before_faces[face] + "\n";
-      }
-      ++face;
-    }
-    result += line + "\n";
-  }
-  return result;
-}
-
 // A picture of two columns, grey values from 0 to 255.
 std::string tga(const std::vector<int>& columns)
 {
@@ -91,14 +73,6 @@ double uv_length(const Textured_soup& soup, std::size_t f, std::size_t c)
 {
   const auto &p = soup.uv[soup.uv_faces[f][c]], &q = soup.uv[soup.uv_faces[f][(c + 1) % 3]];
   return std::hypot(q[0] - p[0], q[1] - p[1]);
-}
-
-// Twice the signed area in the texture.
-double uv_area(const Textured_soup& soup, std::size_t f)
-{
-  const auto& t = soup.uv_faces[f];
-  const auto &a = soup.uv[t[0]], &b = soup.uv[t[1]], &c = soup.uv[t[2]];
-  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
 // By what factor the texture of a range of faces was scaled; 0 if it is no similarity.
@@ -200,6 +174,7 @@ TEST_F(Atlas, refuses_options_of_the_layout_that_contradict_each_other)
                                                 {"--repack", "--signal", "normals"},
                                                 {"--keep-scale"},
                                                 {"--density", in, "--importance", in},
+                                                {"--separate", "groups", "--stack"},
                                                 {"--limits", "faces"}}) {
     const Outcome outcome = call("atlas", in, "out", options);
     EXPECT_EQ(outcome.exit_code, 2) << options[0];
@@ -255,44 +230,29 @@ TEST_F(Atlas, has_the_density_of_an_image)
                              {"no texture coordinates", "--importance"}), "");
 }
 
-// --- Limits
+// --- Shape of the texture
 
-TEST_F(Atlas, has_seams_between_groups_and_materials)
+TEST_F(Atlas, has_a_lower_texture_for_a_strip)
 {
-  const Soup surface = grid(9, flat);
-  std::vector<std::string> lines(surface.faces.size());
-  lines[0] = "usemtl wood\ng left";
-  lines[lines.size() / 4] = "g left";
-  lines[lines.size() / 2] = "g right";
-  lines[3 * lines.size() / 4] = "usemtl stone";
-  const std::string in = write("in.obj", with_lines(obj(surface), lines));
-  // Whether a texture coordinate belongs to faces on both sides of a limit.
-  const auto have_common_uv = [&](std::size_t limit) {
-    std::set<std::size_t> first, second;
-    const Textured_soup after = read_model(folder / "out/atlas.obj").soup;
-    for(std::size_t f = 0; f < after.uv_faces.size(); ++f) {
-      (f < limit ? first : second).insert(after.uv_faces[f].begin(), after.uv_faces[f].end());
-    }
-    std::vector<std::size_t> common;
-    std::set_intersection(first.begin(), first.end(), second.begin(), second.end(),
-                          std::back_inserter(common));
-    return !common.empty();
-  };
-  const auto charts_of_parts = [&](const std::string& limits, std::size_t second) {
-    call_well("atlas", in, "out");
-    EXPECT_TRUE(have_common_uv(second)) << limits;
-    const Json report = call_well("atlas", in, "out", {"--limits", limits});
-    EXPECT_EQ(report["layout"]["limits"]["parts"], 2);
-    EXPECT_GE(report["number_of_charts"], 2);
-    EXPECT_FALSE(have_common_uv(second)) << limits;
-  };
-  charts_of_parts("groups", lines.size() / 2);
-  charts_of_parts("materials", 3 * lines.size() / 4);
-  const std::string bare = write("bare.obj", obj(surface));
-  EXPECT_EQ(error_in_message(call("atlas", bare, "none", {"--limits", "groups"}).err, bare,
-                             {"it has no groups"}), "");
-  EXPECT_EQ(error_in_message(call("atlas", bare, "none", {"--limits", "materials"}).err, bare,
-                             {"it has no materials"}), "");
+  Soup strip = grid(9, flat);
+  for(auto& p : strip.points) {
+    p[0] *= 8;
+  }
+  const std::string in = write("in.off", off(strip));
+  const Json report = call_well("atlas", in, "out", {"--texture", "256", "--aspect", "8"});
+  ASSERT_TRUE(report.is_object());
+  EXPECT_EQ(report["width"], 256);
+  EXPECT_EQ(report["height"], 32);
+  EXPECT_EQ(report["number_of_charts"], 1);
+  EXPECT_EQ(report["overlapping_texels"], 0);
+  EXPECT_GT(report["utilisation"], 0.75);
+  const std::string png = read_file(folder / "out/checker.png");
+  EXPECT_EQ(png.substr(16, 8), std::string("\0\0\4\0\0\0\0\x80", 8)); // 1024 x 128
+  const Json bake = call_well("bake", in, "light",
+                              {"--texture", "256", "--aspect", "8", "--faces", "60"});
+  ASSERT_TRUE(bake.is_object());
+  EXPECT_EQ(read_file(folder / "light/normal.png").substr(16, 8),
+            std::string("\0\0\1\0\0\0\0\x20", 8));
 }
 
 // --- Directions

@@ -125,6 +125,24 @@ TEST(Low_stretch_start, pins_are_reached)
   }
 }
 
+// Told to stop while they are still on their way it says so, and soon.
+TEST(Low_stretch_start, pins_on_their_way_can_be_stopped)
+{
+  const Indexed_triangle_mesh mesh = with_hills(irregular_grid(30, 25, seed), 8., seed);
+  Low_stretch_options options;
+  options.start = low_stretch_map(mesh).uv;
+  for(const std::size_t v : {std::size_t(0), mesh.points.size() / 2, mesh.points.size() - 1})
+    options.pins.push_back({v, options.start[v].y() * (v == 0 ? 3. : -2.), options.start[v].x()});
+  std::size_t calls = 0;
+  options.progress = [&calls](double) { return ++calls < 3; };
+  const Low_stretch_map map = low_stretch_map(mesh, options);
+  EXPECT_NE(map.error.find("pins were not at their places yet"), std::string::npos) << map.error;
+  EXPECT_TRUE(map.uv.empty());
+  EXPECT_LE(calls, 10u);
+  options.progress = nullptr;
+  EXPECT_EQ(low_stretch_map(mesh, options).error, "");
+}
+
 TEST(Low_stretch_start, bad_starts_are_named)
 {
   const Indexed_triangle_mesh mesh = shuffled(with_hills(irregular_grid(12, 10, seed), 3., seed), seed);

@@ -128,6 +128,27 @@ TEST(Page_filling, cheaper_seams_give_no_fewer_cuts_and_a_limit_of_charts_holds)
   }
 }
 
+TEST(Page_filling, pages_have_the_shape_of_which_most_is_used)
+{
+  const Indexed_triangle_mesh strip = with_noise(grid(160, 20), 0.1, seed), square = grid(40, 40);
+  SMT::Texture_atlas_options options = with_price(infinity);
+  options.largest_aspect = 16.;
+  const auto wide = SMT::build_texture_atlas(strip, options);
+  ASSERT_EQ(wide.error, "") << seed_text;
+  EXPECT_EQ(error_in_atlas(strip, wide.atlas), "") << seed_text;
+  EXPECT_EQ(wide.report.charts.size(), 1u);
+  EXPECT_EQ(wide.atlas.width, 256u);
+  EXPECT_EQ(wide.atlas.height, 32u); // as 8 to 1, the strip
+  EXPECT_GT(wide.report.utilisation, 0.8) << seed_text;
+  EXPECT_EQ(SMT::build_texture_atlas(square, options).atlas.height, 256u);
+  options.largest_aspect = 4.;
+  EXPECT_EQ(SMT::build_texture_atlas(strip, options).atlas.height, 64u) << seed_text;
+  for(const double bad : {0.5, std::nan("")}) {
+    options.largest_aspect = bad;
+    EXPECT_NE(SMT::build_texture_atlas(square, options).error.find("aspect"), std::string::npos);
+  }
+}
+
 TEST(Page_filling, charts_of_the_user_are_not_cut)
 {
   const Indexed_triangle_mesh mesh = grid(160, 8);

@@ -145,6 +145,7 @@ std::string file_of(const SMM::Progressive_surface& surface, Precision precision
 {
   SMM::Progressive_mesh_write_options options;
   options.precision = precision;
+  options.order = SMM::Progressive_mesh_order::KEPT;
   std::ostringstream file;
   EXPECT_EQ(SMM::write_progressive_mesh(file, surface, options).error, "");
   return file.str();
@@ -176,18 +177,21 @@ TEST(Progressive_surface_file, comes_back)
     }
 }
 
-// The columns of texture coordinates are not there.
-TEST(Progressive_surface_file, is_smaller_than_with_a_texture_of_zeros)
+// The texture coordinates are not there.
+TEST(Progressive_surface_file, is_smaller_than_with_a_texture)
 {
   const SMM::Progressive_surface surface = decimated(irregular_grid(60, 60, seed));
   SMM::Textured_progressive_mesh textured = SMM::coarse_first(surface);
-  const SMM::Textured_progressive_mesh::Point_2 zero(0., 0.); // resize() would leave them undefined
-  textured.uv.assign(textured.vertex.size(), zero);
-  const std::string with = SMM::encode_progressive_mesh(textured).bytes,
+  Random random(seed);
+  for(std::size_t w = 0; w < textured.vertex.size(); ++w)
+    textured.uv.emplace_back(double(uniform_index(random, 9)), double(uniform_index(random, 9)));
+  SMM::Progressive_mesh_write_options kept;
+  kept.order = SMM::Progressive_mesh_order::KEPT;
+  const std::string with = SMM::encode_progressive_mesh(textured, kept).bytes,
                     without = file_of(surface, Precision::QUANTIZED);
   EXPECT_LT(without.size() + textured.number_of_collapses() / 5, with.size()); // two bits a split
-  EXPECT_EQ(with[8], 1); // the version
-  EXPECT_EQ(without[8], 2);
+  EXPECT_EQ(with[8], 3); // the version
+  EXPECT_EQ(without[8], 4);
 }
 
 // Cut anywhere, it is a coarser level, or says that it has none.

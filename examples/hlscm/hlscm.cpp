@@ -3,8 +3,8 @@
 
 // The command-line program: `hlscm info IN` says what a mesh is, `hlscm parameterize IN -o OUT`
 // maps it to the plane, `hlscm levels IN -o DIR` makes lighter models of it under one texture,
-// `hlscm atlas IN -o DIR` gives any surface texture coordinates, and `hlscm bake IN -o DIR` makes a
-// light model with a normal map.
+// `hlscm atlas IN -o DIR` gives any surface texture coordinates, `hlscm bake IN -o DIR` makes a light
+// model with a normal map, and `hlscm view IN -o OUT` shows any of these in a browser.
 
 #include "commands/Commands.h"
 #include "common/Blas_memory.h"
@@ -40,6 +40,10 @@ int run(hlscm::Program_options options)
     return hlscm::run_atlas(options);
   case hlscm::Command::BAKE:
     return hlscm::run_bake(options);
+  case hlscm::Command::VIEW:
+    return hlscm::run_view(options);
+  case hlscm::Command::WEB:
+    return hlscm::run_web(options);
   case hlscm::Command::PARAMETERIZE:
     break;
   }

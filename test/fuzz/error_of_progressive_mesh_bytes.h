@@ -97,6 +97,7 @@ inline std::string error_of_progressive_mesh_bytes(const std::string& bytes)
     return "";
   SMM::Progressive_mesh_write_options lossless;
   lossless.precision = SMM::Progressive_mesh_precision::LOSSLESS;
+  lossless.order = SMM::Progressive_mesh_order::KEPT;
   const SMM::Progressive_mesh_bytes again = SMM::encode_progressive_mesh(whole.mesh, lossless);
   const SMM::Read_progressive_mesh second
     = SMM::decode_progressive_mesh(again.bytes.data(), again.bytes.size());

@@ -53,6 +53,14 @@ inline Textured_soup cut_torus(std::size_t n, std::size_t columns)
   return result;
 }
 
+// Twice the signed area of a face in the texture.
+inline double uv_area(const Textured_soup& soup, std::size_t f)
+{
+  const auto& t = soup.uv_faces[f];
+  const auto &a = soup.uv[t[0]], &b = soup.uv[t[1]], &c = soup.uv[t[2]];
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
 inline std::string obj(const Textured_soup& soup)
 {
   std::ostringstream out;

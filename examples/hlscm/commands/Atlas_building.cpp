@@ -43,12 +43,17 @@ SMT::Texture_atlas_result build(const Indexed_triangle_mesh& mesh,
                                 const SMT::Texture_atlas_options& library,
                                 const Segmenter& segmenter, const Atlas_settings& settings)
 {
-  if(!settings.method) {
+  typedef CGAL::Surface_mesh_parameterization::Conformal_method Conformal_method;
+  SMT::Conformal_chart_parameterizer parameterizer;
+  switch(settings.method) {
+  case Chart_map::BORDER_FIRST:
+  case Chart_map::LOW_STRETCH:
     return build(mesh, library, segmenter, SMT::Border_first_chart_parameterizer(),
                  settings.packer);
+  case Chart_map::SPECTRAL: parameterizer.solver.method = Conformal_method::SPECTRAL; break;
+  case Chart_map::HLSCM: parameterizer.solver.method = Conformal_method::HLSCM; break;
+  case Chart_map::CASCADIC: parameterizer.solver.method = Conformal_method::CASCADIC; break;
   }
-  SMT::Conformal_chart_parameterizer parameterizer;
-  parameterizer.solver.method = *settings.method;
   return build(mesh, library, segmenter, parameterizer, settings.packer);
 }
 
@@ -73,19 +78,26 @@ Built_atlas build_atlas(const Input_surface& surface, const Program_options& opt
 {
   SMT::Texture_atlas_options library;
   library.bound = options.atlas.bound;
+  library.may_stretch = options.atlas.method == Chart_map::LOW_STRETCH;
   library.max_charts = options.atlas.max_charts;
   library.seam_price = options.atlas.seam_price.value_or(library.seam_price);
   library.min_used = 0.01 * options.atlas.min_used;
   auto charts = given_charts(surface, options);
   const double share = options.command == Command::BAKE ? share_of_atlas : 1;
   library.seconds = share * options.atlas.time_limit;
+  library.has_smooth_seams = options.atlas.has_smooth_seams;
   library.packing.time_budget = options.atlas.packing_time;
   library.packing.width = library.packing.height = options.atlas.texture;
+  library.largest_aspect = options.atlas.largest_aspect;
   library.packing.padding = options.atlas.padding;
   library.packing.mip_levels = options.atlas.mip_levels;
   library.packing.max_pages = options.atlas.pages;
   library.metric = metric_of_signal(surface, options);
   if(surface.surface.repairs.triangulated) {
+    if(library.has_smooth_seams) {
+      throw Program_error(options.input, "it has faces of more than three corners, which stay whole, "
+                                         "leave --smooth-seams out");
+    }
     library.no_seams = surface.surface.diagonals;
   }
   library.progress = [&progress](double part) { return progress.try_advance(part); };
@@ -115,7 +127,7 @@ Built_atlas build_atlas(const Input_surface& surface, const Program_options& opt
   if(parts) {
     result = SMT::stacked_atlas(surface.surface.mesh, *parts, std::move(result));
   }
-  measure_layout(result.atlas, options, layout);
+  measure_layout(surface, result.atlas, options, layout);
   return {std::move(result.atlas), std::move(result.report), layout,
           parts ? parts->triangle : std::vector<std::uint32_t>()};
 }

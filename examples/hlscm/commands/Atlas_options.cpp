@@ -11,8 +11,6 @@
 
 namespace hlscm {
 
-namespace SMP = CGAL::Surface_mesh_parameterization;
-
 namespace {
 
 constexpr std::size_t largest_texture = 32768, many = 1000000000;
@@ -41,6 +39,9 @@ void add_atlas_options(CLI::App& app, Program_options& o)
   app.add_option("-o,--output", o.output, "a folder for the files")->required()->type_name("DIR");
   add_count(app, "--texture", std::size_t(16), largest_texture, atlas.texture,
             "texels of a side of the texture (default 1024)");
+  add_number(app, "--aspect", 1, 1024, atlas.largest_aspect,
+             "textures may be so many times as wide as high, 2, 4, 8 and so on, if more of them is used "
+             "then (default 1)");
   add_count(app, "--padding", std::size_t(0), std::size_t(1024), atlas.padding,
             "texels around each chart that belong to no other one (default 2)");
   add_count(app, "--mip-levels", 0u, 14u, atlas.mip_levels,
@@ -57,6 +58,8 @@ void add_atlas_options(CLI::App& app, Program_options& o)
             "inf for no seams that only fill the texture (default 0.02)");
   add_number(app, "--min-used", 0, 99, atlas.min_used,
              "cut charts until so many % of the texture are used, or no cut helps any more");
+  app.add_flag("--smooth-seams", atlas.has_smooth_seams,
+               "lead seams through faces, which are cut there, so that they are straight");
   app.add_option("--charts", atlas.charts,
                  "the charts: a file with a whole number a line for each face, or uv for those of "
                  "the texture coordinates of IN")
@@ -70,14 +73,16 @@ void add_atlas_options(CLI::App& app, Program_options& o)
       "raster: charts in any gap where they fit; horizon: from below, as in 2002 (default raster)");
   add_number(app, "--packing-time", 0, 1e6, atlas.packing_time,
              "seconds to look for a better packing, on a usual machine (default none)");
-  add_choice<std::optional<SMP::Conformal_method>>(
+  add_choice<Chart_map>(
       app, "--method",
-      {{"border-first", std::nullopt},
-       {"spectral", SMP::Conformal_method::SPECTRAL},
-       {"hlscm", SMP::Conformal_method::HLSCM},
-       {"cascadic", SMP::Conformal_method::CASCADIC}},
+      {{"border-first", Chart_map::BORDER_FIRST},
+       {"low-stretch", Chart_map::LOW_STRETCH},
+       {"spectral", Chart_map::SPECTRAL},
+       {"hlscm", Chart_map::HLSCM},
+       {"cascadic", Chart_map::CASCADIC}},
       atlas.method,
-      "how charts are mapped; border-first: with the least change of areas; the others are those of "
+      "how charts are mapped; border-first: with the least change of areas; low-stretch: so, or with "
+      "less change of areas and more of angles where that makes fewer charts; the others are those of "
       "parameterize (default border-first)");
   add_signal(app, o);
   add_layout_options(app, o);

@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 namespace SMT = CGAL::Surface_mesh_texturing;
 using CGAL::Surface_mesh_texturing::Texture_atlas;
 
-constexpr std::size_t checker_size = 1024, checker_squares = 64; // each way
+constexpr std::size_t checker_size = 1024, checker_squares = 64; // in a row
 
 // The lines of the file but those of materials, and for each page the name of its material.
 std::vector<Mesh_line> lines_of_model(const Read_mesh& file, const Texture_atlas& atlas,
@@ -64,6 +64,27 @@ std::vector<Mesh_line> lines_of_model(const Read_mesh& file, const Texture_atlas
   }
   add_lines_before(file.soup.number_of_faces());
   return lines;
+}
+
+// The surface of which some faces were cut for smooth seams, and the lines of the file for it.
+Input_surface cut_surface(const Input_surface& input, const Texture_atlas& atlas)
+{
+  Input_surface result;
+  CGAL::Indexed_mesh::Polygon_soup& soup = result.file.soup;
+  soup.points = atlas.mesh.points;
+  std::vector<std::uint32_t> face; // of the file
+  for(std::size_t t = 0; t < atlas.mesh.triangles.size(); ++t) {
+    const auto& corners = atlas.mesh.triangles[t];
+    soup.corners.insert(soup.corners.end(), corners.begin(), corners.end());
+    soup.first_corner.push_back(std::uint32_t(soup.corners.size()));
+    face.push_back(input.surface.face[atlas.source_triangle[t]]);
+  }
+  for(Mesh_line line : input.file.lines) {
+    line.face = std::size_t(std::lower_bound(face.begin(), face.end(), line.face) - face.begin());
+    result.file.lines.push_back(std::move(line));
+  }
+  result.surface = CGAL::Indexed_mesh::surface_of_soup(soup);
+  return result;
 }
 
 // An atlas on the tiles of UDIM, which are one page.
@@ -152,8 +173,10 @@ void Atlas_outputs::write(const Input_surface& input, const Texture_atlas& atlas
   progress.start_stage("writing");
   const bool is_udim = m_options.atlas.layout.is_udim;
   Textured_model model = SMT::textured_model(atlas);
+  const std::size_t checker_height
+      = std::max(checker_size * atlas.height / atlas.width, std::size_t(1));
   model.textures.push_back({is_udim ? SMT::udim_file_name("checker") : "checker.png",
-                            checkerboard_png(checker_size, checker_squares)});
+                            checkerboard_png(checker_size, checker_height, checker_squares)});
   for(Texture_material& material : model.materials) {
     material.color = 0;
   }
@@ -172,8 +195,9 @@ void Atlas_outputs::write(const Input_surface& input, const Texture_atlas& atlas
     m_model->write(std::move(model));
     return;
   }
-  const Read_mesh faces
-      = faces_of_model(input, is_udim ? on_tiles(atlas) : atlas, model, warnings);
+  const Texture_atlas of_file = is_udim ? on_tiles(atlas) : atlas;
+  const Read_mesh faces = faces_of_model(
+      atlas.source_triangle.empty() ? input : cut_surface(input, atlas), of_file, model, warnings);
   m_model->write(std::move(model), &faces);
 }
 

@@ -41,8 +41,8 @@ public:
       m_fine_normals(SMT::vertex_normals(input.fine.points, input.fine.triangles)),
       m_frames(SMT::tangent_frames(input.light, SMT::vertex_normals(input.light)))
   {
-    m_library.width = options.atlas.texture * input.pages;
-    m_library.height = options.atlas.texture;
+    m_library.width = input.width * input.pages;
+    m_library.height = input.height;
     m_library.space
         = options.bake.is_object_space ? SMT::Normal_space::OBJECT : SMT::Normal_space::TANGENT;
     m_library.progress = [this](double part) {

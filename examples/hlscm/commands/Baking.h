@@ -26,6 +26,7 @@ struct Baking_input
   std::optional<Textured_triangle_mesh> coloured; ///< `fine` in a texture that is to be baked, too
   CGAL::Surface_mesh_texturing::Texture_image colours; ///< that texture
   std::size_t pages = 1; ///< of the texture, which stand side by side in the unit square
+  std::size_t width = 0, height = 0; ///< of a page, in texels
 
   bool shares_texture() const { return !fine.wedges.empty(); }
 };

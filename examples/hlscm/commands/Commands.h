@@ -14,6 +14,8 @@ int run_parameterize(const Program_options& options);
 int run_levels(const Program_options& options);
 int run_atlas(const Program_options& options);
 int run_bake(const Program_options& options);
+int run_view(const Program_options& options);
+int run_web(const Program_options& options);
 
 } // namespace hlscm
 

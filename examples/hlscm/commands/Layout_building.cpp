@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -74,25 +75,58 @@ std::vector<double> densities_of_charts(const SMT::Texture_atlas& atlas)
   return result;
 }
 
+// The groups or materials; nothing if none are asked for by this option.
+Named_parts parts_of(const Input_surface& surface, const Program_options& options, Chart_limits kind,
+                     const std::string& option)
+{
+  if(kind == Chart_limits::NONE) {
+    return {};
+  }
+  const bool are_groups = kind == Chart_limits::GROUPS;
+  Named_parts parts
+      = parts_of_surface(surface, are_groups ? Name_of_part::GROUP : Name_of_part::MATERIAL);
+  if(parts.names.empty()) {
+    const std::string name = are_groups ? "groups" : "materials";
+    throw Program_error(options.input, "it has no " + name + ", leave " + option + " " + name + " out");
+  }
+  return parts;
+}
+
+// For each page the name of what lies on it.
+std::vector<std::string> names_of_pages(const SMT::Texture_atlas& atlas, const Named_parts& parts)
+{
+  std::vector<std::string> result(atlas.number_of_pages);
+  std::vector<bool> is_known(atlas.charts.number_of_charts, false);
+  for(std::size_t t = 0; t < atlas.charts.chart.size(); ++t) {
+    const std::uint32_t chart = atlas.charts.chart[t];
+    if(!is_known[chart]) { // that of its first triangle
+      const std::size_t source = atlas.source_triangle.empty() ? t : atlas.source_triangle[t];
+      result[atlas.page[chart]] = parts.names[parts.of_triangles[source]];
+      is_known[chart] = true;
+    }
+  }
+  return result;
+}
+
 } // namespace
 
 std::vector<std::uint8_t> limits_of_charts(const Input_surface& surface,
                                            const Program_options& options, Layout_report& report)
 {
-  const Chart_limits limits = options.atlas.layout.limits;
-  if(limits == Chart_limits::NONE) {
-    return {};
+  const Layout_settings& layout = options.atlas.layout;
+  const Named_parts parts = parts_of(surface, options, layout.limits, "--limits");
+  const Named_parts apart = parts_of(surface, options, layout.separate, "--separate");
+  report.parts = parts.names.size();
+  std::vector<std::uint8_t> limits;
+  for(const Named_parts* some : {&parts, &apart}) {
+    if(!some->names.empty()) {
+      const auto seams
+          = SMT::charts_of_labels(surface.surface.mesh.triangles, some->of_triangles).seams;
+      limits.resize(seams.size(), 0);
+      std::transform(seams.begin(), seams.end(), limits.begin(), limits.begin(), std::bit_or<>());
+    }
   }
-  const bool are_groups = limits == Chart_limits::GROUPS;
-  const std::vector<std::uint32_t> parts = part_of_triangles(
-      surface, are_groups ? Name_of_part::GROUP : Name_of_part::MATERIAL);
-  if(parts.empty()) {
-    throw Program_error(options.input, are_groups
-                                           ? "it has no groups, leave --limits groups out"
-                                           : "it has no materials, leave --limits materials out");
-  }
-  report.parts = *std::max_element(parts.begin(), parts.end()) + std::size_t(1);
-  return SMT::charts_of_labels(surface.surface.mesh.triangles, parts).seams;
+  return limits;
 }
 
 void set_layout(const Input_surface& surface, const Program_options& options,
@@ -102,6 +136,8 @@ void set_layout(const Input_surface& surface, const Program_options& options,
     require_uv(surface, options, "--lightmap");
   }
   library.density = densities(surface, options);
+  library.page_set = parts_of(surface, options, options.atlas.layout.separate, "--separate")
+                         .of_triangles;
   library.is_aligned = options.atlas.layout.is_aligned;
 }
 
@@ -157,8 +193,8 @@ std::optional<SMT::Equal_parts> equal_parts(const Input_surface& surface,
   return parts;
 }
 
-void measure_layout(const SMT::Texture_atlas& atlas, const Program_options& options,
-                    Layout_report& report)
+void measure_layout(const Input_surface& surface, const SMT::Texture_atlas& atlas,
+                    const Program_options& options, Layout_report& report)
 {
   if(!options.atlas.layout.is_any()) {
     return;
@@ -171,6 +207,11 @@ void measure_layout(const SMT::Texture_atlas& atlas, const Program_options& opti
   }
   report.axis_parallel = SMT::axis_parallel_part(atlas);
   report.tiles = atlas.number_of_pages;
+  const Chart_limits separate = options.atlas.layout.separate;
+  if(separate != Chart_limits::NONE) {
+    report.page_names
+        = names_of_pages(atlas, parts_of(surface, options, separate, "--separate"));
+  }
 }
 
 } // namespace hlscm

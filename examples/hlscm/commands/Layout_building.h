@@ -37,7 +37,8 @@ equal_parts(const Input_surface& surface, const Program_options& options,
             CGAL::Surface_mesh_texturing::Texture_atlas_options& library, Layout_report& report);
 
 /// Measures what the options are about, if there are some.
-void measure_layout(const CGAL::Surface_mesh_texturing::Texture_atlas& atlas,
+void measure_layout(const Input_surface& surface,
+                    const CGAL::Surface_mesh_texturing::Texture_atlas& atlas,
                     const Program_options& options, Layout_report& report);
 
 } // namespace hlscm

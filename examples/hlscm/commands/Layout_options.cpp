@@ -29,6 +29,16 @@ void check_layout(const CLI::App& app, const Layout_settings& layout)
     throw CLI::ValidationError("--repack", "it keeps each chart in a place of its own, leave --stack "
                                            "out");
   }
+  if(layout.separate != Chart_limits::NONE && layout.is_stacked) {
+    throw CLI::ValidationError("--separate", "equal parts would share a texture, leave --stack out");
+  }
+  for(const char* other : {"--repack", "--stack", "--lightmap", "--colors"}) {
+    if(app.count("--smooth-seams") > 0 && app.get_option_no_throw(other) != nullptr
+       && app.count(other) > 0) {
+      throw CLI::ValidationError("--smooth-seams", "it cuts faces, leave it or "
+                                                       + std::string(other) + " out");
+    }
+  }
   if(layout.keeps_scale && !layout.is_repacked) {
     throw CLI::ValidationError("--keep-scale", "it needs --repack");
   }
@@ -59,6 +69,9 @@ void add_layout_options(CLI::App& app, Program_options& options)
   add_choice<Chart_limits>(
       app, "--limits", {{"groups", Chart_limits::GROUPS}, {"materials", Chart_limits::MATERIALS}},
       layout.limits, "seams between faces of different groups, or materials, of IN");
+  add_choice<Chart_limits>(
+      app, "--separate", {{"groups", Chart_limits::GROUPS}, {"materials", Chart_limits::MATERIALS}},
+      layout.separate, "each group, or material, of IN on textures of its own");
   app.add_flag("--align", layout.is_aligned,
                "turn charts so that their borders run along the rows and columns of the texture");
   app.add_flag("--udim", layout.is_udim,

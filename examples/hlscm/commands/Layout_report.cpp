@@ -28,6 +28,11 @@ void add_layout(const Layout_report& report, const Layout_settings& settings,
         = {{"by", settings.limits == Chart_limits::GROUPS ? "groups" : "materials"},
            {"parts", report.parts}};
   }
+  if(settings.separate != Chart_limits::NONE) {
+    layout["separate"]
+        = {{"by", settings.separate == Chart_limits::GROUPS ? "groups" : "materials"},
+           {"pages", report.page_names}};
+  }
   if(settings.is_stacked) {
     layout["stacked"] = {{"components", report.components},
                          {"copies", report.copies},
@@ -58,6 +63,9 @@ void add_layout_lines(const Layout_report& report, const Layout_settings& settin
     text << (settings.limits == Chart_limits::GROUPS ? ", limits between groups: "
                                                      : ", limits between materials: ")
          << report.parts;
+  }
+  for(std::size_t page = 0; page < report.page_names.size(); ++page) {
+    text << (page == 0 ? ", pages of " : ", ") << report.page_names[page];
   }
   if(report.mirrored_charts > 0) {
     text << ", charts mirrored as in the input: " << report.mirrored_charts;

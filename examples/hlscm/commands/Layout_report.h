@@ -22,6 +22,7 @@ struct Layout_report
   std::size_t defective_charts = 0;          ///< of these, those that are not one-to-one
   std::vector<std::string> warnings;
   std::size_t parts = 0;                     ///< groups or materials that are limits of charts
+  std::vector<std::string> page_names;       ///< the group or material of each page, if so asked for
   double least_density = 0, most_density = 0; ///< texels along a unit of length, of all charts
   double axis_parallel = 0;                  ///< the part of the borders of charts in the texture
   std::size_t tiles = 0;                     ///< of UDIM, from 1001 on

@@ -99,6 +99,11 @@ void add_report_and_quiet(CLI::App& app, Program_options& options)
 {
   app.add_option("--report", options.report, "what was done and measured, as JSON")
       ->type_name("FILE.json");
+  add_quiet(app, options);
+}
+
+void add_quiet(CLI::App& app, Program_options& options)
+{
   app.add_flag("--quiet", options.is_quiet, "print errors only");
   add_weld(app, options);
   app.add_flag("--strict", options.is_strict,

@@ -73,6 +73,10 @@ void add_signal(CLI::App& app, Program_options& options);
 /// Adds what may be done to a mesh before all else.
 void add_weld(CLI::App& app, Program_options& options);
 
+/// Adds what all commands that read a mesh may be told.
+void add_quiet(CLI::App& app, Program_options& options);
+
+/// Adds these and the report.
 void add_report_and_quiet(CLI::App& app, Program_options& options);
 
 /// Adds what `atlas` and `bake` are told about what the input has already, and how the texture is to

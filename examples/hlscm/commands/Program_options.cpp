@@ -119,6 +119,43 @@ void add_info(CLI::App& app, Program_options& o)
   info->callback([&o] { o.command = Command::INFO; });
 }
 
+void add_very_large(CLI::App& run, Program_options& o)
+{
+  run.add_option("--memory", o.memory,
+                 "map a chart that is too large for the memory in that much of it, such as 4G: blocks of "
+                 "it wait in files; IN must be binary PLY, one surface of triangles without handles, "
+                 "and OUT .ply")
+      ->transform(CLI::AsSizeValue(false))
+      ->type_name("SIZE");
+  run.add_flag("--resume", o.is_resumed,
+               "with --memory: go on from the last level that a run of the same which was ended has "
+               "finished");
+  run.add_option("--work-folder", o.work_folder,
+                 "with --memory: where the files are meanwhile, 150 bytes a face (default OUT.work)")
+      ->type_name("DIR");
+}
+
+// The only map of a chart beyond the memory is that of hlscm under its own pins.
+void check_very_large(const CLI::App& run, const Program_options& o)
+{
+  if(o.memory == 0) {
+    for(const char* option : {"--resume", "--work-folder"}) {
+      if(run.count(option) > 0) {
+        throw CLI::ValidationError(option, "it needs --memory");
+      }
+    }
+    return;
+  }
+  for(const char* option :
+      {"--border", "--component", "--energy", "--engine", "--from-uv", "--one-to-one", "--pictures",
+       "--pin", "--prolongation", "--repair-flips", "--schedule", "--signal", "--strict",
+       "--time-limit", "--weights", "--weld"}) {
+    if(run.count(option) > 0) {
+      throw CLI::ValidationError(option, "it cannot be used with --memory");
+    }
+  }
+}
+
 void add_parameterize(CLI::App& app, Program_options& o)
 {
   CLI::App* run =
@@ -173,7 +210,11 @@ void add_parameterize(CLI::App& app, Program_options& o)
       ->type_name("N");
   add_report_and_quiet(*run, o);
   run->add_flag("--verbose", o.is_verbose, "show the levels of the solver on stderr");
-  run->callback([&o] { o.command = Command::PARAMETERIZE; });
+  add_very_large(*run, o);
+  run->callback([&o, run] {
+    o.command = Command::PARAMETERIZE;
+    check_very_large(*run, o);
+  });
 }
 
 std::vector<std::size_t> to_faces(const std::string& text)
@@ -253,8 +294,49 @@ std::string extension_of(const std::string& file)
   return CLI::detail::to_lower(std::filesystem::path(file).extension().string());
 }
 
+void add_view(CLI::App& app, Program_options& o)
+{
+  CLI::App* run = app.add_subcommand(
+      "view", "Write a page for browsers, one file that needs no network: model and texture side by "
+              "side, distortion, seams, all levels of detail");
+  run->add_option("IN", o.input,
+                  "a mesh of any kind, which is parameterized first if it has no texture coordinates, "
+                  "with the report of the same name (.json) if there is one; a progressive mesh: .pm; or "
+                  "a folder that atlas, bake or levels has filled")
+      ->required();
+  run->add_option("-o,--output", o.output, "the page: .html")->required()->type_name("OUT");
+  run->add_option("--template", o.view_page,
+                  "the page without a model, viewer.html, if it is not in share/hlscm beside the folder of "
+                  "the program (or in HLSCM_VIEW_PAGE)")
+      ->type_name("FILE.html");
+  add_threads(*run, o.library.threads);
+  add_quiet(*run, o);
+  run->callback([&o] { o.command = Command::VIEW; });
+}
+
+void add_web(CLI::App& app, Program_options& o)
+{
+  CLI::App* run = app.add_subcommand(
+      "web", "Write a folder for a web server whose page draws the model while it is loading: coarse "
+             "first, then finer and finer");
+  run->add_option("IN", o.input,
+                  "a mesh of any kind, which is parameterized first if it has no texture coordinates; or "
+                  "a progressive mesh: .pm")
+      ->required();
+  run->add_option("-o,--output", o.output, "a folder for the files")->required()->type_name("DIR");
+  run->add_option("--texture", o.web_texture, "the texture, a checkerboard by default")
+      ->type_name("FILE.png");
+  add_threads(*run, o.library.threads);
+  add_quiet(*run, o);
+  run->callback([&o] { o.command = Command::WEB; });
+}
+
 void check(const Program_options& o)
 {
+  if(o.command == Command::VIEW && extension_of(o.output) != ".html"
+     && extension_of(o.output) != ".htm") {
+    throw CLI::ValidationError("--output", "\"" + o.output + "\" does not end in .html");
+  }
   if(o.command == Command::BAKE) {
     check_bake(o);
   }
@@ -267,6 +349,9 @@ void check(const Program_options& o)
   }
   if(extension_of(o.output) != ".obj" && extension_of(o.output) != ".ply") {
     throw CLI::ValidationError("--output", "\"" + o.output + "\" ends neither in .obj nor in .ply");
+  }
+  if(o.memory > 0 && (o.method != SMP::Conformal_method::HLSCM || extension_of(o.output) != ".ply")) {
+    throw CLI::ValidationError("--memory", "it maps by --method hlscm and writes .ply");
   }
   const bool is_low_stretch = !o.method;
   const char* only = o.is_from_uv ? "--from-uv" : o.is_one_to_one ? "--one-to-one"
@@ -299,6 +384,8 @@ Parsed_command_line parse_command_line(int argc, char** argv)
   add_parameterize(app, options);
   add_levels(app, options);
   add_atlas_commands(app, options);
+  add_view(app, options);
+  add_web(app, options);
   try {
     app.parse(argc, argv);
     check(options);

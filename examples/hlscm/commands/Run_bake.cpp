@@ -91,12 +91,15 @@ Baking_input prepare(const Input_surface& surface, const Program_options& option
     input.fine.points = surface.surface.mesh.points;
     input.fine.triangles = surface.surface.mesh.triangles;
     input.light = read_target(options, progress, report);
+    input.width = input.height = options.atlas.texture;
     return input;
   }
   const auto atlas = make_atlas(surface, options, progress, report);
   outputs.write(surface, atlas, progress, report.warnings);
   outputs.draw(atlas, progress);
   input.pages = atlas.number_of_pages;
+  input.width = atlas.width;
+  input.height = atlas.height;
   input.fine = to_sheet(atlas.mesh, pages_of_triangles(atlas), atlas.number_of_pages);
   input.light = make_level(input.fine, options, progress, report);
   if(!options.signal.empty()) { // the map changes too fast for equal coordinates to be equal places

@@ -1,7 +1,6 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "commands/Chart_solving.h"
 #include "commands/Commands.h"
 #include "writing/Folder_outputs.h"
 #include "common/Interruption.h"
@@ -11,21 +10,17 @@
 #include "commands/Progressive_building.h"
 #include "commands/Repairs.h"
 #include "commands/Run_report.h"
-#include "commands/Surface_mapping.h"
 #include "common/Stopwatch.h"
 #include "reading/Surface_reading.h"
 #include "writing/Checkerboard.h"
 
 #include <CGAL/Surface_mesh_multiresolution/Level_extractor.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh_file.h>
-#include <CGAL/Surface_mesh_parameterization/textured_progressive_mesh_of_chart.h>
 #include <CGAL/Surface_mesh_texturing/IO/GLB.h>
 #include <CGAL/Surface_mesh_texturing/IO/OBJ.h>
 #include <CGAL/Surface_mesh_texturing/IO/PLY.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <functional>
 #include <iostream>
 #include <optional>
@@ -34,9 +29,7 @@
 namespace hlscm {
 
 namespace SMM = CGAL::Surface_mesh_multiresolution;
-namespace SMP = CGAL::Surface_mesh_parameterization;
 namespace IO = CGAL::Surface_mesh_texturing::IO;
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -50,104 +43,6 @@ bool wants(const Program_options& options, Level_format format)
       = {Level_format::OBJ, Level_format::GLB, Level_format::PM};
   const auto& formats = options.formats.empty() ? usual : options.formats;
   return std::find(formats.begin(), formats.end(), format) != formats.end();
-}
-
-bool is_progressive(const std::string& file)
-{
-  return fs::path(file).extension() == ".pm";
-}
-
-Progressive_model read_progressive(const std::string& name, std::vector<std::string>& warnings)
-{
-  std::ifstream file(name, std::ios::binary);
-  if(!file) {
-    throw Program_error(name, "there is no such file that can be read, check its name");
-  }
-  SMM::Read_progressive_mesh read = SMM::read_progressive_mesh(file);
-  if(read.status == SMM::Progressive_mesh_file_status::TRUNCATED && !read.mesh.points.empty()) {
-    warnings.push_back(read.message);
-  } else if(read.status != SMM::Progressive_mesh_file_status::COMPLETE) {
-    throw Program_error(name, read.message);
-  }
-  return std::move(read.mesh);
-}
-
-Progressive_model build_from_chart(const Input_surface& input, const Program_options& options,
-                                   Progress_bar& progress, Levels_report& report)
-{
-  Mesh mesh = build_mesh(input.surface.mesh);
-  const Stopwatch solving;
-  Uv_map uv = mesh.add_property_map<Mesh::Vertex_index, Kernel::Point_2>("v:uv").first;
-  SMP::HLSCM_options library = options.library;
-  library.keep_progressive_mesh = true;
-  Solved_chart chart = solve_chart(options, library, mesh, {}, uv, progress);
-  std::vector<Kernel::Point_2> points;
-  for(const auto v : mesh.vertices()) {
-    points.push_back(uv[v]);
-  }
-  move_report(fit_to_unit_square(points), chart.report);
-  for(const auto v : mesh.vertices()) {
-    uv[v] = points[v];
-  }
-  report.solver = chart.report;
-  report.warnings.insert(report.warnings.end(), chart.report.warnings.begin(),
-                         chart.report.warnings.end());
-  report.seconds_parameterize = solving.seconds();
-  const Stopwatch building;
-  if(chart.progressive_mesh.vertices.empty()) { // the method has no levels
-    const auto uv_at = [&](Mesh::Halfedge_index h) { return uv[mesh.target(h)]; };
-    Progressive_model model
-        = build_progressive(SMM::textured_triangle_mesh(mesh, uv_at), options, progress);
-    report.seconds_build = building.seconds();
-    return model;
-  }
-  SMM::Textured_progressive_mesh_options build;
-  SMM::Textured_progressive_mesh_result result
-      = SMP::build_textured_progressive_mesh(mesh, uv, chart.progressive_mesh, build);
-  if(!result.error.empty()) {
-    throw Program_error(options.input, result.error + ", repair the mesh first");
-  }
-  report.seconds_build = building.seconds();
-  return std::move(result.mesh);
-}
-
-// What is no chart and has no texture coordinates is mapped in one piece for each component first.
-SMM::Textured_triangle_mesh map_first(const Input_surface& input, const Program_options& options,
-                                      Progress_bar& progress, Levels_report& report)
-{
-  const Stopwatch solving;
-  Mapped_surface map = map_input(input, options, nullptr, progress);
-  report.solver = map.report;
-  report.warnings.insert(report.warnings.end(), map.report.warnings.begin(),
-                         map.report.warnings.end());
-  report.seconds_parameterize = solving.seconds();
-  return std::move(map.mesh);
-}
-
-Progressive_model make_model(const Program_options& options, Progress_bar& progress,
-                             Levels_report& report)
-{
-  const Stopwatch reading;
-  if(is_progressive(options.input)) {
-    progress.start_stage("reading");
-    Progressive_model model = read_progressive(options.input, report.warnings);
-    report.seconds_read = reading.seconds();
-    return model;
-  }
-  const Input_surface input
-      = read_surface(options.input, options, surface_obstacles, progress, report.warnings);
-  report.repairs = input.surface.repairs;
-  report.seconds_read = reading.seconds();
-  if(!input.file.soup.has_uv() && input.is_chart()) {
-    return build_from_chart(input, options, progress, report);
-  }
-  const SMM::Textured_triangle_mesh textured = input.file.soup.has_uv()
-                                                   ? to_textured(input)
-                                                   : map_first(input, options, progress, report);
-  const Stopwatch building;
-  Progressive_model model = build_progressive(textured, options, progress);
-  report.seconds_build = building.seconds();
-  return model;
 }
 
 /// The positions that the options ask for, the finest first.
@@ -279,7 +174,8 @@ private:
     m_glb->write([&](std::ostream& stream) {
       return IO::write_GLB(stream, model, triangles,
                            {"checkerboard",
-                            checkerboard_png(level_checker_size, level_checker_squares)});
+                            checkerboard_png(level_checker_size, level_checker_size,
+                                             level_checker_squares)});
     });
   }
 
@@ -298,7 +194,7 @@ int run_levels(const Program_options& options)
   Progress_bar progress(!options.is_quiet);
   Level_outputs outputs(options);
   Levels_report report;
-  const Progressive_model model = make_model(options, progress, report);
+  const Progressive_model model = make_progressive(options, progress, report);
   if(wants(options, Level_format::GLB)) {
     refuse_beyond_floats(options.input, model.points);
   }

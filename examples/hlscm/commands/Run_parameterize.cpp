@@ -4,6 +4,7 @@
 #include "commands/Commands.h"
 #include "commands/Repairs.h"
 #include "commands/Surface_mapping.h"
+#include "commands/Very_large.h"
 #include "common/Interruption.h"
 #include "pictures/Level_snapshots.h"
 #include "writing/Mesh_writing.h"
@@ -62,6 +63,9 @@ void print(const Run_report& report, const Program_options& options)
 
 int run_parameterize(const Program_options& options)
 {
+  if(options.memory > 0) {
+    return run_very_large(options);
+  }
   Progress_bar progress(!options.is_quiet);
   Run_files files(options);
   Run_report report;

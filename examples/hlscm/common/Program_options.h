@@ -14,7 +14,7 @@
 
 namespace hlscm {
 
-enum class Command { INFO, PARAMETERIZE, LEVELS, ATLAS, BAKE };
+enum class Command { INFO, PARAMETERIZE, LEVELS, ATLAS, BAKE, VIEW, WEB };
 
 /// What `levels` writes: a file for each level, one with all levels, or the progressive mesh.
 enum class Level_format { OBJ, PLY, GLB, PM };
@@ -45,6 +45,9 @@ struct Length
 /// What packs an atlas.
 enum class Packer { RASTER, HORIZON };
 
+/// How the charts of an atlas are mapped.
+enum class Chart_map { BORDER_FIRST, LOW_STRETCH, SPECTRAL, HLSCM, CASCADIC };
+
 /// Between what faces of the input seams shall be.
 enum class Chart_limits { NONE, GROUPS, MATERIALS };
 
@@ -56,6 +59,7 @@ struct Layout_settings
   std::string density;       ///< a file with a number for each face; empty: none
   std::string importance;    ///< an image on the input; empty: none
   Chart_limits limits = Chart_limits::NONE;
+  Chart_limits separate = Chart_limits::NONE; ///< each on textures of its own
   bool is_aligned = false;   ///< borders of charts run along the axes
   bool is_udim = false;      ///< pages are tiles of one plane
   bool is_stacked = false;   ///< equal parts share their place
@@ -65,7 +69,7 @@ struct Layout_settings
   bool is_any() const
   {
     return is_repacked || !density.empty() || !importance.empty() || limits != Chart_limits::NONE
-           || is_aligned || is_udim || is_stacked || is_lightmap;
+           || separate != Chart_limits::NONE || is_aligned || is_udim || is_stacked || is_lightmap;
   }
 };
 
@@ -79,14 +83,15 @@ struct Atlas_settings
   std::size_t max_charts = 0; ///< 0: as many as the bound needs
   std::optional<double> seam_price; ///< of seams that fill the pages; none: the default
   double min_used = 0;        ///< % of the textures
+  double largest_aspect = 1;  ///< of textures: width to height
+  bool has_smooth_seams = false; ///< they go through faces
   std::string charts;         ///< a file, or "uv"; empty: they are to be found
   bool is_one_disk = false;   ///< one chart for each connected component
   std::size_t pages = 1;      ///< at most
   double packing_time = 0;    ///< seconds for better packings
   double time_limit = 0;      ///< seconds for `atlas`, or for all of `bake`; 0: none
   Packer packer = Packer::RASTER;
-  /// Of `Conformal_chart_parameterizer`; none: `Border_first_chart_parameterizer`
-  std::optional<CGAL::Surface_mesh_parameterization::Conformal_method> method;
+  Chart_map method = Chart_map::BORDER_FIRST;
   bool writes_ply = false;
   Layout_settings layout;
 };
@@ -113,7 +118,9 @@ struct Program_options
   bool is_verbose = false;  ///< of `parameterize`: shows the levels of the solver
   bool prints_json = false; ///< of `info`
 
-  std::string output;    ///< .obj or .ply; else a folder
+  std::string output;    ///< .obj or .ply; of `view`: .html; else a folder
+  std::string view_page; ///< a file, the page into which `view` puts models; empty: that of the program
+  std::string web_texture; ///< of `web`: a PNG file; empty: a checkerboard
   std::string report;    ///< empty: none
   std::string pictures;  ///< a folder; empty: none
   std::vector<Pin> pins; ///< none, or two and more
@@ -133,6 +140,10 @@ struct Program_options
   bool is_one_to_one = false; ///< then: no two parts of a component overlap
   bool repairs_flips = false; ///< of the map
   Engine engine = Engine::FLAT;
+
+  std::size_t memory = 0;  ///< bytes for a map out of core; 0: all is in memory
+  bool is_resumed = false; ///< then: goes on with what an earlier run has left
+  std::string work_folder; ///< then: of its files; empty: beside the output
 
   std::vector<std::size_t> faces;          ///< of the levels; empty: parts of all
   std::optional<Length> error;             ///< of the surface of one level more, of the light model

@@ -115,11 +115,12 @@ Atlas_picture_files::Atlas_picture_files(Output_files& files, const std::filesys
 void Atlas_picture_files::draw(const Texture_atlas& atlas, Progress_bar& progress)
 {
   progress.start_stage("drawing");
-  const Drawn_surface surface = drawn_atlas(atlas.mesh);
+  Drawn_surface surface = drawn_atlas(atlas.mesh);
   View view(surface);
   const double width = std::clamp(side * view.aspect_ratio(), 0.4 * side, 1.6 * side);
   const std::size_t pages = std::min(atlas.number_of_pages, most_pages);
-  const double page_width = side * double(atlas.width) / double(atlas.height);
+  const double page_aspect = double(atlas.width) / double(atlas.height);
+  const double page_width = side * std::min(page_aspect, 1.6), page_height = page_width / page_aspect;
   const Panel panel{margin, margin, width, side};
   view.fit_to(panel);
   Canvas charts(std::size_t(width + 2 * margin + double(pages) * (page_width + margin)),
@@ -127,9 +128,12 @@ void Atlas_picture_files::draw(const Texture_atlas& atlas, Progress_bar& progres
   draw_charts(charts, view, surface, atlas, progress);
   for(std::size_t page = 0; page < pages; ++page) {
     const double left = width + 2 * margin + double(page) * (page_width + margin);
-    draw_page(charts, {left, margin, page_width, side}, surface, atlas, std::uint32_t(page));
+    draw_page(charts, {left, margin, page_width, page_height}, surface, atlas, std::uint32_t(page));
   }
   charts.write_png(m_charts);
+  for(auto& uv : surface.uv) { // squares on pages that are none
+    uv[0] *= page_aspect;
+  }
   Canvas checkerboard(std::size_t(width + 2 * margin), std::size_t(side + 2 * margin));
   draw_surface(checkerboard, view, surface, Pattern::CHECKERBOARD, progress);
   checkerboard.write_png(m_checkerboard);

@@ -40,6 +40,15 @@ bool begins_with(const std::string& text, const std::string& keyword)
   return text == keyword || text.rfind(keyword + " ", 0) == 0;
 }
 
+// What a line says after its keyword.
+std::string name_in(const std::string& line)
+{
+  const std::size_t first = line.find_first_not_of(' ', line.find(' '));
+  return first == std::string::npos
+             ? std::string()
+             : line.substr(first, line.find_last_not_of(" \t\r") + 1 - first);
+}
+
 } // namespace
 
 std::vector<double> read_face_numbers(const std::string& name, const Input_surface& surface,
@@ -59,26 +68,29 @@ std::vector<double> read_face_numbers(const std::string& name, const Input_surfa
   return result;
 }
 
-std::vector<std::uint32_t> part_of_triangles(const Input_surface& surface, Name_of_part name)
+Named_parts parts_of_surface(const Input_surface& surface, Name_of_part name)
 {
+  const std::string keyword = name == Name_of_part::MATERIAL ? "usemtl" : "g";
   std::map<std::string, std::uint32_t> numbers;
   std::string object, part;
-  std::vector<std::uint32_t> result;
+  Named_parts result;
   auto line = surface.file.lines.begin();
   for(const std::uint32_t face : surface.surface.face) { // ascending
     for(; line != surface.file.lines.end() && line->face <= face; ++line) {
-      if(name == Name_of_part::MATERIAL ? begins_with(line->text, "usemtl")
-                                        : begins_with(line->text, "g")) {
-        part = line->text;
+      if(begins_with(line->text, keyword)) {
+        part = name_in(line->text);
       } else if(name == Name_of_part::GROUP && begins_with(line->text, "o")) {
-        object = line->text;
+        object = name_in(line->text);
       }
     }
-    const std::string key = object + "\n" + part;
-    result.push_back(numbers.insert({key, std::uint32_t(numbers.size())}).first->second);
+    const std::string key = object + (object.empty() || part.empty() ? "" : "/") + part;
+    const auto added = numbers.insert({key, std::uint32_t(numbers.size())});
+    result.of_triangles.push_back(added.first->second);
+    if(added.second) {
+      result.names.push_back(key);
+    }
   }
-  return numbers.size() == 1 && object.empty() && part.empty() ? std::vector<std::uint32_t>()
-                                                               : result;
+  return result.names == std::vector<std::string>{""} ? Named_parts() : result;
 }
 
 } // namespace hlscm

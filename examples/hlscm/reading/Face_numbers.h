@@ -19,9 +19,16 @@ std::vector<double> read_face_numbers(const std::string& name, const Input_surfa
 /// What parts a mesh into parts that have names.
 enum class Name_of_part { GROUP, MATERIAL };
 
-/// Returns for each triangle the number of its group (with its object) or of its material, counted
-/// from 0 in their order, equal names being one; empty if the file has no such names.
-std::vector<std::uint32_t> part_of_triangles(const Input_surface& surface, Name_of_part name);
+/// The groups or the materials of a mesh.
+struct Named_parts
+{
+  std::vector<std::uint32_t> of_triangles; ///< the part of each triangle
+  std::vector<std::string> names;          ///< of the parts
+};
+
+/// Returns the groups (with their objects) or the materials, in their order, equal names being one; none
+/// if the file has no such names.
+Named_parts parts_of_surface(const Input_surface& surface, Name_of_part name);
 
 } // namespace hlscm
 

@@ -10,20 +10,20 @@
 
 namespace hlscm {
 
-/// Returns a PNG file of `side` x `side` pixels: a checkerboard with so many squares each way.
-inline std::string checkerboard_png(std::size_t side, std::size_t squares)
+/// Returns a PNG file of `width` x `height` pixels: a checkerboard with so many squares in a row.
+inline std::string checkerboard_png(std::size_t width, std::size_t height, std::size_t squares)
 {
   std::vector<std::uint8_t> rgb;
-  for(std::size_t y = 0; y < side; ++y) {
-    for(std::size_t x = 0; x < side; ++x) {
-      const bool is_dark = (x * squares / side + y * squares / side) % 2 == 1;
+  for(std::size_t y = 0; y < height; ++y) {
+    for(std::size_t x = 0; x < width; ++x) {
+      const bool is_dark = (x * squares / width + y * squares / width) % 2 == 1;
       for(const int value : is_dark ? std::array<int, 3>{56, 102, 158}
                                     : std::array<int, 3>{250, 247, 242}) {
         rgb.push_back(std::uint8_t(value));
       }
     }
   }
-  return encode_png(rgb, side);
+  return encode_png(rgb, width);
 }
 
 } // namespace hlscm

@@ -89,7 +89,7 @@ SMT::Texture_atlas_result build(const Indexed_triangle_mesh& mesh, const Atlas_c
                                 const Segmenter& segmenter)
 {
   typedef SMP::Conformal_method Method;
-  if(choice.method == "border-first")
+  if(choice.method == "border-first" || choice.method == "low-stretch")
     return SMT::build_texture_atlas(mesh, choice.options, segmenter);
   SMT::Conformal_chart_parameterizer parameterizer;
   parameterizer.solver.method = chosen<Method>("method", choice.method,
@@ -115,9 +115,10 @@ SMT::Texture_atlas_result build(const Indexed_triangle_mesh& mesh, const Atlas_c
 }
 
 py::dict atlas(const py::array& points, const py::array& triangles, const std::string& method,
-               std::size_t max_charts, double seam_price, double min_used, double area_scale, double quasi_conformal, double least_fill,
-               std::size_t width, std::size_t height, std::size_t padding, unsigned int mip_levels,
-               std::size_t pages, double texels_per_unit, double packing_time,
+               std::size_t max_charts, double seam_price, double min_used, double area_scale,
+               double quasi_conformal, double least_fill, std::size_t width, std::size_t height,
+               double largest_aspect, std::size_t padding, unsigned int mip_levels, std::size_t pages,
+               double texels_per_unit, double packing_time,
                const std::vector<float>& density, const std::optional<py::array>& metric,
                const std::vector<std::uint8_t>& no_seams,
                const std::optional<std::vector<std::uint32_t>>& charts, double time_limit,
@@ -125,19 +126,21 @@ py::dict atlas(const py::array& points, const py::array& triangles, const std::s
 {
   const Indexed_triangle_mesh mesh = to_mesh(points, triangles);
   Atlas_choice choice = {method, {}, charts};
-  if(method != "border-first" && method != "hlscm" && method != "spectral" && method != "cascadic"
+  if(method != "border-first" && method != "low-stretch" && method != "hlscm" && method != "spectral" && method != "cascadic"
      && method != "lscm" && method != "direct")
     throw Bad_input(Mesh_status::BAD_OPTIONS, "method is \"" + method
-                    + "\", and none of border-first, hlscm, spectral, cascadic, lscm, direct");
+                    + "\", and none of border-first, low-stretch, hlscm, spectral, cascadic, lscm, direct");
   SMT::Texture_atlas_options& options = choice.options;
   options.bound.area_scale = area_scale;
   options.bound.quasi_conformal = quasi_conformal;
+  options.may_stretch = method == "low-stretch";
   options.max_charts = max_charts;
   options.seam_price = seam_price;
   options.min_used = min_used;
   options.least_fill = least_fill;
   options.packing.width = width;
   options.packing.height = height;
+  options.largest_aspect = largest_aspect;
   options.packing.padding = padding;
   options.packing.mip_levels = mip_levels;
   options.packing.max_pages = pages;
@@ -320,8 +323,9 @@ void bind_texturing(py::module_& m)
   m.def("atlas", &atlas,
         "A texture atlas: vmapping (w,), indices (m, 3), uv (w, 2), the chart of each face, the page of "
         "each chart, sizes and a report.",
-        "vertices"_a, "faces"_a, "method"_a, "max_charts"_a, "seam_price"_a, "min_used"_a, "area_scale"_a, "quasi_conformal"_a,
-        "least_fill"_a, "width"_a, "height"_a, "padding"_a, "mip_levels"_a, "pages"_a,
+        "vertices"_a, "faces"_a, "method"_a, "max_charts"_a, "seam_price"_a, "min_used"_a,
+        "area_scale"_a, "quasi_conformal"_a, "least_fill"_a, "width"_a, "height"_a,
+        "largest_aspect"_a, "padding"_a, "mip_levels"_a, "pages"_a,
         "texels_per_unit"_a, "packing_time"_a, "density"_a, "metric"_a, "no_seams"_a, "charts"_a,
         "time_limit"_a, "threads"_a, "progress"_a);
   py::class_<Baking_choice>(m, "BakingOptions", "The options of all functions that bake.")

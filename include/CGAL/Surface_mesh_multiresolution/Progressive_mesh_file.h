@@ -7,6 +7,7 @@
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh_decoder.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_surface.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/file/Progressive_mesh_encoder.h>
+#include <CGAL/Surface_mesh_multiresolution/sort_batches.h>
 
 #include <array>
 #include <istream>
@@ -24,7 +25,15 @@ namespace Surface_mesh_multiresolution {
 enum class Progressive_mesh_precision
 {
   QUANTIZED, ///< integers of a number of bits
-  LOSSLESS   ///< all bits: 32 if `float` holds all values exactly, and 64 otherwise
+  LOSSLESS   ///< all bits, 32 if `float` holds all values exactly, and 64 otherwise; and the order
+};
+
+/// \ingroup PkgHLSCMLevelsOfDetail
+/// The order of the splits of a progressive mesh file.
+enum class Progressive_mesh_order
+{
+  SORTED, ///< that of `sort_batches()` if possible, which makes the file a fifth smaller
+  KEPT    ///< that of the mesh
 };
 
 /// \ingroup PkgHLSCMLevelsOfDetail
@@ -39,6 +48,9 @@ struct Progressive_mesh_write_options
   int position_bits = 16;
   /// The same for texture coordinates. 16 bits are a 16th of a texel of a texture of 4096 x 4096.
   int uv_bits = 16;
+  /// Whether splits may change places within their batches, and so the numbers of wedges, vertices
+  /// and triangles. Without loss nothing changes in any case.
+  Progressive_mesh_order order = Progressive_mesh_order::SORTED;
 };
 
 /// \ingroup PkgHLSCMLevelsOfDetail
@@ -132,15 +144,18 @@ inline File_header header_for(const Textured_progressive_mesh& mesh,
 Returns `mesh` as a progressive mesh file (extension `.pm`): the coarsest mesh and the splits,
 coarse to fine, so that any beginning of the file that has the coarsest mesh is a coarser model.
 
-What is read back has the connectivity of `mesh`, all numberings, the order of triangles and corners
-and `batch_ends` included; `source_vertex` is not written. A mesh without texture stays without. If lossless, coordinates have the same
-bits; if quantized, distinct ones may become equal, and tiny triangles may flip.
+What is read back has the connectivity of `mesh`, or if quantized by default that of
+`sort_batches(mesh)`, all numberings, the order of triangles and corners and `batch_ends` included; `source_vertex` is not
+written. Where the sorted mesh would not be a manifold at some level, the order is kept. A mesh
+without texture stays without. If lossless, coordinates have the same bits; if quantized, distinct
+ones may become equal, and tiny triangles may flip.
 
 A mesh that is not what the invariants of `Textured_progressive_mesh` say, has a chart that is not a
 manifold, a wedge of more than 16384 neighbours at some level, more than 2^29 triangles, or a
 coordinate that is not a finite number, is refused with an error.
 
-Linear time. Memory: about 160 bytes a wedge beside the mesh.
+\f$ O(n \log n) \f$ time, linear if the order is kept. Memory: about 160 bytes a wedge beside the
+mesh, and a second mesh if it is sorted.
 */
 inline Progressive_mesh_bytes
 encode_progressive_mesh(const Textured_progressive_mesh& mesh,
@@ -159,6 +174,16 @@ encode_progressive_mesh(const Textured_progressive_mesh& mesh,
   }
   if(mesh.has_texture() && file.fail(Mesh_status::BAD_MESH, size_error(mesh.points)))
     return file;
+  if(options.order == Progressive_mesh_order::SORTED
+     && options.precision == Progressive_mesh_precision::QUANTIZED
+     && !mesh.progressive_mesh.batch_ends.empty()) {
+    const Textured_progressive_mesh sorted = sort_batches(mesh);
+    internal::Progressive_mesh_encoder encoder(sorted, header);
+    if(encoder.run().empty()) {
+      file.bytes = encoder.take_bytes();
+      return file;
+    }
+  }
   internal::Progressive_mesh_encoder encoder(mesh, header);
   if(!file.fail(Mesh_status::BAD_MESH, encoder.run()))
     file.bytes = encoder.take_bytes();
@@ -182,8 +207,8 @@ write_progressive_mesh(std::ostream& to, const Textured_progressive_mesh& mesh,
 }
 
 /// \ingroup PkgHLSCMLevelsOfDetail
-/// Writes what `build_progressive_mesh()` returns as a progressive mesh file without texture, of
-/// version 2, which is read back as a `Textured_progressive_mesh` without texture: with the
+/// Writes what `build_progressive_mesh()` returns as a progressive mesh file without texture,
+/// which is read back as a `Textured_progressive_mesh` without texture: with the
 /// numbering of `coarse_first()`. A surface with an error is not written.
 inline Indexed_mesh::Mesh_outcome
 write_progressive_mesh(std::ostream& to, const Progressive_surface& surface,

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_TEXTURED_TRIANGLE_MESH_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_TEXTURED_TRIANGLE_MESH_H
 
+#include <CGAL/Surface_mesh_multiresolution/is_measurable.h>
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
 #include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 #include <CGAL/Indexed_mesh/mesh_arrays.h>
@@ -57,11 +58,6 @@ inline bool is_smooth(const Textured_triangle_mesh& mesh, Halfedge h, Halfedge o
   return uv_of(mesh, h) == uv_of(mesh, next_halfedge(opposite))
       && uv_of(mesh, next_halfedge(h)) == uv_of(mesh, opposite);
 }
-
-/// \ingroup PkgHLSCMLevelsOfDetail
-/// Returns whether a coordinate is a finite number, and so are squared distances of points with such
-/// coordinates: it is smaller than 1e153.
-inline bool is_measurable(double coordinate) { return std::abs(coordinate) < 1e153; }
 
 namespace internal {
 

@@ -44,7 +44,7 @@ struct Low_stretch_options
   unsigned int threads = 0;    ///< of a parallel parameterizer; 0: as many as there are processors
   /// Told the part done in [0, 1] from time to time. When it returns false, or the time is over, the
   /// map is finished without improving it any further, in a small part of the whole time: it has no
-  /// flipped triangle either, but more stretch.
+  /// flipped triangle either, but more stretch. There is none if pins are still on their way then.
   std::function<bool(double)> progress;
 };
 

@@ -38,6 +38,7 @@ struct Chart_growth_segmenter
     growth.bound = options.bound;
     growth.max_charts = options.max_charts;
     growth.least_fill = options.least_fill;
+    growth.may_stretch = options.may_stretch;
     const Blocked_execution::Stopwatch watch;
     bool stopped_early = false;
     if(options.seconds > 0.)

@@ -45,6 +45,14 @@ struct Face_charts
   bool is_seam(Halfedge h) const { return is_seam(triangle_of(h), int(corner_of(h))); }
 };
 
+/// \ingroup PkgHLSCMTexturing
+/// A vertex that `smooth_seams()` has put on an edge.
+struct Edge_vertex
+{
+  Vertex_index from, to; ///< the ends of the edge, in the mesh as it was
+  double part;           ///< of the way from the first to the second
+};
+
 /*!
 \ingroup PkgHLSCMTexturing
 

@@ -30,6 +30,10 @@ struct Texture_atlas_options
 {
   /// How far charts may be distorted, if the segmenter wants them within a bound.
   Distortion_bound bound;
+  /// Whether a chart whose conformal map is beyond the bound on areas may be mapped by
+  /// `Surface_mesh_parameterization::low_stretch_map()` if that map is within both bounds: there are
+  /// fewer charts then, in which angles are kept less, and the search takes some times as long.
+  bool may_stretch = false;
   /// The number of charts to come down to, beyond the bound on distortion if need be; 0 for as few
   /// as the bound allows. There are more only where a map would not be one-to-one otherwise, and of
   /// a surface with more components.
@@ -63,12 +67,24 @@ struct Texture_atlas_options
   /// by `Chart_growth_segmenter`, and where charts are cut again, as far as charts can be disks with
   /// one-to-one maps: `Texture_atlas_report::unwanted_seams`. Empty for none.
   std::vector<std::uint8_t> no_seams;
+  /// Whether seams are led through triangles, which are cut there, so that they are smooth; see
+  /// `smooth_seams()`. Not those of charts that are cut again, or to fill the pages. With this `no_seams`
+  /// must be empty.
+  bool has_smooth_seams = false;
   /// Whether charts are turned so that as much as possible of their borders, and of the creases in
   /// them, runs along the rows and columns of the texture; then by quarters only. Parts of a chart
   /// that is cut to fill the pages (`seam_price`) keep its direction.
   bool is_aligned = false;
   /// The textures, and how charts are placed in them.
   Packing_options packing;
+  /// For each triangle a number; charts with the same one for their first triangles lie on the same pages,
+  /// at most `Packing_options::max_pages` of them, others on other pages, which may have another density.
+  /// Where the number changes there had better be seams, see `Constrained_segmenter`. The pages of the
+  /// smaller numbers come first. Empty for pages that are the same for all.
+  std::vector<std::uint32_t> page_set;
+  /// How many times as wide as high pages may be: their height is that of `packing`, or a half of it, a
+  /// quarter and so on, if clearly more of the pages is used then. 1 or less than 2 for no other shape.
+  double largest_aspect = 1.;
   /// The seconds after which the atlas is finished in the quickest way that makes it valid: no more
   /// charts are merged, charts beyond the bound stay, those whose maps are not one-to-one are cut in
   /// halves, and the first packing is taken. Half of it is for the search of charts at most. It may
@@ -86,7 +102,8 @@ struct Texture_atlas_options
 
 The struct `Texture_atlas` is a mesh with its charts side by side in one or several textures.
 
-Invariants: `mesh.triangles` are those of the surface, in their order; the texture coordinates lie
+Invariants: `mesh.triangles` are those of the surface, in their order, unless seams were led through
+them (`Texture_atlas_options::has_smooth_seams`): then the pieces of each are in its place; the texture coordinates lie
 in \f$ [0, 1]^2 \f$ of the page of their chart, one for each wedge (see `with_wedges()`); no two
 triangles on a page overlap.
 */
@@ -98,6 +115,9 @@ struct Texture_atlas
   std::size_t number_of_pages = 0; ///< textures
   std::size_t width = 0;           ///< of a page, in texels
   std::size_t height = 0;          ///< of a page, in texels
+  /// For each triangle the one of the surface in which it lies; empty if they are the same.
+  std::vector<std::uint32_t> source_triangle;
+  std::vector<Edge_vertex> new_vertices; ///< that follow those of the surface
 };
 
 /// \ingroup PkgHLSCMTexturing

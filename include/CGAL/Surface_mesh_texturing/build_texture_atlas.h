@@ -9,7 +9,7 @@
 #include <CGAL/Surface_mesh_texturing/Chart_segmenters.h>
 #include <CGAL/Surface_mesh_texturing/Texture_atlas.h>
 #include <CGAL/Surface_mesh_texturing/internal/mesh_of_graph.h>
-#include <CGAL/Surface_mesh_texturing/internal/charts/Texture_atlas_builder.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/build_atlas.h>
 #include <CGAL/Surface_mesh_texturing/pack_charts.h>
 
 #include <CGAL/Default.h>
@@ -128,6 +128,9 @@ Texture_atlas_result build_texture_atlas(const FaceGraph& mesh, HalfedgeUVMap uv
 {
   typedef typename boost::property_traits<HalfedgeUVMap>::value_type Uv;
   Texture_atlas_result result;
+  if(options.has_smooth_seams)
+    result.fail(Mesh_status::BAD_OPTIONS, "seams through triangles need new ones, which this mesh does "
+                                          "not get: build the atlas of its arrays");
   if(result.fail(internal::polygon_error(mesh, "the mesh")))
     return result;
   const Indexed_triangle_mesh arrays = Indexed_mesh::copy_mesh(mesh, np);

@@ -43,6 +43,9 @@ struct Chart_growth_options
   double least_fill = 0.75;
   /// Triangles to one of the patches from which charts are merged.
   std::size_t patch_size = 25;
+  /// Whether a chart that is beyond the bound on areas when it is mapped conformally may be mapped by
+  /// `Surface_mesh_parameterization::low_stretch_map()`, which keeps areas better and angles less.
+  bool may_stretch = false;
   /// How much is tried to get along with fewer charts: triangles that are mapped for each triangle
   /// of the mesh.
   double effort = 150.;
@@ -93,14 +96,15 @@ inline Distortion_bound part_of(const Distortion_bound& bound, double part)
 // The charts of a state, numbered as in `Face_charts`, and the distortion of their trial maps,
 // measured on the mesh as it was given.
 inline Chart_growth_result growth_result(const Indexed_triangle_mesh& mesh,
-                                         const Seam_graph& graph, const Distortion_bound& bound)
+                                         const Seam_graph& graph, const Distortion_bound& bound,
+                                         bool may_stretch)
 {
   Chart_growth_result result;
   result.charts = label_charts(graph.mesh(), graph.seams());
   const std::vector<Chart_mesh> charts = cut_out_charts(mesh, graph.mesh(), result.charts);
   std::vector<Trial_map> trial(charts.size());
   Blocked_execution::blocked_for(charts.size(), 1, [&](std::size_t c, std::size_t) {
-    trial[c] = try_map(charts[c]);
+    trial[c] = try_map(charts[c], bound, may_stretch);
   });
   for(const Trial_map& map : trial) {
     const bool is_bad = !map.is_one_to_one || !map.distortion.is_within(bound);
@@ -150,12 +154,13 @@ inline Chart_growth_result grow_charts(const Indexed_triangle_mesh& mesh,
   search.feature_angle = options.feature_angle * CGAL_PI / 180.;
   search.least_fill = options.least_fill;
   search.patch_size = (std::max)(options.patch_size, std::size_t(1));
+  search.may_stretch = options.may_stretch;
   search.effort = options.effort;
   search.is_enough = options.is_enough;
   search.progress = options.progress;
   internal::Chart_search growth(surface, search);
   if(growth.run())
-    return internal::growth_result(mesh, growth.best().graph, options.bound);
+    return internal::growth_result(mesh, growth.best().graph, options.bound, options.may_stretch);
   result.cancel();
   return result;
 }

@@ -505,8 +505,8 @@ def _size(resolution: Any) -> Tuple[int, int]:
 def atlas(vertices: Any, faces: Any = None, /, *, max_charts: int = 0, seam_price: float = 0.02,
           min_used: float = 0., area_scale: float = 4.,
           quasi_conformal: float = 2., least_fill: float = 0.75, method: str = "border-first",
-          resolution: Union[int, Tuple[int, int]] = 1024, padding: int = 2, mip_levels: int = 0,
-          pages: int = 1, texels_per_unit: float = 0., packing_time: float = 0.,
+          resolution: Union[int, Tuple[int, int]] = 1024, largest_aspect: float = 1.,
+          padding: int = 2, mip_levels: int = 0, pages: int = 1, texels_per_unit: float = 0., packing_time: float = 0.,
           density: Optional[ArrayLike] = None, metric: Optional[ArrayLike] = None,
           charts: Optional[ArrayLike] = None, mend: bool = False, time_limit: float = 0.,
           threads: int = 0, progress: Progress = None, full: bool = False) -> Any:
@@ -519,8 +519,10 @@ def atlas(vertices: Any, faces: Any = None, /, *, max_charts: int = 0, seam_pric
     min_used: the part of the pages to use, in [0, 1); charts are cut until it is, or no cut helps.
     area_scale, quasi_conformal: how far a chart may be distorted: the range of its area scale, and
         its ratio s1 / s2.
-    method: "border-first", or that of a conformal map, as for parameterize().
+    method: "border-first"; "low-stretch", which changes areas less and angles more where that makes
+        fewer charts; or that of a conformal map, as for parameterize().
     resolution: texels of a page, or (width, height); padding: texels between charts.
+    largest_aspect: how many times as wide as high pages may be, which are then lower if that is fuller.
     mip_levels: the coarsest level of the texture that keeps the padding.
     pages: how many must do; 0 for as many as needed for texels_per_unit (0: the most that fit).
     packing_time: seconds for better packings, counted so that the result is the same anywhere.
@@ -545,7 +547,8 @@ def atlas(vertices: Any, faces: Any = None, /, *, max_charts: int = 0, seam_pric
     width, height = _size(resolution)
     made = _hlscm.atlas(
         vertices, faces, method, max_charts, seam_price, min_used, area_scale, quasi_conformal,
-        least_fill, width, height, padding, mip_levels, pages, texels_per_unit, packing_time, _list(density, "density"),
+        least_fill, width, height, largest_aspect, padding, mip_levels, pages, texels_per_unit,
+        packing_time, _list(density, "density"),
         None if metric is None else _real(metric, "metric"),
         no_seams, labels, time_limit, threads, progress)
     vmapping = made["vmapping"] if back is None else back.vertex[made["vmapping"]]

@@ -74,8 +74,8 @@ class RealSolver:
               progress: _Progress) -> Tuple[NDArray[np.float64], List[_Report]]: ...
 
 def atlas(vertices: _Array, faces: _Array, method: str, max_charts: int, seam_price: float, min_used: float,
-          area_scale: float, quasi_conformal: float, least_fill: float, width: int, height: int, padding: int,
-          mip_levels: int, pages: int, texels_per_unit: float, packing_time: float,
+          area_scale: float, quasi_conformal: float, least_fill: float, width: int, height: int,
+          largest_aspect: float, padding: int, mip_levels: int, pages: int, texels_per_unit: float, packing_time: float,
           density: _Numbers, metric: Optional[_Array], no_seams: _Numbers,
           charts: Optional[_Numbers], time_limit: float, threads: int,
           progress: _Progress) -> _Report: ...

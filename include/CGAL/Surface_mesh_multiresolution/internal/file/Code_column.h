@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstring>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -92,9 +93,6 @@ int code_length(std::uint32_t x, int k)
 class Bit_writer
 {
 public:
-  explicit Bit_writer(std::string& to) : m_to(to) {}
-  ~Bit_writer() { flush(7); }
-
   void put(std::uint64_t bits, int count) // count <= 57, and no higher bits
   {
     m_bits |= bits << m_count;
@@ -102,15 +100,22 @@ public:
     flush(0);
   }
 
+  // The bytes, the last filled up by zeros. There are none then.
+  std::string take_bytes()
+  {
+    flush(7);
+    return std::exchange(m_bytes, std::string());
+  }
+
 private:
   void flush(int slack)
   {
     for(; m_count + slack >= 8; m_count -= 8, m_bits >>= 8)
-      m_to.push_back(char(m_bits & 255u));
+      m_bytes.push_back(char(m_bits & 255u));
     m_count = (std::max)(m_count, 0);
   }
 
-  std::string& m_to;
+  std::string m_bytes;
   std::uint64_t m_bits = 0;
   int m_count = 0; // < 8 between calls
 };
@@ -167,12 +172,10 @@ template <Column_code code>
 void append_column(std::string& to, const std::vector<std::uint32_t>& numbers)
 {
   const int k = best_parameter<code>(numbers);
-  std::string bytes;
-  {
-    Bit_writer bits(bytes);
-    for(const std::uint32_t x : numbers)
-      put_number<code>(bits, x, k);
-  }
+  Bit_writer bits;
+  for(const std::uint32_t x : numbers)
+    put_number<code>(bits, x, k);
+  const std::string bytes = bits.take_bytes();
   append_little_endian(to, std::uint64_t(k), 1);
   append_little_endian(to, bytes.size(), 4);
   to += bytes;

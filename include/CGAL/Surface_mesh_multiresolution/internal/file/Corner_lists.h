@@ -4,8 +4,8 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_FILE_CORNER_LISTS_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_FILE_CORNER_LISTS_H
 
-#include <CGAL/Blocked_execution/memory.h>
-#include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
+#include <CGAL/Blocked_execution/Uninitialized_vector.h>
+#include <CGAL/Indexed_mesh/mesh_indices.h>
 
 #include <algorithm>
 #include <cstdint>

@@ -9,7 +9,7 @@
 #include <CGAL/Surface_mesh_multiresolution/internal/file/Corner_rings.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/file/base_section.h>
 #include <CGAL/Indexed_mesh/mesh_error.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/file/split_prediction.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/file/Split_coder.h>
 
 #include <algorithm>
 #include <array>
@@ -75,7 +75,7 @@ class Progressive_mesh_encoder
 {
 public:
   Progressive_mesh_encoder(const Textured_progressive_mesh& mesh, const File_header& header)
-    : m_mesh(mesh), m_header(header), m_codec(header), m_triangle_numbers(triangle_numbers(mesh))
+    : m_mesh(mesh), m_header(header), m_codec(header), m_triangle_numbers(triangle_numbers(mesh)), m_coder(header)
   {
     m_header.base.triangles = (std::min)(m_triangle_numbers[0], m_header.fine.triangles);
   }
@@ -88,9 +88,9 @@ public:
 private:
   typedef std::vector<std::uint32_t> Column;
 
-  struct Columns // of a section
+  struct Columns // of the base
   {
-    Column pairs, kinds, ranges, deltas, skipped, moved;
+    Column pairs;
     std::array<Column, 5> high, low;
   };
 
@@ -104,12 +104,13 @@ private:
   }
   bool is_second(Vertex_index w) const { return w > 0 && m_mesh.vertex[w] == m_mesh.vertex[w - 1]; }
   void set_values();
-  void put_values(Vertex_index w, const Wedge_values& predicted);
+  void put_base_values(Vertex_index w, const Wedge_values& predicted);
   void append_section(std::uint32_t splits, const std::string& bytes);
   void append_values(std::string& bytes) const;
   std::string put_base();
+  Vertex_index end_of_section(Vertex_index begin) const;
+  void put_parents(Vertex_index begin, Vertex_index end);
   std::string put_split(Vertex_index w);
-  void append_splits(std::uint32_t splits);
 
   const Textured_progressive_mesh& m_mesh;
   File_header m_header;
@@ -117,7 +118,8 @@ private:
   std::vector<std::uint32_t> m_triangle_numbers;
   Corner_rings m_rings;
   Rings_ahead m_ahead;
-  Parent_prediction m_parents;
+  Split_coder m_coder;
+  Symbol_encoder m_symbols;
   Uninitialized_vector<Wedge_values> m_values;
   std::vector<std::array<std::uint32_t, 5>> m_low_values; // if there are
   std::vector<Vertex_index> m_ring;                       // memory
@@ -142,7 +144,7 @@ inline void Progressive_mesh_encoder::set_values()
 }
 
 // Residuals are the shorter way round if values have fewer than 32 bits.
-inline void Progressive_mesh_encoder::put_values(Vertex_index w, const Wedge_values& predicted)
+inline void Progressive_mesh_encoder::put_base_values(Vertex_index w, const Wedge_values& predicted)
 {
   for(int c = is_second(w) ? 3 : 0; c < m_header.number_of_values(); ++c) {
     const std::uint32_t mask = m_codec.mask(c), sign = (mask >> 1) + 1;
@@ -191,7 +193,7 @@ inline std::string Progressive_mesh_encoder::put_base()
   Wedge_values before = {};
   for(Vertex_index w = 0; w < m_header.base.wedges; ++w) {
     m_columns.pairs.push_back(is_second(w));
-    put_values(w, before);
+    put_base_values(w, before);
     before = m_values[w];
   }
   std::string bytes;
@@ -201,9 +203,27 @@ inline std::string Progressive_mesh_encoder::put_base()
   append_flags(bytes, m_columns.pairs);
   append_values(bytes);
   append_section(0, bytes);
+  m_coder.count_corners(triangles, m_header.base.wedges);
   if(m_rings.build(std::move(triangles), m_header.base.wedges) != Ring_defect::NONE)
     return "the coarsest mesh is not a manifold in which each wedge has its triangles";
   return {};
+}
+
+// Behind the splits of a section that begins with this wedge.
+inline Vertex_index Progressive_mesh_encoder::end_of_section(Vertex_index begin) const
+{
+  const Vertex_index wedges = m_header.fine.wedges;
+  const Vertex_index end = (std::min)(wedges, begin + splits_of_section(begin));
+  return end < wedges && is_second(end) ? end + 1 : end;
+}
+
+inline void Progressive_mesh_encoder::put_parents(Vertex_index begin, Vertex_index end)
+{
+  for(Vertex_index w = begin; w < end; ++w) {
+    Vertex_index t = parent(w);
+    bool second = is_second(w);
+    m_coder.code_parent(m_symbols, w, t, second);
+  }
 }
 
 inline std::string Progressive_mesh_encoder::put_split(Vertex_index w)
@@ -221,39 +241,19 @@ inline std::string Progressive_mesh_encoder::put_split(Vertex_index w)
     else
       return "the triangles are not in the order in which splits make them";
   }
-  const Ring_split split = m_rings.find_split(t, left, right, m_ring);
+  Ring_split split = m_rings.find_split(t, left, right, m_ring);
   if(split.parent == no_vertex)
     return "the split that makes wedge " + std::to_string(w) + " does not keep a manifold, or its "
            "parent has more than " + std::to_string(Corner_rings::max_walk) + " neighbours";
-  m_parents.advance_to(w);
-  const Parent_prediction::Code code = m_parents.code_of(t);
-  if(m_rings.is_border(t))
-    m_columns.kinds.push_back(std::uint32_t(split.kind));
-  m_columns.pairs.push_back(is_second(w));
-  m_columns.ranges.push_back(code.range);
-  m_columns.deltas.push_back(code.delta);
-  m_columns.skipped.push_back(split.skipped);
-  m_columns.moved.push_back(zigzag(split.moved - expected_moved));
-  Value_prediction<Wedge_values> prediction(m_values, t);
-  m_rings.split(split, prediction);
-  Wedge_values predicted;
-  prediction.store_mean(predicted);
-  put_values(w, predicted);
+  m_coder.code_ring(m_symbols, m_rings.is_border(t), split);
+  Split_ring ring;
+  Split_ring::Listing listing(ring);
+  m_rings.split(split, listing);
+  m_coder.code_values(m_symbols, split, ring, m_values.data(), is_second(w), m_values[w]);
+  m_coder.count_corners(split, ring);
+  if(m_codec.has_low())
+    code_low_words(m_symbols, m_header, is_second(w), m_low_values[w]);
   return {};
-}
-
-inline void Progressive_mesh_encoder::append_splits(std::uint32_t splits)
-{
-  std::string bytes;
-  append_flags(bytes, m_columns.pairs);
-  append_flags(bytes, m_columns.kinds);
-  append_column<Column_code::RICE>(bytes, m_columns.ranges);
-  append_column<Column_code::EXP_GOLOMB>(bytes, m_columns.deltas);
-  append_column<Column_code::RICE>(bytes, m_columns.skipped);
-  append_column<Column_code::RICE>(bytes, m_columns.moved);
-  append_values(bytes);
-  append_section(splits, bytes);
-  m_columns = Columns();
 }
 
 inline std::string Progressive_mesh_encoder::run()
@@ -265,26 +265,23 @@ inline std::string Progressive_mesh_encoder::run()
   m_rings.reserve(m_header.fine.wedges, m_header.fine.triangles);
   std::string error = put_base();
   m_rings.make_room(m_header.fine.wedges, m_header.fine.triangles);
-  m_columns = Columns();
-  m_parents = Parent_prediction(pm.batch_ends, m_header.base.wedges, m_header.fine.wedges);
-  std::uint32_t splits = 0;
+  m_coder.set_parents(Parent_prediction(pm.batch_ends, m_header.base.wedges, m_header.fine.wedges));
   const auto prefetch_values = [this](Vertex_index v) { Blocked_execution::prefetch(&m_values[v]); };
   Vertex_index w = m_header.base.wedges;
   const auto parent_of = [this, &w](std::size_t v) {
     const Vertex_index t = v < m_header.fine.wedges ? parent(Vertex_index(v)) : no_vertex;
     return t < w ? t : no_vertex;
   };
-  for(; w < m_header.fine.wedges && error.empty(); ++w) {
-    m_ahead.prefetch(m_rings, w, parent_of, prefetch_values);
-    error = put_split(w);
-    const bool is_last = w + 1 == m_header.fine.wedges;
-    if(++splits >= splits_per_section && (is_last || !is_second(w + 1))) {
-      append_splits(splits);
-      splits = 0;
+  while(w < m_header.fine.wedges && error.empty()) {
+    const Vertex_index begin = w, end = end_of_section(w);
+    put_parents(begin, end);
+    for(; w < end && error.empty(); ++w) {
+      m_ahead.prefetch(m_rings, w, parent_of, prefetch_values);
+      error = put_split(w);
     }
+    const std::uint32_t splits = end - begin;
+    append_section(splits, m_symbols.take_bytes(std::size_t(min_section_bytes(splits))));
   }
-  if(splits > 0)
-    append_splits(splits);
   if(error.empty() && m_rings.triangles() != pm.triangles)
     error = "the triangles are not turned as splits make them";
   return error;

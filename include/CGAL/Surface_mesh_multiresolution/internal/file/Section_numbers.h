@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_FILE_SECTION_NUMBERS_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_FILE_SECTION_NUMBERS_H
 
-#include <CGAL/Blocked_execution/memory.h>
+#include <CGAL/Blocked_execution/Uninitialized_vector.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/file/Code_column.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/file/Corner_lists.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/file/split_prediction.h>
@@ -18,7 +18,7 @@ namespace CGAL {
 namespace Surface_mesh_multiresolution {
 namespace internal {
 
-// The numbers of a section, read in loops that a processor can run ahead in. What is not sound in
+// The numbers of a section of version 1 or 2, and of the base of later ones, read in loops that a processor can run ahead in. What is not sound in
 // itself is refused; what they say of the mesh is for others to check.
 struct Section_numbers
 {

@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_FILE_BASE_SECTION_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_FILE_BASE_SECTION_H
 
-#include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
+#include <CGAL/Indexed_mesh/mesh_indices.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/file/Code_column.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/file/progressive_mesh_format.h>
 

@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_FILE_PROGRESSIVE_MESH_FORMAT_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_FILE_PROGRESSIVE_MESH_FORMAT_H
 
-#include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
+#include <CGAL/Surface_mesh_multiresolution/is_measurable.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/file/Code_column.h>
 
 #include <array>
@@ -24,11 +24,16 @@
 // one vertex.
 //   base       ends of batches (differences), corners of triangles (differences to the triangle
 //              before), pairs, values
+//   splits     symbols and plain bits, see Symbol_coder.h: the parents of all splits of the section,
+//              then of each the corners that it takes and the values, see Split_coder.h
+// Pairs: whether a wedge shares its vertex with the one before. Values: residuals of x, y, z of each
+// vertex and u, v of each wedge; for float64 five columns or numbers more with the lower halves.
+// Version 3 has a texture, version 4 has none: u and v are left out, and no wedge shares its vertex
+// with another.
+//
+// Versions 1, with texture, and 2 are read as well. Their splits are columns:
 //   splits     pairs, kinds, ranges and deltas of parents, corners skipped, corners moved, values
-// Pairs: whether a wedge shares its vertex with the one before. Kinds: of splits of border wedges.
-// Values: residuals of x, y, z of each vertex and u, v of each wedge; for float64 five columns more
-// with the lower halves. A file of version 2 has no texture: u and v are left out, and no wedge
-// shares its vertex with another.
+// Kinds: of splits of border wedges.
 
 namespace CGAL {
 namespace Surface_mesh_multiresolution {
@@ -77,18 +82,34 @@ inline std::uint32_t crc32(const char* data, std::size_t size, std::uint32_t bef
 // PNG's idea: bytes that no text has, and that a transfer as text changes.
 constexpr std::array<unsigned char, 8> file_magic = {0x89, 'P', 'M', 'S', '\r', '\n', 0x1A, '\n'};
 
-constexpr std::uint32_t version_with_texture = 1;
-constexpr std::uint32_t version_without_texture = 2;
+constexpr std::uint32_t oldest_version = 1, latest_version = 4;
+
+// Odd versions have a texture.
+constexpr bool has_texture_in(std::uint32_t version) { return version % 2 == 1; }
+// The later two have symbols where the first have columns.
+constexpr bool has_symbols_in(std::uint32_t version) { return version >= 3; }
+
 constexpr std::size_t file_header_size = 104;
 constexpr std::size_t section_header_size = 12;
 constexpr std::uint32_t splits_per_section = 4096;
 
+// The splits of the section that begins with so many wedges: a half more, so that the first picture
+// does not wait for much.
+constexpr std::uint32_t splits_of_section(std::uint32_t wedges)
+{
+  const std::uint32_t half = wedges / 2;
+  return half < 256 ? 256 : half < splits_per_section ? half : splits_per_section;
+}
+
 // Sections of splits are not larger: 16 numbers of at most 52 bits a split, one of them 57, and the
-// heads of the columns.
+// heads of the columns; symbols and plain bits are fewer.
 constexpr std::uint64_t max_section_bytes(std::uint32_t splits)
 {
   return 108 * std::uint64_t(splits) + 128;
 }
+
+// Nor are they smaller, if they have symbols: few bytes should not cost much memory.
+constexpr std::uint64_t min_section_bytes(std::uint32_t splits) { return splits / 8; }
 
 enum class Value_format : std::uint8_t { QUANTIZED, FLOAT32, FLOAT64 };
 
@@ -100,6 +121,7 @@ struct File_counts
 struct File_header
 {
   bool has_texture = true;
+  bool has_symbols = true; // or columns
   Value_format format = Value_format::QUANTIZED;
   int position_bits = 0, uv_bits = 0;  // if quantized
   File_counts fine = {}, base = {};
@@ -131,8 +153,7 @@ To bit_cast(const From& from)
 inline std::string bytes_of(const File_header& header)
 {
   std::string bytes(file_magic.begin(), file_magic.end());
-  append_little_endian(bytes, header.has_texture ? version_with_texture : version_without_texture,
-                       2);
+  append_little_endian(bytes, (header.has_symbols ? 3 : 1) + (header.has_texture ? 0 : 1), 2);
   append_little_endian(bytes, std::uint64_t(header.format), 2);
   append_little_endian(bytes, std::uint64_t(header.position_bits), 2);
   append_little_endian(bytes, std::uint64_t(header.uv_bits), 2);
@@ -184,7 +205,9 @@ inline File_header header_of(const char* bytes)
   File_header h;
   if(number(10, 2) > std::uint64_t(Value_format::FLOAT64) || number(96, 4) != 0)
     return h;
-  h.has_texture = number(8, 2) == version_with_texture;
+  const auto version = std::uint32_t(number(8, 2));
+  h.has_texture = has_texture_in(version);
+  h.has_symbols = has_symbols_in(version);
   h.format = Value_format(number(10, 2));
   h.position_bits = int(number(12, 2));
   h.uv_bits = int(number(14, 2));

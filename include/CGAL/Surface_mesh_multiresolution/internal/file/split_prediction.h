@@ -6,8 +6,8 @@
 
 // What the writer and the reader of progressive meshes expect of the next split.
 
-#include <CGAL/Blocked_execution/memory.h>
-#include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
+#include <CGAL/Blocked_execution/Uninitialized_vector.h>
+#include <CGAL/Indexed_mesh/mesh_indices.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/file/Code_column.h>
 
 #include <algorithm>
@@ -23,6 +23,8 @@ namespace internal {
 using Blocked_execution::Uninitialized_vector;
 
 // The parents of successive splits.
+//
+// In files of version 1 and 2, and where their order is not that of Split_coder.h.
 //
 // A pass of the batched decimation goes through the mesh in spatial order. So the wedges made in
 // one pass, a range of numbers, are sorted spatially, and the splits of each later pass sweep all
@@ -60,6 +62,9 @@ public:
       m_last = m_begin;
     }
   }
+
+  // The number of the range of the wedges that splits make now.
+  std::size_t present() const { return m_present; }
 
   Code code_of(Vertex_index parent)
   {

@@ -226,7 +226,8 @@ std::vector<Plane_point> Low_stretch_solver<Energy>::improve(std::vector<Plane_p
   level.keep_apart(m_levels.borders_of(finest));
   if(!std::isfinite(level.value()))
     return {};
-  m_misses_pins = !pull_pins(level, m_newton, m_levels.held());
+  m_misses_pins = !pull_pins(level, m_newton, m_levels.held(),
+                             [this](double part) { return goes_on(0.5 * part); });
   if(m_misses_pins)
     return {};
   descend(level, finest);
@@ -305,9 +306,12 @@ template <class Level_energy>
 bool Low_stretch_solver<Energy>::hold_pins(const Level_energy& energy, std::vector<Plane_point>& z)
 {
   constexpr int steps = 100;
+  constexpr std::size_t soon_done = 1000; // vertices, with which there is no need to give up
   const std::vector<Triangle_indices>& triangles = m_levels[0].mesh.triangles;
   const auto reference = m_levels.triangles_of(0);
   const std::vector<Held_vertex> held = m_levels.held_of(0);
+  const bool is_small = m_levels[0].vertices.size() < soon_done;
+  const auto goes_on_here = [&](double) { return goes_on(0.) || is_small; };
   Circle_map tutte(m_levels[0].mesh);
   const std::vector<Plane_point> border_map = tutte.run(held);
   Newton_steps newton;
@@ -324,13 +328,13 @@ bool Low_stretch_solver<Energy>::hold_pins(const Level_energy& energy, std::vect
         break;
     z = level.places();
     if(border_map.empty() && !m_levels.is_one_to_one()
-       && reach_pins(triangles, reference, energy, held, z))
+       && reach_pins(triangles, reference, energy, held, goes_on_here, z))
       return true;
     align(held, z);
   }
   Stretch_level<Level_energy> level(triangles, reference, std::move(z), m_levels.fixed_of(0), energy);
   level.keep_apart(m_levels.borders_of(0));
-  m_misses_pins = !std::isfinite(level.value()) || !pull_pins(level, newton, held);
+  m_misses_pins = !std::isfinite(level.value()) || !pull_pins(level, newton, held, goes_on_here);
   z = level.places();
   return !m_misses_pins;
 }

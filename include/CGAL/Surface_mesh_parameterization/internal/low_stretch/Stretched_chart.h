@@ -156,7 +156,10 @@ void Stretched_chart<Energy>::finish(std::vector<Plane_point> places, Low_stretc
   result.report.area = std::ldexp(result.report.area, 2 * m_exponent);
   result.report.borders = m_chart.borders.size();
   if(places.empty()) {
-    result.fail(Mesh_status::FAILED, m_solver.misses_pins()
+    const bool is_too_late = m_solver.misses_pins() && m_solver.report().is_cut_short;
+    result.fail(Mesh_status::FAILED, is_too_late
+      ? "the pins were not at their places yet when the time was over or the progress said stop"
+      : m_solver.misses_pins()
       ? std::string("no way was found to the places of the pins on which no triangle turns over")
           + (m_options.is_one_to_one ? " and no border meets another or itself" : "")
       : "rounding leaves no place for a vertex of the map");
@@ -315,8 +318,14 @@ Stretched_chart<Energy>::face_weights(const Triangles& faces, Low_stretch_map& r
 #ifdef CGAL_HLSCM_COMPILED
 #ifdef CGAL_HLSCM_SOURCE
 template class Stretched_chart<Symmetric_dirichlet_energy>;
+template class Stretched_chart<Mips_energy>;
+template class Stretched_chart<Area_weighted_mips_energy>;
+template class Stretched_chart<Barrier_energy<Arap_energy>>;
 #else
 extern template class Stretched_chart<Symmetric_dirichlet_energy>;
+extern template class Stretched_chart<Mips_energy>;
+extern template class Stretched_chart<Area_weighted_mips_energy>;
+extern template class Stretched_chart<Barrier_energy<Arap_energy>>;
 #endif
 #endif
 

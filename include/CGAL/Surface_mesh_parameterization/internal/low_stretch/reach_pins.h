@@ -53,14 +53,16 @@ inline bool are_there(const std::vector<Held_vertex>& held, const std::vector<Pl
 
 // Brings the held vertices of a map of any size to their places, by steps that turn no triangle over:
 // all others go along as the second derivative of the energy says, which takes a linear system a step.
-// Returns whether they arrived.
-template <class Energy>
-bool pull_pins(Stretch_level<Energy>& level, Newton_steps& newton, const std::vector<Held_vertex>& held)
+// Asks `goes_on(part done)` before each of them. Returns whether they arrived.
+template <class Energy, class Goes_on>
+bool pull_pins(Stretch_level<Energy>& level, Newton_steps& newton, const std::vector<Held_vertex>& held,
+               const Goes_on& goes_on)
 {
   constexpr int attempts = 60, steps = 3;
   constexpr std::size_t iterations = 20;
   constexpr double residual = 1e-3;
-  for(int i = 0; i < attempts && !are_there(held, level.places()); ++i) {
+  for(int i = 0; i < attempts && !are_there(held, level.places()) && goes_on(double(i) / attempts);
+      ++i) {
     const std::vector<Plane_point> ways = ways_to(held, level.places());
     double slope = 0.;
     const std::vector<Plane_point> direction
@@ -74,11 +76,12 @@ bool pull_pins(Stretch_level<Energy>& level, Newton_steps& newton, const std::ve
 }
 
 // Brings the held vertices of a small map to their places, by steps that turn no triangle over: they go
-// half as far as they can, and the others follow by Newton's method. Returns whether they arrived.
-template <class Energy, class Reference>
+// half as far as they can, and the others follow by Newton's method. Asks `goes_on(part done)` before each
+// of them. Returns whether they arrived.
+template <class Energy, class Reference, class Goes_on>
 bool reach_pins(const std::vector<Triangle_indices>& triangles, const Reference& reference,
                 const Energy& energy, const std::vector<Held_vertex>& held,
-                std::vector<Plane_point>& z)
+                const Goes_on& goes_on, std::vector<Plane_point>& z)
 {
   constexpr int attempts = 300, steps = 3;
   constexpr std::size_t iterations = 5;
@@ -92,7 +95,7 @@ bool reach_pins(const std::vector<Triangle_indices>& triangles, const Reference&
     return false;
   Newton_steps newton;
   newton.add_level(nullptr);
-  for(int i = 0; i < attempts; ++i) {
+  for(int i = 0; i < attempts && goes_on(double(i) / attempts); ++i) {
     if(level.move_towards(held, ways_to(held, level.places()))) {
       z = level.places();
       return true;

@@ -31,8 +31,8 @@ struct Flip_patch
 
 // The vertices within `rings` edges of the corners of the faces, ascending.
 // `for_each_neighbor(v, use)` calls use(w) for the neighbours w of v, and maybe for v.
-template <class ForEachNeighbor>
-std::vector<std::uint32_t> vertices_around(const std::vector<Indexed_mesh::Triangle_indices>& triangles,
+template <class Triangles, class ForEachNeighbor>
+std::vector<std::uint32_t> vertices_around(const Triangles& triangles,
                                            const std::vector<std::uint32_t>& faces, int rings,
                                            const ForEachNeighbor& for_each_neighbor)
 {
@@ -135,11 +135,10 @@ Flip_patch_finder::patches_around(const std::vector<std::uint32_t>& faces, int r
   return patches;
 }
 
-// The faces whose images do not have a positive area.
-inline std::vector<std::uint32_t>
-faces_without_positive_area(
-  const std::vector<Indexed_mesh::Triangle_indices>& triangles,
-  const std::vector<std::complex<double>>& z)
+// The faces whose images do not have a positive area. Here and below, matrix, triangles and map may
+// be in memory or in files.
+template <class Triangles, class Map>
+std::vector<std::uint32_t> faces_without_positive_area(const Triangles& triangles, const Map& z)
 {
   constexpr std::size_t block = 16384;
   std::vector<std::vector<std::uint32_t>> found(
@@ -160,9 +159,9 @@ faces_without_positive_area(
 }
 
 // The free vertices within `rings` edges of the faces, ascending.
-inline std::vector<std::uint32_t>
-free_vertices_around(const Multigrid::Hermitian_matrix<double>& h,
-                     const std::vector<Indexed_mesh::Triangle_indices>& triangles,
+template <class Matrix, class Triangles>
+std::vector<std::uint32_t>
+free_vertices_around(const Matrix& h, const Triangles& triangles,
                      const std::vector<std::uint32_t>& faces, int rings)
 {
   std::vector<std::uint32_t> result
@@ -178,9 +177,8 @@ free_vertices_around(const Multigrid::Hermitian_matrix<double>& h,
 
 // Moves the vertices of a patch to the minimum of the energy for which all others stay. The patch
 // is ascending and has no pins.
-inline void minimize_on_patch(const Multigrid::Hermitian_matrix<double>& h,
-                              const std::vector<std::uint32_t>& patch,
-                              std::vector<std::complex<double>>& z)
+template <class Matrix, class Map>
+void minimize_on_patch(const Matrix& h, const std::vector<std::uint32_t>& patch, Map& z)
 {
   typedef std::complex<double> Complex;
   const auto use_inner_entries = [&](std::uint32_t i, const auto& use) {
@@ -217,10 +215,8 @@ inline void minimize_on_patch(const Multigrid::Hermitian_matrix<double>& h,
 // gap of the energy may leave single small faces flipped that are not flipped at the minimum, since
 // the energy hardly sees them. Faces that are flipped at the minimum stay so; for those the patches
 // grow as long as all of them together remain small.
-inline void relax_flipped_faces(
-  const Multigrid::Hermitian_matrix<double>& h,
-  const std::vector<Indexed_mesh::Triangle_indices>& triangles,
-  std::vector<std::complex<double>>& z)
+template <class Matrix, class Triangles, class Map>
+void relax_flipped_faces(const Matrix& h, const Triangles& triangles, Map& z)
 {
   constexpr std::size_t largest = 8000; // vertices: some hundredths of a second
   for(const int rings : {3, 6, 12, 24}) {

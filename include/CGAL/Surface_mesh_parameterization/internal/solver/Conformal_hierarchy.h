@@ -52,6 +52,8 @@ public:
     m_levels = std::move(levels);
     m_metric = std::move(metric);
   }
+  // Half the cotangents of the finest triangles, in the place of a metric; for the next operators.
+  void set_cotangents(Half_cotangents cotangents) { m_cotangents = std::move(cotangents); }
   std::vector<Level>& levels() { return m_levels; }
   const std::vector<Level>& levels() const { return m_levels; }
   std::size_t number_of_levels() const { return m_levels.size(); }
@@ -127,6 +129,11 @@ public:
                         const Multigrid::Schedule& schedule, const Multigrid::Energy_stop& stop,
                         const Observe& observe, Vector& z);
 
+  // Sets x to the result of one cycle on the right-hand side r of level l.
+  template <class Real>
+  void precondition(std::size_t l, const Multigrid::Schedule& schedule,
+                    const Multigrid::Complex_vector<Real>& r, Multigrid::Complex_vector<Real>& x);
+
 private:
   typedef Multigrid::Multigrid_levels<Surface_mesh_multiresolution::Prolongation, Coarsest_solver>
     Cycle;
@@ -145,13 +152,11 @@ private:
   template <class Use>
   void with_operator(std::size_t l, const Use& use);
   void update_cycle(std::size_t l, Vertex_index v, const Multigrid::Matrix_row& row);
-  template <class Real>
-  void precondition(std::size_t l, const Multigrid::Schedule& schedule,
-                    const Multigrid::Complex_vector<Real>& r, Multigrid::Complex_vector<Real>& x);
 
   Coarsest_solver m_solver;
   std::vector<Level> m_levels;
   std::vector<Indexed_mesh::Space_tensor> m_metric;
+  Half_cotangents m_cotangents; // if they were given, until they are used
   std::vector<Conformal_operator<float>> m_single;     // of the levels between; of all for a cycle
   Conformal_operator<double> m_coarsest, m_finest;     // those at the ends
   std::unique_ptr<Cycle> m_cycle;
@@ -179,7 +184,8 @@ void Conformal_hierarchy::build_operators(std::vector<double> triangle_weights,
     return Triangles_at_vertices(m_levels[l].mesh.triangles, m_levels[l].vertices.size());
   };
   Triangles_at_vertices at = corners(count - 1);
-  Half_cotangents cot(m_levels.back().mesh, m_metric);
+  Half_cotangents cot = m_cotangents.value.empty() ? Half_cotangents(m_levels.back().mesh, m_metric)
+                                                   : std::move(m_cotangents);
   for(std::size_t l = count; l-- > 0;) {
     Level& level = m_levels[l];
     const auto assemble = [&](auto& op) {

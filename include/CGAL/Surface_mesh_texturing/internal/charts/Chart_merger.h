@@ -43,8 +43,8 @@ public:
 
   // Merges keep within `bound`, and leave `least` charts in each component.
   Chart_merger(const Growth_surface& surface, const std::vector<std::uint8_t>& is_feature,
-               const Distortion_bound& bound, double least_fill, std::size_t least)
-    : m_surface(surface), m_bound(bound), m_least_fill(least_fill)
+               const Distortion_bound& bound, bool may_stretch, double least_fill, std::size_t least)
+    : m_surface(surface), m_bound(bound), m_may_stretch(may_stretch), m_least_fill(least_fill)
     , m_least(least), m_finder(surface, is_feature), m_cutter(surface.mesh, surface.adjacency)
     , m_is_opened(3 * surface.size(), 0)
   {
@@ -124,6 +124,7 @@ private:
 
   const Growth_surface& m_surface;
   Distortion_bound m_bound;
+  bool m_may_stretch;
   double m_least_fill;
   std::size_t m_least;
   Union_finder m_finder;
@@ -226,7 +227,7 @@ inline void Chart_merger::try_arcs(const Chart_state& state, const Some_candidat
     set_opened(candidate, 0);
   }
   Blocked_execution::blocked_for(items.size(), 1, [&](std::size_t i, std::size_t) {
-    items[i].candidate->trial = try_map(items[i].chart);
+    items[i].candidate->trial = try_map(items[i].chart, m_bound, m_may_stretch);
   });
   for(const Item& item : items) {
     m_known.emplace(item.key, item.candidate->trial);

@@ -89,6 +89,7 @@ struct Search_options
   double feature_angle = 0.5; // radians
   double least_fill = 0.65;
   std::size_t patch_size = 25;
+  bool may_stretch = false;
   double effort = 150.;
   std::function<bool()> is_enough;
   std::function<bool(double)> progress;
@@ -108,7 +109,8 @@ public:
   Chart_search(const Growth_surface& surface, const Search_options& options)
     : m_surface(surface), m_options(options)
     , m_is_feature(feature_edges(surface, options.feature_angle))
-    , m_merger(surface, m_is_feature, options.bound, options.least_fill, options.least_charts)
+    , m_merger(surface, m_is_feature, options.bound, options.may_stretch, options.least_fill,
+               options.least_charts)
     , m_most_work(options.effort * double(surface.size() + small_size))
   {
     m_merger.set_progress([this] { return tell_progress() && !is_enough(); });

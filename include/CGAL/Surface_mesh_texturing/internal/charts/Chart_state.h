@@ -10,6 +10,7 @@
 #include <CGAL/Surface_mesh_texturing/Chart_distortion.h>
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/Growth_surface.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/stretch_map.h>
 #include <CGAL/Surface_mesh_texturing/internal/seams/Seam_graph.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -35,6 +36,11 @@ struct Trial_map
   bool is_disk = false;       // and has been mapped
   bool is_one_to_one = false; // no flipped triangle, and the border does not meet itself
   double fill = 0.;           // the part of its convex hull that the chart fills in the plane
+
+  bool is_within(const Distortion_bound& bound) const
+  {
+    return is_disk && is_one_to_one && distortion.is_within(bound);
+  }
 };
 
 inline double hull_area(const std::vector<Border_edge>& border, const std::vector<Trial_uv>& uv)
@@ -52,26 +58,39 @@ inline double hull_area(const std::vector<Border_edge>& border, const std::vecto
   return 0.5 * twice;
 }
 
-// Maps the chart, if it is a disk, as the whole chart will be mapped later.
-inline Trial_map try_map(const Chart_mesh& chart)
+// What this map of a chart that is a disk is like.
+inline Trial_map judge_map(const Chart_mesh& chart, const std::vector<Border_edge>& border,
+                           const std::vector<Trial_uv>& uv)
 {
   namespace SMP = Surface_mesh_parameterization;
   Trial_map result;
-  const SMP::Border_first_map map = SMP::border_first_map(chart.mesh);
-  result.is_disk = map.is_ok();
-  if(!result.is_disk)
-    return result;
-  const std::vector<Border_edge> border = chart.border_edges();
-  result.distortion = measure_chart_distortion(chart.mesh, map.uv);
+  result.is_disk = true;
+  result.distortion = measure_chart_distortion(chart.mesh, uv);
   result.is_one_to_one
     = result.distortion.flipped_faces == 0 && result.distortion.degenerate_faces == 0;
   if(result.is_one_to_one)
-    SMP::visit_crossing_edges(border, map.uv, [&result](const Border_edge&, const Border_edge&) {
+    SMP::visit_crossing_edges(border, uv, [&result](const Border_edge&, const Border_edge&) {
       return result.is_one_to_one = false;
     });
-  const double hull = hull_area(border, map.uv);
+  const double hull = hull_area(border, uv);
   result.fill = hull > 0. ? result.distortion.uv_area / hull : 0.;
   return result;
+}
+
+// Maps the chart, if it is a disk, as the whole chart will be mapped later: conformally, or, if it may be, with
+// little stretch where only then it is within the bound.
+inline Trial_map try_map(const Chart_mesh& chart, const Distortion_bound& bound, bool may_stretch)
+{
+  const auto map = Surface_mesh_parameterization::border_first_map(chart.mesh);
+  if(!map.is_ok())
+    return {};
+  const std::vector<Border_edge> border = chart.border_edges();
+  const Trial_map conformal = judge_map(chart, border, map.uv);
+  if(!may_stretch || !is_worth_stretching(conformal.distortion, bound))
+    return conformal;
+  const std::vector<Trial_uv> uv = stretch_map(chart.mesh);
+  const Trial_map stretched = uv.empty() ? Trial_map() : judge_map(chart, border, uv);
+  return stretched.is_within(bound) ? stretched : conformal;
 }
 
 // A chart, or nothing if it has no triangles.

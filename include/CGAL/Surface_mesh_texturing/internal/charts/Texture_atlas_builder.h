@@ -11,6 +11,7 @@
 #include <CGAL/Surface_mesh_texturing/internal/charts/adapt_chart.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/map_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/filling/Filled_packing.h>
+#include <CGAL/Surface_mesh_texturing/internal/filling/page_sets.h>
 #include <CGAL/Surface_mesh_texturing/internal/mapped_charts/align_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/mapped_charts/scale_by_density.h>
 
@@ -26,17 +27,6 @@
 namespace CGAL {
 namespace Surface_mesh_texturing {
 namespace internal {
-
-// The charts whose triangles these are, with all seams between wedges.
-inline Face_charts charts_of_maps(const Triangle_adjacency& adjacency,
-                                  const std::vector<Mapped_chart>& maps)
-{
-  std::vector<std::uint8_t> seams(adjacency.number_of_halfedges() / 3);
-  for(const Mapped_chart& map : maps)
-    for(const Halfedge h : map.chart.border)
-      mark(seams, 3 * map.chart.triangles[triangle_of(h)] + corner_of(h));
-  return charts_between(adjacency, std::move(seams));
-}
 
 // Measures the whole atlas, in texels.
 inline void measure_atlas(const Texture_atlas& atlas, Texture_atlas_report& report)
@@ -64,11 +54,6 @@ inline void measure_atlas(const Texture_atlas& atlas, Texture_atlas_report& repo
   report.utilisation = area / (width * height * double(atlas.number_of_pages));
 }
 
-// Builds an atlas by these models.
-CGAL_HLSCM_INLINE Texture_atlas_result build_atlas(const Indexed_triangle_mesh& mesh,
-                                                   const Texture_atlas_options& options,
-                                                   const Atlas_models& models);
-
 #ifdef CGAL_HLSCM_DEFINITIONS
 
 // The steps of `build_texture_atlas()`.
@@ -89,6 +74,18 @@ public:
     return std::move(m_result);
   }
 
+  // What comes first of it.
+  Segmentation_result charts()
+  {
+    Segmentation_result result;
+    if(check())
+      segment();
+    result.fail(m_result);
+    result.charts = std::move(m_charts);
+    result.stopped_early = m_was_over;
+    return result;
+  }
+
 private:
   bool check();
   bool segment();
@@ -98,7 +95,8 @@ private:
   bool take_maps();
   Chart_mapping chart_mapping(const Distortion_bound& bound) const // of any mesh
   {
-    return {m_models.parameterize, bound, m_models.is_bounded, m_options.least_fill,
+    return {m_models.parameterize, bound, m_models.is_bounded,
+            m_models.is_bounded && m_options.may_stretch, m_options.least_fill,
             m_options.coarse_faces, {}, [this] { return is_over(); }};
   }
   void map_charts_within(const Distortion_bound& bound, double begin, double end);
@@ -137,6 +135,7 @@ private:
   Face_charts m_charts;
   std::vector<Mapped_chart> m_maps;
   Packing_result m_packing;
+  std::size_t m_page_height = 0; // in texels
   Texture_atlas_result m_result;
   Blocked_execution::Stopwatch m_watch;
   mutable std::atomic<bool> m_was_over{false};
@@ -153,6 +152,10 @@ inline bool Texture_atlas_builder::check()
     if(!std::isfinite(density[t]) || density[t] < 0.f)
       m_result.fail(Mesh_status::BAD_OPTIONS, "the density of triangle " + std::to_string(t)
                                                 + " is not a finite number from 0 on");
+  if(!m_options.page_set.empty() && m_options.page_set.size() != m_mesh.triangles.size())
+    m_result.fail(Mesh_status::BAD_OPTIONS,
+                  "there are sets of pages for " + std::to_string(m_options.page_set.size()) + " of "
+                    + std::to_string(m_mesh.triangles.size()) + " triangles");
   m_result.fail(Mesh_status::BAD_OPTIONS, Indexed_mesh::metric_error(m_mesh, m_options.metric));
   if(!m_options.no_seams.empty())
     m_result.fail(foreign_seams_error(m_mesh, m_options.no_seams));
@@ -160,6 +163,8 @@ inline bool Texture_atlas_builder::check()
     m_result.fail(Mesh_status::BAD_OPTIONS, "the price of seams is not a number from 0 on");
   if(!(m_options.min_used >= 0. && m_options.min_used < 1.))
     m_result.fail(Mesh_status::BAD_OPTIONS, "the part of the pages to use is not in [0, 1)");
+  if(!(m_options.largest_aspect >= 1.))
+    m_result.fail(Mesh_status::BAD_OPTIONS, "the largest aspect of pages is not a number from 1 on");
   if(!std::isfinite(m_options.seconds) || m_options.seconds < 0.)
     m_result.fail(Mesh_status::BAD_OPTIONS, "the limit of time is not a finite number from 0 on");
   if(m_result.is_ok() && !m_models.is_own)
@@ -285,16 +290,26 @@ inline bool Texture_atlas_builder::pack()
   Chart_mapping mapping = chart_mapping(m_options.bound);
   mapping.no_seams = m_options.no_seams;
   mapping.is_bounded = m_options.metric.empty();
+  m_page_height = packing.height
+    = best_page_height(m_options.largest_aspect, packing, mapping, m_maps);
   const Filled_packing::Pack pack_shapes
     = [&](const std::vector<Chart_shape>& shapes) {
         Packing_result result = m_models.pack(shapes, packing);
         left *= 0.5;
         return result;
       };
-  Filled_packing filled(m_options, mapping, pack_shapes, m_maps);
-  m_packing = filled.run(m_models.is_bounded);
-  m_result.report.page_cuts = filled.number_of_cuts();
-  m_result.fail(m_packing);
+  std::vector<std::vector<Mapped_chart>> sets
+    = sets_of_pages(m_options.page_set, std::move(m_maps));
+  m_maps.clear();
+  for(std::size_t i = 0; i < sets.size() && m_result.is_ok(); ++i) {
+    Filled_packing filled(m_options, packing, mapping, pack_shapes, sets[i]);
+    Packing_result packed = filled.run(m_models.is_bounded);
+    m_result.report.page_cuts += filled.number_of_cuts();
+    if(!m_result.fail(packed))
+      add_pages(std::move(sets[i]), std::move(packed), m_maps, m_packing);
+  }
+  if(m_result.is_ok())
+    sort_by_first_triangle(m_maps, m_packing.placements);
   m_result.report.seconds_pack = watch.seconds();
   return m_result.is_ok() && proceed(1., 1., 1.);
 }
@@ -304,7 +319,7 @@ inline void Texture_atlas_builder::fill()
   Texture_atlas& atlas = m_result.atlas;
   Texture_atlas_report& report = m_result.report;
   atlas.width = m_options.packing.width;
-  atlas.height = m_options.packing.height;
+  atlas.height = m_page_height;
   atlas.number_of_pages = m_packing.pages;
   atlas.mesh.points = m_mesh.points;
   atlas.mesh.triangles = m_mesh.triangles;
@@ -332,50 +347,6 @@ inline void Texture_atlas_builder::fill()
   report.seam_length = report.seams.length;
   report.texels = measure_texels(atlas.mesh, atlas.charts, atlas.width, atlas.height);
   measure_atlas(atlas, report);
-}
-
-// The power of two that is about the extent of the mesh if that is so small or large that squares of
-// squares of lengths may not exist; else 1.
-inline double unit_of_length(const Indexed_triangle_mesh& mesh)
-{
-  constexpr int usual = 40; // powers of two
-  if(mesh.points.empty())
-    return 1.;
-  const double extent = Indexed_mesh::longest_side(Indexed_mesh::bounding_box(mesh.points));
-  if(!(extent > 0.) || !std::isfinite(extent) || std::abs(std::ilogb(extent)) <= usual)
-    return 1.;
-  return std::ldexp(1., (std::max)(std::ilogb(extent), -1022));
-}
-
-// The report in a unit of length that is `unit` times as small.
-inline void scale_lengths(double unit, Texture_atlas_report& report)
-{
-  report.seam_length *= unit;
-  report.texels_per_unit /= unit;
-  for(Chart_report& chart : report.charts) {
-    chart.border_length *= unit;
-    chart.distortion.area *= unit * unit;
-    chart.distortion.uv_area *= unit * unit;
-  }
-}
-
-CGAL_HLSCM_INLINE Texture_atlas_result build_atlas(const Indexed_triangle_mesh& mesh,
-                                                   const Texture_atlas_options& options,
-                                                   const Atlas_models& models)
-{
-  const double unit = unit_of_length(mesh);
-  if(unit == 1.)
-    return Texture_atlas_builder(mesh, options, models).run();
-  Indexed_triangle_mesh scaled = mesh;
-  for(auto& p : scaled.points) // exactly
-    p = Indexed_triangle_mesh::Point_3(p.x() / unit, p.y() / unit, p.z() / unit);
-  Texture_atlas_options of_scaled = options;
-  of_scaled.packing.texels_per_unit *= unit;
-  Texture_atlas_result result = Texture_atlas_builder(scaled, of_scaled, models).run();
-  if(result.is_ok())
-    result.atlas.mesh.points = mesh.points;
-  scale_lengths(unit, result.report);
-  return result;
 }
 
 #endif // CGAL_HLSCM_DEFINITIONS

@@ -30,6 +30,7 @@ struct Chart_mapping
   std::function<std::vector<Point_2>(const Indexed_triangle_mesh&)> parameterize;
   Distortion_bound bound;
   bool is_bounded = true; // if not, charts beyond the bound are not cut for that
+  bool may_stretch = false; // charts beyond the bound on areas
   double least_fill = 0.75;
   std::size_t coarse_faces = 4000;
   std::vector<std::uint8_t> no_seams = {}; // of the whole mesh; see Texture_atlas_options
@@ -163,6 +164,15 @@ inline Mapped_chart map_chart(Chart_mesh chart, const Chart_mapping& mapping)
   const auto is_allowed = [&mapping](const Chart_distortion& distortion) {
     return !mapping.is_bounded || distortion.is_within(mapping.bound) || !mapping.has_time();
   };
+  if(mapping.may_stretch && is_worth_stretching(result.report.distortion, mapping.bound)) {
+    const std::vector<Point_2> uv = stretch_map(mesh);
+    const Chart_distortion distortion
+      = uv.empty() ? result.report.distortion : measure_chart_distortion(mesh, uv);
+    if(distortion.is_within(mapping.bound)) {
+      result.uv = uv;
+      result.report.distortion = distortion;
+    }
+  }
   if(!scale_to_surface(result.report.distortion, result.uv)
      || !is_allowed(result.report.distortion))
     return result;
@@ -248,6 +258,7 @@ inline std::vector<Chart_mesh> cut_again(const Mapped_chart& mapped,
   growth.bound.area_scale = (std::max)(1.1, margin * mapping.bound.area_scale);
   growth.least_charts = 2;
   growth.least_fill = mapping.least_fill;
+  growth.may_stretch = mapping.may_stretch;
   growth.effort = effort;
   growth.is_enough = mapping.is_over;
   Segmentation_options segmentation;
@@ -299,6 +310,17 @@ inline std::vector<Mapped_chart> map_charts(std::vector<Chart_mesh> charts,
     return a.chart.triangles.front() < b.chart.triangles.front();
   });
   return done;
+}
+
+// The charts whose triangles these are, with all seams between wedges.
+inline Face_charts charts_of_maps(const Triangle_adjacency& adjacency,
+                                  const std::vector<Mapped_chart>& maps)
+{
+  std::vector<std::uint8_t> seams(adjacency.number_of_halfedges() / 3);
+  for(const Mapped_chart& map : maps)
+    for(const Halfedge h : map.chart.border)
+      mark(seams, 3 * map.chart.triangles[triangle_of(h)] + corner_of(h));
+  return charts_between(adjacency, std::move(seams));
 }
 
 } // namespace internal

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -25,22 +24,19 @@ public:
   typedef std::function<Packing_result(const std::vector<Chart_shape>&)> Pack;
 
   // All of these must outlive this.
-  Filled_packing(const Texture_atlas_options& options, const Chart_mapping& mapping,
-                 const Pack& pack, std::vector<Mapped_chart>& charts)
-    : m_options(options), m_mapping(mapping), m_pack(pack), m_charts(charts)
+  Filled_packing(const Texture_atlas_options& options, const Packing_options& pages,
+                 const Chart_mapping& mapping, const Pack& pack, std::vector<Mapped_chart>& charts)
+    : m_options(options), m_pages(pages), m_mapping(mapping), m_pack(pack), m_charts(charts)
   {}
 
-  // The charts are then in the order of their first triangles.
   Packing_result run(bool may_cut)
   {
     constexpr std::size_t most_charts = 200; // with more there is dust for all gaps
-    if(may_cut && m_charts.size() <= most_charts && m_options.packing.texels_per_unit == 0.
+    if(may_cut && m_charts.size() <= most_charts && m_pages.texels_per_unit == 0.
        && (std::isfinite(m_options.seam_price) || m_options.min_used > 0.))
       cut_and_pack();
     else
       m_packing = pack();
-    if(m_packing.is_ok())
-      sort_charts();
     return std::move(m_packing);
   }
 
@@ -60,7 +56,7 @@ private:
     constexpr std::size_t most_cuts = 16;
     constexpr double least_gain = 0.005, all = 1.;
     constexpr double safe = 0.08; // gains that are not lost to what the estimate does not know
-    Page_filler filler(m_charts, m_options.packing, m_mapping);
+    Page_filler filler(m_charts, m_pages, m_mapping);
     if(std::isfinite(m_options.seam_price)) {
       const double used = filler.used();
       std::vector<Mapped_chart> whole = m_charts;
@@ -77,7 +73,7 @@ private:
     if(m_number_of_cuts > 0) {
       cut_until_used(filler);
     } else { // the charts are not those of the filler any more
-      Page_filler anew(m_charts, m_options.packing, m_mapping);
+      Page_filler anew(m_charts, m_pages, m_mapping);
       cut_until_used(anew);
     }
   }
@@ -125,24 +121,8 @@ private:
     m_charts = std::move(best);
   }
 
-  void sort_charts()
-  {
-    std::vector<std::size_t> order(m_charts.size());
-    std::iota(order.begin(), order.end(), std::size_t(0));
-    std::sort(order.begin(), order.end(), [this](std::size_t i, std::size_t j) {
-      return m_charts[i].chart.triangles.front() < m_charts[j].chart.triangles.front();
-    });
-    std::vector<Mapped_chart> charts;
-    std::vector<Chart_placement> placements;
-    for(const std::size_t i : order) {
-      charts.push_back(std::move(m_charts[i]));
-      placements.push_back(m_packing.placements[i]);
-    }
-    m_charts = std::move(charts);
-    m_packing.placements = std::move(placements);
-  }
-
   const Texture_atlas_options& m_options;
+  const Packing_options& m_pages;
   const Chart_mapping& m_mapping;
   const Pack& m_pack;
   std::vector<Mapped_chart>& m_charts;

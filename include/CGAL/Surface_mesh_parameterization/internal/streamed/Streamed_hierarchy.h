@@ -1,0 +1,373 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_STREAMED_STREAMED_HIERARCHY_H
+#define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_STREAMED_STREAMED_HIERARCHY_H
+
+#include <CGAL/Blocked_execution/Progress.h>
+#include <CGAL/Surface_mesh_parameterization/Very_large_chart_options.h>
+#include <CGAL/Surface_mesh_parameterization/internal/streamed/Finished_levels.h>
+#include <CGAL/Surface_mesh_parameterization/internal/streamed/Gathered_hierarchy.h>
+#include <CGAL/Surface_mesh_parameterization/internal/streamed/Ply_chart.h>
+#include <CGAL/Surface_mesh_parameterization/internal/streamed/border_pins.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
+namespace CGAL {
+namespace Surface_mesh_parameterization {
+namespace internal {
+
+// Gives what blocks had back to the system: the heap would keep what was freed in pieces.
+inline void give_memory_back()
+{
+#if defined(__GLIBC__)
+  malloc_trim(0);
+#endif
+}
+
+// The levels of a chart in files, and what is in memory below them. A level that was finished by an
+// earlier run is taken as it is.
+//
+//     sort the input  ->  decimate blocks  ->  sort what is left  ->  ...  ->  gather
+//        "mesh0"             "level0"            "mesh1"
+class Streamed_hierarchy
+{
+public:
+  Streamed_hierarchy(const std::string& input, const Very_large_chart_options& options,
+                     Very_large_chart_report& report)
+    : m_options(options), m_report(report), m_input(input)
+    , m_folder(options.work_folder, identity_of(input), options.resumes), m_finished(m_folder)
+  {
+    m_report.solver.method = "hlscm";
+    m_report.solver.faces = m_input.number_of_triangles();
+    m_report.solver.vertices = m_input.number_of_used();
+  }
+
+  // Builds all levels.
+  void build();
+
+  const Ply_records& input() const { return m_input.records(); }
+  Work_folder& folder() { return m_folder; }
+  std::vector<Streamed_level>& levels() { return m_levels; } // the coarsest first
+  Gathered_hierarchy& gathered() { return *m_gathered; }
+  std::size_t bytes_of_gathered() const { return bytes_of_vertex * m_gathered->size(); }
+  const Pins& pins() const { return m_state.pins; } // of the coarsest of all
+  const Mapped_array<Streamed_mesh::Triangle_indices>& triangles() const { return m_triangles; }
+  const Mapped_array<std::uint32_t>& rank() const { return m_rank; } // of the input's vertices
+
+  // Tells how much is done; returns whether the work goes on.
+  bool tell(double part)
+  {
+    m_is_cancelled = m_is_cancelled || (m_options.solver.progress && !m_options.solver.progress(part));
+    return !m_is_cancelled;
+  }
+
+  // Takes note of how much room the files take.
+  void measure_files()
+  {
+    m_report.bytes_of_files = (std::max)(m_report.bytes_of_files, m_folder.bytes());
+  }
+
+private:
+  void check_whether_to_go_on(double part)
+  {
+    if(!tell(part))
+      throw Streaming_failure(Streaming_failure::CANCELLED, "cancelled");
+  }
+
+  // Levels in memory need so many bytes a vertex of the finest of them, blocks 500. They are not there
+  // at the same time, but vectors of the levels in files are.
+  static constexpr std::size_t bytes_of_vertex = 650;
+  // Of smaller blocks nearly all vertices are at others, and stay.
+  static constexpr std::size_t least_in_block = 200;
+
+  std::size_t most_gathered() const
+  {
+    const std::size_t most = m_options.gathered_vertices;
+    return (std::max)(std::size_t(4), most > 0 ? most : m_options.memory / (2 * bytes_of_vertex));
+  }
+  std::size_t most_in_block() const
+  {
+    const std::size_t most = m_options.block_vertices;
+    return (std::max)(least_in_block, most > 0 ? most : m_options.memory / 1000);
+  }
+  std::size_t block_size_for(std::size_t vertices) const
+  {
+    if(vertices <= most_gathered())
+      return vertices;
+    const std::size_t blocks = Blocked_execution::number_of_blocks(vertices, most_in_block());
+    return (vertices + blocks - 1) / blocks;
+  }
+
+  std::string identity_of(const std::string& input) const;
+  Streamed_mesh sort_input();
+  Streamed_mesh sort_coarse(std::size_t k, const Streamed_mesh& fine, Decimated_level& level);
+  void normalize(Streamed_mesh& mesh);
+  void decimate(std::size_t k, Streamed_mesh& mesh, Decimated_level& coarse);
+  void keep_for_output(Streamed_mesh& mesh);
+  void gather(std::size_t k, Streamed_mesh& mesh);
+  void complete_report();
+
+  const Very_large_chart_options& m_options;
+  Very_large_chart_report& m_report;
+  bool m_is_cancelled = false;
+  Ply_chart m_input;
+  Work_folder m_folder;
+  Finished_levels m_finished;
+  Run_state m_state;    // of the level that is being worked on
+  std::vector<Streamed_level> m_levels;
+  std::unique_ptr<Gathered_hierarchy> m_gathered;
+  Mapped_array<Streamed_mesh::Triangle_indices> m_triangles;
+  Mapped_array<std::uint32_t> m_rank;
+};
+
+inline std::string Streamed_hierarchy::identity_of(const std::string& input) const
+{
+  std::error_code ignored;
+  std::ostringstream text;
+  text.precision(17);
+  text << std::filesystem::file_size(input, ignored) << ' '
+       << std::filesystem::last_write_time(input, ignored).time_since_epoch().count() << ' '
+       << most_gathered() << ' ' << most_in_block() << ' ' << m_options.solver.level_ratio << ' '
+       << m_options.solver.angular_defect_bound;
+  return text.str();
+}
+
+inline void Streamed_hierarchy::build()
+{
+  Blocked_execution::Stopwatch watch;
+  HLSCM_report& times = m_report.solver;
+  Streamed_mesh mesh;
+  std::size_t k = 0;
+  for(; m_finished.has_mesh(k + 1); ++k) {
+    m_levels.push_back(m_finished.open_level(k, m_state));
+    ++m_report.finished_before;
+    if(k == 0) {
+      m_finished.open("mesh0", "rank", m_rank);
+      m_finished.open("mesh0", "triangles", m_triangles);
+    }
+  }
+  mesh = m_finished.has_mesh(k) ? m_finished.open_mesh(k, m_state) : sort_input();
+  m_report.seconds_sort += watch.lap();
+  for(; mesh.number_of_vertices() > most_gathered(); ++k) {
+    Decimated_level coarse;
+    if(m_finished.has_level(k)) {
+      m_levels.push_back(m_finished.open_level(k, m_state));
+      coarse = m_finished.open_decimated(k);
+      ++m_report.finished_before;
+    } else
+      decimate(k, mesh, coarse);
+    times.seconds_hierarchy += watch.lap();
+    if(k == 0)
+      keep_for_output(mesh);
+    mesh = sort_coarse(k + 1, mesh, coarse);
+    m_report.seconds_sort += watch.lap();
+    if(10 * mesh.number_of_vertices() > 9 * m_levels.back().size())
+      refuse("the surface cannot be decimated to what the memory holds, since too few vertices can "
+             "be removed; does it have very many components?", ERROR_NO_TOPOLOGICAL_DISC);
+  }
+  if(k == 0)
+    keep_for_output(mesh);
+  gather(k, mesh);
+  times.seconds_operators += watch.lap();
+  std::reverse(m_levels.begin(), m_levels.end());
+  complete_report();
+}
+
+inline void Streamed_hierarchy::keep_for_output(Streamed_mesh& mesh)
+{
+  m_rank = std::move(mesh.rank);
+  m_triangles = std::move(mesh.triangles);
+}
+
+inline Streamed_mesh Streamed_hierarchy::sort_input()
+{
+  Streamed_mesh_builder<Ply_chart> builder(m_folder, "mesh0_", m_input);
+  const std::size_t n = m_input.number_of_used();
+  Streamed_mesh mesh = builder.build(Curve_cube(m_input.box(), 0.), n, block_size_for(n));
+  check_whether_to_go_on(0.1);
+  normalize(mesh);
+  m_finished.finish_mesh(0, mesh, {}, m_state);
+  measure_files();
+  return mesh;
+}
+
+// Scales the mean length of the edges to 1.
+inline void Streamed_hierarchy::normalize(Streamed_mesh& mesh)
+{
+  double sum = 0.;
+  constexpr std::size_t slab = std::size_t(1) << 20;
+  for(std::size_t first = 0; first < mesh.triangles.size(); first += slab) {
+    const std::size_t last = (std::min)(mesh.triangles.size(), first + slab);
+    sum += Blocked_execution::blocked_sum<double>(
+      last - first, 16384, [&](std::size_t begin, std::size_t end) {
+        double lengths = 0.;
+        for(std::size_t t = first + begin; t < first + end; ++t)
+          for(int c = 0; c < 3; ++c) {
+            const Three_numbers& p = mesh.points[mesh.triangles[t][c]];
+            const Three_numbers& q = mesh.points[mesh.triangles[t][(c + 1) % 3]];
+            lengths += std::sqrt((p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1])
+                                 + (p[2] - q[2]) * (p[2] - q[2]));
+          }
+        return lengths;
+      });
+    mesh.triangles.release(first, last);
+  }
+  if(!(sum > 0.))
+    refuse("all vertices lie in one point");
+  const double mean = sum / (3. * double(mesh.triangles.size()));
+  stream_rows(
+    mesh.points.size(),
+    [&](std::size_t begin, std::size_t end) {
+      for(std::size_t i = begin; i < end; ++i)
+        for(double& x : mesh.points[i])
+          x /= mean;
+    },
+    [&mesh](std::size_t begin, std::size_t end) { mesh.points.release(begin, end); });
+}
+
+// Builds the matrix of level k and the mesh that comes after it.
+inline void Streamed_hierarchy::decimate(std::size_t k, Streamed_mesh& mesh, Decimated_level& coarse)
+{
+  const auto name = [&mesh](std::uint32_t v) { return mesh.source[v]; }; // where it matters
+  const std::string prefix = m_finished.level_name(k) + "_";
+  m_levels.emplace_back();
+  Streamed_level& level = m_levels.back();
+  level.matrix.create(m_folder, prefix, mesh.number_of_vertices(), 3 * mesh.number_of_triangles());
+  const std::size_t blocks = mesh.number_of_blocks();
+  for(std::size_t b = 0; b < blocks; ++b) {
+    Mesh_block block(mesh, b);
+    if(k == 0)
+      check_rings(Indexed_mesh::Vertex_rings(block.mesh),
+                  [&](std::uint32_t v) { return name(block.global(v)); });
+    level.matrix.add_block(block);
+    m_state.mollified_faces += block.cotangents.mollified;
+    give_memory_back();
+    check_whether_to_go_on(0.1 + 0.1 * double(b + 1) / double(blocks));
+  }
+  if(k == 0) {
+    m_state.blocks = blocks;
+    m_state.pins = far_border_pins(mesh, level.matrix);
+  }
+  level.pins = m_state.pinned();
+  for(const std::uint32_t pin : level.pins)
+    level.matrix.pin(pin);
+  level.matrix.save_border(m_folder, prefix);
+  const double ratio = m_options.solver.level_ratio > 1. ? m_options.solver.level_ratio : 4.;
+  Block_collector collector(m_folder, prefix, mesh.number_of_vertices());
+  for(std::size_t b = 0; b < blocks; ++b) {
+    Mesh_block block(mesh, b);
+    collector.add(block, decimate_block(block, level.pins, ratio,
+                                        m_options.solver.angular_defect_bound,
+                                        [&](std::uint32_t v) { return name(block.global(v)); }));
+    give_memory_back();
+    check_whether_to_go_on(0.2 + 0.4 * double(b + 1) / double(blocks));
+  }
+  coarse = collector.finish();
+  m_finished.finish_level(k, level, coarse, m_state);
+  measure_files();
+}
+
+inline Streamed_mesh Streamed_hierarchy::sort_coarse(std::size_t k, const Streamed_mesh& fine,
+                                                     Decimated_level& decimated)
+{
+  const Coarse_source source = {fine, decimated};
+  std::size_t count = 0;
+  Bbox_3 box;
+  for(std::size_t v = 0; v < fine.number_of_vertices(); ++v) {
+    const Three_numbers& p = fine.points[v];
+    count += decimated.is_kept(v) ? 1 : 0;
+    box += Bbox_3(p[0], p[1], p[2], p[0], p[1], p[2]);
+  }
+  source.release_vertices(0, fine.number_of_vertices());
+  const double golden = 0.6180339887498949; // the cells of no two levels have faces in common
+  const std::string prefix = m_finished.mesh_name(k) + "_";
+  Streamed_mesh_builder<Coarse_source> builder(m_folder, prefix, source);
+  Streamed_mesh mesh = builder.build(Curve_cube(box, std::fmod(golden * double(k), 1.)), count,
+                                     block_size_for(count));
+  Streamed_level& level = m_levels.back();
+  level.stencils
+    = m_folder.create<Streamed_stencil>(m_finished.level_name(k - 1) + "_prolongation", fine.points.size());
+  stream_rows(
+    level.size(),
+    [&](std::size_t begin, std::size_t end) {
+      for(std::size_t v = begin; v < end; ++v) {
+        level.stencils[v] = decimated.stencils[v];
+        for(std::uint32_t& s : level.stencils[v].source)
+          s = mesh.rank[s];
+      }
+    },
+    [&](std::size_t begin, std::size_t end) {
+      level.stencils.release(begin, end);
+      decimated.stencils.release(begin, end);
+    });
+  for(Pin& pin : m_state.pins)
+    pin.vertex = mesh.rank[pin.vertex];
+  m_finished.finish_mesh(k, mesh, level.stencils, m_state);
+  measure_files();
+  m_finished.remove_before(k);
+  check_whether_to_go_on(0.6);
+  return mesh;
+}
+
+inline void Streamed_hierarchy::gather(std::size_t k, Streamed_mesh& mesh)
+{
+  if(k == 0) { // its triangles are kept for the output, too
+    m_finished.open("mesh0", "triangles", mesh.triangles);
+    m_state.blocks = 1;
+  }
+  HLSCM_options options = m_options.solver;
+  options.progress = [this](double part) { return tell(0.6 + 0.1 * part); };
+  Mesh_block block(mesh, 0);
+  const std::size_t mollified = block.cotangents.mollified;
+  m_gathered = std::make_unique<Gathered_hierarchy>(
+    std::move(block), options, [&](std::uint32_t v) { return mesh.source[v]; });
+  if(k == 0) {
+    m_state.pins = m_gathered->far_pins();
+    m_state.mollified_faces = mollified;
+  }
+  mesh = Streamed_mesh();
+  give_memory_back();
+  m_gathered->build(m_state.pins);
+  give_memory_back();
+  check_whether_to_go_on(0.7);
+}
+
+inline void Streamed_hierarchy::complete_report()
+{
+  HLSCM_report& report = m_report.solver;
+  report.borders = m_gathered->number_of_borders();
+  m_report.levels_in_files = m_levels.size();
+  m_report.blocks = m_state.blocks;
+  report.mollified_faces = m_state.mollified_faces;
+  report.levels = m_gathered->level_reports();
+  for(const Streamed_level& level : m_levels)
+    report.levels.push_back({level.size(), 0, 0, 0., 0, 0});
+  report.levels.back().faces = report.faces;
+  const std::vector<std::uint32_t> pins
+    = m_levels.empty() ? m_state.pinned() : m_levels.back().pins;
+  for(std::size_t v = 0; v < m_rank.size(); ++v)
+    for(std::size_t i = 0; i < pins.size(); ++i)
+      if(m_rank[v] == pins[i])
+        report.pins.push_back({v, m_state.pins[i].value.real(), m_state.pins[i].value.imag()});
+  if(report.mollified_faces > 0)
+    report.warnings.push_back(std::to_string(report.mollified_faces)
+                              + " faces have no area; they were given some by mollification");
+}
+
+} // namespace internal
+} // namespace Surface_mesh_parameterization
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_STREAMED_STREAMED_HIERARCHY_H

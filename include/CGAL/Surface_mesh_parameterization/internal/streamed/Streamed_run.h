@@ -1,0 +1,278 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_STREAMED_STREAMED_RUN_H
+#define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_STREAMED_STREAMED_RUN_H
+
+#include <CGAL/Blocked_execution/Progress.h>
+#include <CGAL/Surface_mesh_parameterization/Very_large_chart_options.h>
+#include <CGAL/Surface_mesh_parameterization/internal/streamed/Streamed_hierarchy.h>
+#include <CGAL/Surface_mesh_parameterization/internal/streamed/Streamed_solver.h>
+#include <CGAL/Surface_mesh_parameterization/self_overlap.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstdint>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_parameterization {
+namespace internal {
+
+// A matrix in files whose rows of pins are zero, for those who ask for some of its rows.
+class Pinned_rows
+{
+public:
+  Pinned_rows(const Streamed_level& level) : m_level(level) {}
+
+  const Pinned_rows& diagonal() const { return *this; }
+  double operator[](std::uint32_t v) const
+  {
+    const auto& pins = m_level.pins;
+    return std::find(pins.begin(), pins.end(), v) != pins.end() ? 0. : m_level.matrix.diagonal()[v];
+  }
+  std::size_t slot_of_row(std::uint32_t v) const { return v; }
+  template <class Use>
+  void for_each_entry(std::size_t v, const Use& use) const { m_level.matrix.for_each_entry(v, use); }
+
+private:
+  const Streamed_level& m_level;
+};
+
+// What the system counts of a process that goes to disks and comes from them; 0 if it does not tell.
+struct Disk_traffic
+{
+  std::size_t read = 0, written = 0;
+
+  static Disk_traffic so_far()
+  {
+    Disk_traffic result;
+    std::ifstream in("/proc/self/io");
+    std::string name;
+    std::size_t bytes = 0;
+    while(in >> name >> bytes) {
+      if(name == "read_bytes:")
+        result.read = bytes;
+      else if(name == "write_bytes:")
+        result.written = bytes;
+    }
+    return result;
+  }
+};
+
+// One run from file to map.
+class Streamed_run
+{
+public:
+  typedef std::complex<double> Complex;
+
+  Streamed_run(const std::string& input, const Very_large_chart_options& options,
+               Very_large_chart_report& report)
+    : m_options(options), m_report(report), m_before(Disk_traffic::so_far())
+    , m_hierarchy(input, options, report)
+  {}
+
+  // Finds the map.
+  void map();
+
+  // Removes the files, which are of no use any more.
+  void discard() { m_hierarchy.folder().remove_all(); }
+
+  // Writes it.
+  void write(const std::function<void(std::string_view)>& put)
+  {
+    Blocked_execution::Stopwatch watch;
+    const auto& rank = m_hierarchy.rank();
+    write_mapped_ply(m_hierarchy.input(), [&](std::size_t v) -> std::array<double, 2> {
+      return rank[v] == Indexed_mesh::no_vertex ? std::array<double, 2>{0., 0.} : uv(rank[v]);
+    }, put);
+    m_report.seconds_write = watch.lap();
+    const Disk_traffic now = Disk_traffic::so_far();
+    m_report.bytes_read = now.read - m_before.read;
+    m_report.bytes_written = now.written - m_before.written;
+    discard();
+  }
+
+private:
+  Multigrid::Energy_stop stop_for(double extent) const;
+  Streamed_map map_in_memory();
+  Streamed_map map_in_files();
+  void conclude(const Multigrid::Iteration_report& result);
+  void place_map();
+  void count_flips();
+
+  // Where a vertex of the finest level is in the output.
+  std::array<double, 2> uv(std::size_t v) const
+  {
+    const auto inside = [](double x) { return (std::min)((std::max)(x, 0.), 1.); };
+    return {inside(m_scale * m_map[v].real() + m_shift[0]),
+            inside(m_scale * m_map[v].imag() + m_shift[1])};
+  }
+
+  const Very_large_chart_options& m_options;
+  Very_large_chart_report& m_report;
+  Disk_traffic m_before;
+  Streamed_hierarchy m_hierarchy;
+  Streamed_map m_map; // of the finest level
+  double m_scale = 1.;
+  std::array<double, 2> m_shift = {0., 0.};
+};
+
+inline Bbox_2 box_of(const Streamed_map& z)
+{
+  return Blocked_execution::blocked_sum<Bbox_2>(
+    z.size(), 16384, [&z](std::size_t begin, std::size_t end) {
+      Bbox_2 box;
+      for(std::size_t i = begin; i < end; ++i)
+        box += Bbox_2(z[i].real(), z[i].imag(), z[i].real(), z[i].imag());
+      return box;
+    });
+}
+
+inline double longer_side(const Bbox_2& box)
+{
+  return (std::max)(box.xmax() - box.xmin(), box.ymax() - box.ymin());
+}
+
+// As on the finest level of a chart in memory, for a map of that extent.
+inline Multigrid::Energy_stop Streamed_run::stop_for(double extent) const
+{
+  Multigrid::Energy_stop stop;
+  stop.tolerance = m_options.solver.tolerance;
+  stop.maximal_iterations = maximal_iterations(m_options.solver, 500);
+  stop.negligible_energy = rounded_energy * extent * extent;
+  stop.change_tolerance = m_options.solver.uv_tolerance * extent;
+  return stop;
+}
+
+inline void Streamed_run::map()
+{
+  m_hierarchy.build();
+  Blocked_execution::Stopwatch watch;
+  m_map = m_hierarchy.levels().empty() ? map_in_memory() : map_in_files();
+  place_map();
+  count_flips();
+  m_report.solver.seconds_solve = watch.lap();
+  m_report.solver.seconds_total = m_report.seconds_sort + m_report.solver.seconds_hierarchy
+                                + m_report.solver.seconds_operators
+                                + m_report.solver.seconds_solve;
+}
+
+inline void Streamed_run::conclude(const Multigrid::Iteration_report& result)
+{
+  HLSCM_report& report = m_report.solver;
+  report.iterations = result.iterations;
+  report.converged = result.converged;
+  report.energy_gap_estimate = result.energy_gap;
+  if(result.cancelled)
+    throw Streaming_failure(Streaming_failure::CANCELLED, "cancelled");
+  if(!result.converged)
+    throw Streaming_failure(Streaming_failure::RESUMABLE, "the tolerance was not met after "
+                            + std::to_string(result.iterations) + " iterations; raise the number of "
+                            "iterations, and resume", ERROR_CANNOT_SOLVE_LINEAR_SYSTEM);
+}
+
+inline Streamed_map Streamed_run::map_in_memory()
+{
+  Gathered_hierarchy& gathered = m_hierarchy.gathered();
+  Multigrid::Iteration_report result;
+  const Multigrid::Energy_stop stop = stop_for(1.); // the pins, far from each other, are at distance 1
+  auto z = gathered.map(stop, [this](double part) { return m_hierarchy.tell(0.7 + 0.2 * part); },
+                        result);
+  conclude(result);
+  gathered.relax_flips(z);
+  m_report.solver.energy = gathered.energy(z);
+  Streamed_map map = m_hierarchy.folder().create<Complex>("map", z.size());
+  std::copy(z.begin(), z.end(), map.begin());
+  return map;
+}
+
+inline Streamed_map Streamed_run::map_in_files()
+{
+  Work_folder& folder = m_hierarchy.folder();
+  std::vector<Streamed_level>& levels = m_hierarchy.levels();
+  Gathered_hierarchy& gathered = m_hierarchy.gathered();
+  const std::size_t gathered_bytes = m_hierarchy.bytes_of_gathered();
+  folder.set_room_for_scratch(m_options.memory > gathered_bytes ? m_options.memory - gathered_bytes : 0);
+  Streamed_levels cycle(folder, levels, gathered);
+  Streamed_solver solver(folder, levels, cycle);
+  const auto observe = [this](double part) { return m_hierarchy.tell(0.75 + 0.2 * part); };
+  Multigrid::Iteration_report result;
+  Multigrid::Energy_stop coarse_stop; // a starting point for the next level
+  coarse_stop.tolerance = m_options.solver.tolerance;
+  coarse_stop.maximal_iterations = 2;
+  const auto coarsest = gathered.map(coarse_stop, observe, result);
+  const Complex* coarse = coarsest.data();
+  Streamed_map z;
+  for(std::size_t l = 1; l <= levels.size(); ++l) {
+    Streamed_map fine = folder.create_scratch<Complex>("map" + std::to_string(l), levels[l - 1].size());
+    levels[l - 1].prolong(coarse, [&fine](std::size_t i, const Complex& value) { fine[i] = value; });
+    fine.release();
+    const Pins& pins = m_hierarchy.pins();
+    for(std::size_t i = 0; i < pins.size(); ++i)
+      fine[levels[l - 1].pins[i]] = pins[i].value;
+    z = std::move(fine);
+    folder.remove("map" + std::to_string(l - 1));
+    coarse = z.data();
+    result = solver.minimize(l, z,
+                             l == levels.size() ? stop_for(longer_side(box_of(z))) : coarse_stop, observe);
+    m_report.solver.levels[gathered.number_of_levels() + l - 1].iterations = result.iterations;
+  }
+  conclude(result);
+  relax_flipped_faces(Pinned_rows(levels.back()), m_hierarchy.triangles(), z);
+  m_report.solver.energy = solver.energy(levels.size(), z);
+  m_hierarchy.measure_files();
+  return z;
+}
+
+// Into the unit square, as it is written.
+inline void Streamed_run::place_map()
+{
+  const Bbox_2 box = box_of(m_map);
+  const double size = longer_side(box);
+  if(!std::isfinite(size) || !(size > 0.))
+    refuse("the map that was found has parameters that are not finite numbers; scale the mesh",
+           ERROR_CANNOT_SOLVE_LINEAR_SYSTEM);
+  m_scale = 1. / size;
+  m_shift = {-m_scale * box.xmin(), -m_scale * box.ymin()};
+  move_report(m_report.solver, m_scale, m_shift[0], m_shift[1]);
+}
+
+inline void Streamed_run::count_flips()
+{
+  const auto& triangles = m_hierarchy.triangles();
+  const auto point = [this](std::uint32_t v) {
+    const auto at = uv(v);
+    return Uv_triangle::value_type(at[0], at[1]);
+  };
+  std::size_t flips = 0;
+  constexpr std::size_t slab = std::size_t(1) << 20;
+  for(std::size_t first = 0; first < triangles.size(); first += slab) {
+    const std::size_t last = (std::min)(triangles.size(), first + slab);
+    flips += Blocked_execution::blocked_sum<std::size_t>(
+      last - first, 16384, [&](std::size_t begin, std::size_t end) {
+        std::size_t count = 0;
+        for(std::size_t t = first + begin; t < first + end; ++t) {
+          const auto& v = triangles[t];
+          count += orientation_of({point(v[0]), point(v[1]), point(v[2])}) == RIGHT_TURN ? 1 : 0;
+        }
+        return count;
+      });
+    triangles.release(first, last);
+  }
+  m_report.flipped_faces = flips;
+}
+
+} // namespace internal
+} // namespace Surface_mesh_parameterization
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_STREAMED_STREAMED_RUN_H

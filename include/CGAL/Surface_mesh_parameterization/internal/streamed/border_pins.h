@@ -1,0 +1,66 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_STREAMED_BORDER_PINS_H
+#define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_STREAMED_BORDER_PINS_H
+
+#include <CGAL/Surface_mesh_parameterization/internal/solver/Pins.h>
+#include <CGAL/Surface_mesh_parameterization/internal/streamed/Streamed_matrix.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_parameterization {
+namespace internal {
+
+// The border vertices of a streamed mesh as a chart without faces: a vertex is followed by the one to
+// which its row has the imaginary part 1/2. `source` are vertices of the mesh, ascending.
+inline Chart border_of(const Streamed_mesh& mesh, const Streamed_matrix& matrix)
+{
+  Chart border;
+  std::vector<std::uint32_t> next;
+  for(const auto& entry : matrix.border())
+    if(entry.im > 0.) {
+      border.source.push_back(entry.row);
+      next.push_back(entry.column);
+    }
+  for(const std::uint32_t v : border.source) {
+    const Three_numbers& p = mesh.points[v];
+    border.mesh.points.emplace_back(p[0], p[1], p[2]);
+  }
+  const auto position = [&border](std::uint32_t v) {
+    return std::uint32_t(std::lower_bound(border.source.begin(), border.source.end(), v)
+                         - border.source.begin());
+  };
+  std::vector<bool> is_seen(next.size(), false);
+  for(std::uint32_t start = 0; start < next.size(); ++start) {
+    if(is_seen[start])
+      continue;
+    border.borders.emplace_back();
+    for(std::uint32_t i = start; !is_seen[i]; i = position(next[i])) {
+      is_seen[i] = true;
+      border.borders.back().push_back(i);
+    }
+  }
+  return border;
+}
+
+// The pins of a streamed mesh: those that a mesh in memory would get.
+inline Pins far_border_pins(const Streamed_mesh& mesh, const Streamed_matrix& matrix)
+{
+  const Chart border = border_of(mesh, matrix);
+  if(border.borders.empty())
+    refuse("the surface is closed; cut it open first", ERROR_NO_TOPOLOGICAL_DISC);
+  Pins pins = far_border_pins(border);
+  for(Pin& pin : pins)
+    pin.vertex = border.source[pin.vertex];
+  return pins;
+}
+
+} // namespace internal
+} // namespace Surface_mesh_parameterization
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_STREAMED_BORDER_PINS_H

@@ -1,0 +1,80 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_MAP_VERY_LARGE_CHART_H
+#define CGAL_SURFACE_MESH_PARAMETERIZATION_MAP_VERY_LARGE_CHART_H
+
+#include <CGAL/Blocked_execution/compile_once.h>
+#include <CGAL/Surface_mesh_parameterization/Very_large_chart_options.h>
+
+#ifdef CGAL_HLSCM_DEFINITIONS
+#include <CGAL/Surface_mesh_parameterization/internal/streamed/Streamed_run.h>
+#endif
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace CGAL {
+namespace Surface_mesh_parameterization {
+
+/*!
+\ingroup PkgHLSCMParameterizer
+
+Computes the least squares conformal map of a chart that is too large for the memory: that of
+`conformal_map()` with its two far border pins, to the same tolerance, by the same hierarchy. It is
+cut along a space-filling curve into blocks that are decimated one after the other, level by level,
+until a level fits; the others are in files, over which each iteration makes five passes.
+
+\param input a binary PLY file of triangles, little or big endian, without lists but the vertices of
+       the faces: a connected surface of genus 0 with one or more borders
+\param put is given the bytes of the output, a binary PLY file: the vertices of the input in their
+       order with texture coordinates in the unit square, (0, 0) for vertices without a face, and the
+       faces. It is not called before all is known to be well.
+\param options what the run may take, and where its files are
+
+Bad data of any kind, a full disk and damaged files are errors, in one sentence. The files stay when
+there is something to resume: after a full disk, too few iterations, or `progress` that said stop, or
+if the process was killed; not after what is wrong with the input.
+
+Linear time but for the iterations; for POSIX systems.
+*/
+CGAL_HLSCM_INLINE Very_large_chart_report
+map_very_large_chart(const std::string& input, const std::function<void(std::string_view)>& put,
+                     const Very_large_chart_options& options);
+
+#ifdef CGAL_HLSCM_DEFINITIONS
+
+CGAL_HLSCM_INLINE Very_large_chart_report
+map_very_large_chart(const std::string& input, const std::function<void(std::string_view)>& put,
+                     const Very_large_chart_options& options)
+{
+  const Blocked_execution::Thread_scope threads(options.solver.threads);
+  Very_large_chart_report report;
+  try {
+    if(!(options.solver.tolerance > 0.))
+      internal::refuse("the tolerance must be positive");
+    internal::Streamed_run run(input, options, report);
+    try {
+      run.map();
+      run.write(put);
+    } catch(const internal::Streaming_failure& failure) {
+      if(failure.kind == internal::Streaming_failure::BAD_INPUT)
+        run.discard();
+      throw;
+    }
+  } catch(const internal::Streaming_failure& failure) {
+    report.error = failure.error;
+    report.message = report.solver.message = failure.what();
+    report.solver.converged = false;
+    report.solver.cancelled = failure.kind == internal::Streaming_failure::CANCELLED;
+  }
+  return report;
+}
+
+#endif // CGAL_HLSCM_DEFINITIONS
+
+} // namespace Surface_mesh_parameterization
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_MAP_VERY_LARGE_CHART_H

@@ -1,0 +1,132 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_BUILD_ATLAS_H
+#define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_BUILD_ATLAS_H
+
+#include <CGAL/Surface_mesh_texturing/internal/charts/Texture_atlas_builder.h>
+#include <CGAL/Surface_mesh_texturing/smooth_seams.h>
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+#include <utility>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+namespace internal {
+
+// Builds an atlas by these models.
+CGAL_HLSCM_INLINE Texture_atlas_result build_atlas(const Indexed_triangle_mesh& mesh,
+                                                   const Texture_atlas_options& options,
+                                                   const Atlas_models& models);
+
+#ifdef CGAL_HLSCM_DEFINITIONS
+
+// Builds the atlas of the surface with seams through its triangles: first come the charts, then the rest
+// for the triangles into which these were cut.
+inline Texture_atlas_result build_with_smooth_seams(const Indexed_triangle_mesh& mesh,
+                                                    const Texture_atlas_options& options,
+                                                    const Atlas_models& models)
+{
+  constexpr double least_seconds = 1e-9; // 0 would be no limit
+  const Blocked_execution::Stopwatch watch;
+  Texture_atlas_result result;
+  if(!options.no_seams.empty() || models.take_maps)
+    result.fail(Mesh_status::BAD_OPTIONS, "seams cannot go through triangles if some edges shall be "
+                                          "none, or if the charts have maps");
+  Segmentation_result found;
+  if(result.is_ok())
+    found = Texture_atlas_builder(mesh, options, models).charts();
+  if(result.fail(found))
+    return result;
+  Smooth_seams_result smooth = smooth_seams(mesh, found.charts);
+  if(result.fail(smooth))
+    return result;
+  const auto of_pieces = [&smooth](auto& values) {
+    std::remove_reference_t<decltype(values)> pieces;
+    for(std::size_t t = 0; t < smooth.triangle.size() && !values.empty(); ++t)
+      pieces.push_back(values[smooth.triangle[t]]);
+    values = std::move(pieces);
+  };
+  Texture_atlas_options of_smooth = options;
+  of_pieces(of_smooth.density);
+  of_pieces(of_smooth.metric);
+  of_pieces(of_smooth.page_set);
+  const double seconds_segment = watch.seconds();
+  if(options.seconds > 0.)
+    of_smooth.seconds = (std::max)(least_seconds, options.seconds - seconds_segment);
+  Atlas_models with_charts = models;
+  with_charts.is_for_any_mesh = false; // there is nothing to be tried on a coarser one
+  with_charts.segment = [&](const Indexed_triangle_mesh&, const Texture_atlas_options&) {
+    Segmentation_result charts = found;
+    charts.charts = smooth.charts;
+    return charts;
+  };
+  result = Texture_atlas_builder(smooth.mesh, of_smooth, with_charts).run();
+  result.report.seconds_segment += seconds_segment;
+  result.report.seconds_total += seconds_segment;
+  if(result.is_ok()) {
+    result.atlas.source_triangle = std::move(smooth.triangle);
+    result.atlas.new_vertices = std::move(smooth.new_vertices);
+  }
+  return result;
+}
+
+// The power of two that is about the extent of the mesh if that is so small or large that squares of
+// squares of lengths may not exist; else 1.
+inline double unit_of_length(const Indexed_triangle_mesh& mesh)
+{
+  constexpr int usual = 40; // powers of two
+  if(mesh.points.empty())
+    return 1.;
+  const double extent = Indexed_mesh::longest_side(Indexed_mesh::bounding_box(mesh.points));
+  if(!(extent > 0.) || !std::isfinite(extent) || std::abs(std::ilogb(extent)) <= usual)
+    return 1.;
+  return std::ldexp(1., (std::max)(std::ilogb(extent), -1022));
+}
+
+// The report in a unit of length that is `unit` times as small.
+inline void scale_lengths(double unit, Texture_atlas_report& report)
+{
+  report.seam_length *= unit;
+  report.texels_per_unit /= unit;
+  for(Chart_report& chart : report.charts) {
+    chart.border_length *= unit;
+    chart.distortion.area *= unit * unit;
+    chart.distortion.uv_area *= unit * unit;
+  }
+}
+
+CGAL_HLSCM_INLINE Texture_atlas_result build_atlas(const Indexed_triangle_mesh& mesh,
+                                                   const Texture_atlas_options& options,
+                                                   const Atlas_models& models)
+{
+  const auto build = [&models](const Indexed_triangle_mesh& m, const Texture_atlas_options& o) {
+    return o.has_smooth_seams ? build_with_smooth_seams(m, o, models)
+                              : Texture_atlas_builder(m, o, models).run();
+  };
+  const double unit = unit_of_length(mesh);
+  if(unit == 1.)
+    return build(mesh, options);
+  Indexed_triangle_mesh scaled = mesh;
+  for(auto& p : scaled.points) // exactly
+    p = Indexed_triangle_mesh::Point_3(p.x() / unit, p.y() / unit, p.z() / unit);
+  Texture_atlas_options of_scaled = options;
+  of_scaled.packing.texels_per_unit *= unit;
+  Texture_atlas_result result = build(scaled, of_scaled);
+  for(auto& p : result.atlas.mesh.points)
+    p = Indexed_triangle_mesh::Point_3(p.x() * unit, p.y() * unit, p.z() * unit);
+  if(result.is_ok())
+    std::copy(mesh.points.begin(), mesh.points.end(), result.atlas.mesh.points.begin());
+  scale_lengths(unit, result.report);
+  return result;
+}
+
+#endif // CGAL_HLSCM_DEFINITIONS
+
+} // namespace internal
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_BUILD_ATLAS_H

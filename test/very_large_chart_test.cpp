@@ -1,0 +1,454 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Maps out of core: they are those of a chart in memory, whatever the blocks; a run that was killed
+// goes on; what is wrong is said in a sentence, and nothing is written.
+
+#include <CGAL/Surface_mesh_parameterization/conformal_map.h>
+#include <CGAL/Surface_mesh_parameterization/map_very_large_chart.h>
+
+#include <support/bad_surfaces.h>
+#include <support/binary_ply.h>
+#include <support/chart_generators.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace very_large_chart_test {
+
+namespace SMP = CGAL::Surface_mesh_parameterization;
+namespace fs = std::filesystem;
+using namespace test_support;
+
+typedef SMP::Very_large_chart_options Options;
+typedef SMP::Very_large_chart_report Report;
+typedef CGAL::Simple_cartesian<double>::Point_2 Point_2;
+
+// A folder of its own for each test.
+class Very_large_chart
+  : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    std::string pattern = (fs::temp_directory_path() / "very_large_XXXXXX").string();
+    folder = mkdtemp(pattern.data());
+  }
+  void TearDown() override { fs::remove_all(folder); }
+
+  std::string input() const { return (folder / "in.ply").string(); }
+  std::string work() const { return (folder / "work").string(); }
+
+  // Blocks of so many vertices; levels of no more than `gathered` are taken into memory.
+  Options options(std::size_t block, std::size_t gathered, double tolerance) const
+  {
+    Options result;
+    result.block_vertices = block;
+    result.gathered_vertices = gathered;
+    result.solver.tolerance = tolerance;
+    result.solver.coarsest_size = 200;
+    result.solver.threads = 1;
+    result.work_folder = work();
+    return result;
+  }
+
+  Report map(const Options& o)
+  {
+    output.clear();
+    return SMP::map_very_large_chart(
+      input(), [this](std::string_view bytes) { output += bytes; }, o);
+  }
+
+  fs::path folder;
+  std::string output;
+};
+
+// The map of the chart in memory, in the unit square.
+SMP::Conformal_map expected_map(const Indexed_triangle_mesh& mesh, const SMP::HLSCM_options& options)
+{
+  SMP::Conformal_map map = SMP::conformal_map(mesh, options);
+  CGAL::Bbox_2 box;
+  for(const Point_2& p : map.uv)
+    box += p.bbox();
+  const double scale = 1. / (std::max)(box.xmax() - box.xmin(), box.ymax() - box.ymin());
+  for(Point_2& p : map.uv)
+    p = Point_2(scale * (p.x() - box.xmin()), scale * (p.y() - box.ymin()));
+  SMP::move_report(map.report, scale, -scale * box.xmin(), -scale * box.ymin());
+  return map;
+}
+
+std::size_t number_of_flips(const Indexed_triangle_mesh& mesh, const std::vector<Point_2>& uv)
+{
+  std::size_t result = 0;
+  for(const auto& t : mesh.triangles)
+    result += CGAL::orientation(uv[t[0]], uv[t[1]], uv[t[2]]) == CGAL::RIGHT_TURN ? 1 : 0;
+  return result;
+}
+
+double difference(const std::vector<Point_2>& a, const std::vector<Point_2>& b)
+{
+  double result = 0.;
+  for(std::size_t i = 0; i < a.size(); ++i)
+    result = (std::max)(result, std::sqrt(squared_distance(a[i], b[i])));
+  return result;
+}
+
+// A strip as long as `n` of its widths, on a spiral with so many turns.
+Indexed_triangle_mesh spiral(Vertex_index n, double turns)
+{
+  Indexed_triangle_mesh mesh = grid(n, 4);
+  for(auto& p : mesh.points) {
+    const double angle = 2. * 3.14159265358979 * turns * p.x() / n;
+    const double radius = 8. * (1. + angle / 6.283) + p.y();
+    p = Point_3(radius * std::cos(angle), radius * std::sin(angle), 0.1 * std::sin(5. * p.x()));
+  }
+  return mesh;
+}
+
+std::vector<Named_mesh> charts()
+{
+  std::vector<Named_mesh> result = curved_charts(1);
+  if(is_sanitized)
+    result = {result[1], result[3], result[9]};
+  result.push_back({"spiral", spiral(is_sanitized ? 300 : 900, 3.)});
+  result.push_back({"long strip", with_noise(irregular_grid(600, 5, 4), 0.2, 5)});
+  return result;
+}
+
+// At full convergence, from 1 to more than 16 blocks.
+TEST_F(Very_large_chart, is_that_in_memory)
+{
+  for(const Named_mesh& chart : charts()) {
+    SCOPED_TRACE(chart.name);
+    const std::size_t n = chart.mesh.points.size();
+    const Indexed_triangle_mesh mesh = shuffled(chart.mesh, 3);
+    write_records(mesh, input());
+    SMP::HLSCM_options in_memory;
+    in_memory.tolerance = 1e-11;
+    in_memory.coarsest_size = 200;
+    const SMP::Conformal_map expected = expected_map(mesh, in_memory);
+    if(expected.error != SMP::OK) // points twice: so small a tolerance is out of reach
+      continue;
+    for(const auto& [block, gathered] : {std::make_pair(n, n), std::make_pair(n, n / 2),
+                                         std::make_pair(n / 3, n / 2), std::make_pair(n / 17, n / 5)}) {
+      SCOPED_TRACE(std::to_string(block) + " vertices a block, in memory " + std::to_string(gathered));
+      const Report report = map(options(block, gathered, 1e-11));
+      ASSERT_EQ(report.error, SMP::OK) << report.message;
+      const Mapped_ply mapped = read_mapped_ply(output, n, mesh.triangles.size());
+      EXPECT_EQ(mapped.mesh.points, mesh.points);
+      EXPECT_EQ(mapped.mesh.triangles, mesh.triangles);
+      ASSERT_EQ(report.solver.pins.size(), 2u);
+      for(const SMP::HLSCM_pin& pin : report.solver.pins) {
+        const auto &p = expected.report.pins[0], &q = expected.report.pins[1];
+        EXPECT_TRUE(pin.vertex == p.vertex || pin.vertex == q.vertex);
+        EXPECT_NEAR(mapped.uv[pin.vertex].x(), pin.u, 1e-12);
+      }
+      EXPECT_LT(difference(mapped.uv, expected.uv), 1e-6);
+      EXPECT_NEAR(report.solver.energy, expected.report.energy, 1e-8 * expected.report.energy + 2e-13);
+      EXPECT_EQ(report.flipped_faces, number_of_flips(mesh, mapped.uv));
+      EXPECT_EQ(report.flipped_faces, number_of_flips(mesh, expected.uv));
+      EXPECT_EQ(report.solver.borders, expected.report.borders);
+      EXPECT_EQ(report.levels_in_files > 0, gathered < n);
+      EXPECT_GE(report.blocks, gathered < n ? n / (std::max)(block, std::size_t(200)) : 1u);
+      EXPECT_FALSE(fs::exists(work()));
+    }
+  }
+}
+
+// At the tolerances in use the energy is within them of the minimum, and the iterations are hardly more
+// than in memory: on one chart numbers differ by chance, all together do not.
+TEST_F(Very_large_chart, needs_no_more_iterations)
+{
+  std::vector<Named_mesh> all = curved_charts(1);
+  all = {all[2], all[3], all[9]};
+  if(!is_sanitized)
+    all.push_back(large_charts(8)[1]);
+  std::size_t iterations = 0, expected_iterations = 0;
+  for(const Named_mesh& chart : all) {
+    SCOPED_TRACE(chart.name);
+    write_records(chart.mesh, input());
+    const std::size_t n = chart.mesh.points.size();
+    SMP::HLSCM_options in_memory;
+    in_memory.tolerance = 1e-9;
+    in_memory.coarsest_size = n / 15;
+    const double least = SMP::conformal_map(chart.mesh, in_memory).report.energy;
+    for(const double tolerance : {1e-2, 1e-4}) {
+      in_memory.tolerance = tolerance;
+      const std::size_t expected = SMP::conformal_map(chart.mesh, in_memory).report.iterations;
+      for(const std::size_t blocks : {1, 16}) {
+        Options o = options(n / blocks, n / 3, tolerance);
+        o.solver.coarsest_size = in_memory.coarsest_size;
+        const Report report = map(o);
+        ASSERT_EQ(report.error, SMP::OK) << report.message;
+        EXPECT_LE(double(report.solver.iterations), 1.3 * double(expected) + 2.)
+          << tolerance << ", blocks " << report.blocks;
+        iterations += report.solver.iterations;
+        expected_iterations += expected;
+        const auto& p = report.solver.pins; // the unit is their distance
+        const double energy = report.solver.energy / (std::pow(p[1].u - p[0].u, 2)
+                                                      + std::pow(p[1].v - p[0].v, 2));
+        EXPECT_LE(energy, (1. + tolerance) * least);
+        EXPECT_GE(energy, (1. - 1e-8) * least);
+      }
+    }
+  }
+  EXPECT_LE(double(iterations), 1.3 * double(expected_iterations));
+}
+
+TEST_F(Very_large_chart, does_not_depend_on_the_number_of_threads)
+{
+  const Indexed_triangle_mesh mesh
+    = is_sanitized ? curved_charts(1)[3].mesh : large_charts(1)[1].mesh;
+  write_records(mesh, input());
+  Options o = options(mesh.points.size() / 3, mesh.points.size() / 4, 1e-2);
+  ASSERT_EQ(map(o).error, SMP::OK);
+  const std::string first = output;
+  for(const unsigned int threads : {2, 3}) {
+    o.solver.threads = threads;
+    ASSERT_EQ(map(o).error, SMP::OK);
+    EXPECT_TRUE(output == first) << threads << " threads";
+  }
+}
+
+// Floats, the other order of bytes, vertices that no face has.
+TEST_F(Very_large_chart, takes_all_records)
+{
+  Indexed_triangle_mesh mesh = curved_charts(2)[1].mesh;
+  for(auto& p : mesh.points)
+    p = Point_3(float(p.x()), float(p.y()), float(p.z()));
+  const std::size_t n = mesh.points.size(), faces = mesh.triangles.size();
+  const Options o = options(n / 3, n / 2, 1e-3);
+  write_records(mesh, input());
+  ASSERT_EQ(map(o).error, SMP::OK);
+  const std::string plain = output;
+  write_records<float>(mesh, input());
+  EXPECT_TRUE(map(o).error == SMP::OK && output == plain);
+  write_records(mesh, input(), true);
+  EXPECT_TRUE(map(o).error == SMP::OK && output == plain);
+  mesh.points.push_back(Point_3(1e6, 0., 0.));
+  write_records(mesh, input());
+  const Report report = map(o);
+  ASSERT_EQ(report.error, SMP::OK) << report.message;
+  EXPECT_EQ(report.solver.vertices, n);
+  const Mapped_ply mapped = read_mapped_ply(output, n + 1, faces);
+  EXPECT_EQ(mapped.uv.back(), Point_2(0., 0.));
+  EXPECT_LT(difference(read_mapped_ply(plain, n, faces).uv, mapped.uv), 1e-12);
+}
+
+// ---- what is wrong
+
+// Empty if a run ended with a sentence with these words and wrote nothing.
+std::string error_in_failure(const Report& report, const std::string& output, const std::string& words)
+{
+  if(report.error == SMP::OK || report.message.find(words) == std::string::npos)
+    return "\"" + report.message + "\" does not say: " + words;
+  return output.empty() ? "" : "something was written";
+}
+
+TEST_F(Very_large_chart, refuses_bad_surfaces)
+{
+  const Indexed_triangle_mesh hills = curved_charts(3)[1].mesh;
+  const std::size_t n = hills.points.size();
+  const auto error = [&](const Indexed_triangle_mesh& mesh, const std::string& words) {
+    write_records(mesh, input());
+    for(const std::size_t block : {n, n / 5}) {
+      const Report report = map(options(block, block == n ? n : n / 3, 1e-2));
+      const std::string error = error_in_failure(report, output, words);
+      if(!error.empty() || fs::exists(work()))
+        return error + (fs::exists(work()) ? " the folder is still there" : "");
+    }
+    return std::string();
+  };
+  EXPECT_EQ(error(sphere(5), "the surface is closed"), "");
+  std::vector<bool> is_kept(60 * 40, true);
+  is_kept[77] = false;
+  EXPECT_EQ(error(without_vertices(torus(60, 40), is_kept), "the surface has genus 1"), "");
+  Indexed_triangle_mesh bad = hills;
+  append(bad, translated(hills, 500., 0., 0.));
+  EXPECT_EQ(error(bad, "the surface has several components"), "");
+  bad = hills;
+  bad.triangles[17][1] = Vertex_index(n);
+  EXPECT_EQ(error(bad, "face 17 names vertex " + std::to_string(n)), "");
+  bad = hills;
+  bad.points[33] = Point_3(0., std::numeric_limits<double>::quiet_NaN(), 0.);
+  EXPECT_EQ(error(bad, "vertex 33 has a coordinate that is not a finite number"), "");
+  bad = hills;
+  std::swap(bad.triangles[1000][0], bad.triangles[1000][1]);
+  EXPECT_EQ(error(bad, "has an edge with more than two faces, or with two faces of different"), "");
+  bad = hills; // two vertices become one
+  for(auto& t : bad.triangles)
+    for(auto& v : t)
+      v = v == n / 2 ? Vertex_index(n / 4) : v;
+  EXPECT_EQ(error(bad, "the faces at vertex " + std::to_string(n / 4) + " do not form one fan"), "");
+  bad = hills;
+  for(auto& p : bad.points)
+    p = Point_3(1., 2., 3.);
+  EXPECT_EQ(error(bad, "all vertices lie in one point"), "");
+}
+
+TEST_F(Very_large_chart, refuses_bad_files)
+{
+  const Indexed_triangle_mesh mesh = grid(20, 20);
+  const std::size_t n = mesh.points.size();
+  write_records(mesh, input());
+  std::ifstream in(input(), std::ios::binary);
+  const std::string good(std::istreambuf_iterator<char>(in), {});
+  const auto error = [&](const std::string& bytes, const std::string& words) {
+    std::ofstream(input(), std::ios::binary) << bytes;
+    return error_in_failure(map(options(n / 3, n / 2, 1e-2)), output, words);
+  };
+  const auto changed = [&good](const std::string& from, const std::string& to) {
+    std::string bytes = good;
+    return bytes.replace(bytes.find(from), from.size(), to);
+  };
+  EXPECT_EQ(error(good, "nothing").find("\"\" does not"), 0u); // all is well
+  EXPECT_EQ(error(good.substr(0, good.size() - 1), "the file is cut off: it should have "
+                  + std::to_string(good.size()) + " bytes"), "");
+  EXPECT_EQ(error(good.substr(0, 90), "the header of the PLY file does not end"), "");
+  EXPECT_EQ(error("", "this is not a PLY file"), "");
+  EXPECT_EQ(error("v 0 0 0\nf 1 1 1\n", "this is not a PLY file, convert it to binary PLY"), "");
+  EXPECT_EQ(error(changed("binary_little_endian", "ascii"), "convert it to binary PLY"), "");
+  EXPECT_EQ(error(changed("double y", "double w"), "no properties x, y and z"), "");
+  EXPECT_EQ(error(changed("uchar quality", "list uchar float q"), "list \"q\""), "");
+  EXPECT_EQ(error(changed("element face ", "element face 99999999999999999"), "cut off"), "");
+  std::string polygon = good;
+  polygon[good.size() - 15 * 5] = 4;
+  EXPECT_EQ(error(polygon, "face " + std::to_string(mesh.triangles.size() - 5)
+                  + " is not a triangle"), "");
+  fs::remove(input());
+  EXPECT_EQ(error_in_failure(map(options(n, n, 1e-2)), output, "cannot be opened"), "");
+}
+
+// No file may become longer than so many bytes: as on a full disk. What was finished can be resumed.
+TEST_F(Very_large_chart, says_that_there_is_no_room)
+{
+  const Indexed_triangle_mesh mesh = curved_charts(5)[1].mesh;
+  write_records(mesh, input());
+  Options o = options(mesh.points.size() / 3, mesh.points.size() / 4, 1e-2);
+  ASSERT_EQ(map(o).error, SMP::OK);
+  const std::string expected = output;
+  rlimit old;
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &old), 0);
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  for(const rlim_t bytes : {2000, 60000, 150000}) {
+    const rlimit small = {bytes, old.rlim_max};
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+    const Report report = map(o);
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &old), 0);
+    EXPECT_EQ(error_in_failure(report, output, "room"), "") << bytes;
+  }
+  std::signal(SIGXFSZ, old_handler);
+  o.resumes = true;
+  ASSERT_EQ(map(o).error, SMP::OK);
+  EXPECT_TRUE(output == expected);
+  EXPECT_FALSE(fs::exists(work()));
+}
+
+// ---- going on
+
+// Killed at ten moments, a run that goes on writes what one that was left alone does.
+TEST_F(Very_large_chart, goes_on_when_it_was_killed)
+{
+  const Indexed_triangle_mesh mesh = curved_charts(4)[3].mesh;
+  write_records(mesh, input());
+  Options o = options(mesh.points.size() / 4, mesh.points.size() / 10, 1e-3);
+  int calls = 0;
+  o.solver.progress = [&calls](double) { ++calls; return true; };
+  ASSERT_EQ(map(o).error, SMP::OK);
+  const std::string expected = output;
+  const int all = calls;
+  std::size_t most = 0;
+  for(int k = 0; k < 10; ++k) {
+    SCOPED_TRACE("killed at call " + std::to_string(1 + k * (all - 1) / 9));
+    const pid_t child = fork();
+    if(child == 0) {
+      int left = 1 + k * (all - 1) / 9;
+      o.solver.progress = [&left](double) {
+        if(--left == 0)
+          raise(SIGKILL);
+        return true;
+      };
+      map(o);
+      _exit(0);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFSIGNALED(status));
+    o.resumes = true;
+    const Report report = map(o);
+    o.resumes = false;
+    ASSERT_EQ(report.error, SMP::OK) << report.message;
+    EXPECT_TRUE(output == expected);
+    most = (std::max)(most, report.finished_before);
+    EXPECT_FALSE(fs::exists(work()));
+  }
+  EXPECT_GT(most, 1u);
+}
+
+TEST_F(Very_large_chart, has_its_folder_for_itself)
+{
+  write_records(grid(30, 30), input());
+  Options o = options(300, 400, 1e-2);
+  const Options same = o;
+  std::string message;
+  o.solver.progress = [&](double) {
+    if(message.empty())
+      message = SMP::map_very_large_chart(input(), [](std::string_view) {}, same).message;
+    return true;
+  };
+  EXPECT_EQ(map(o).error, SMP::OK);
+  EXPECT_EQ(message, work() + ": another run works in this folder, name another one");
+}
+
+TEST_F(Very_large_chart, sees_what_changed_before_it_goes_on)
+{
+  const Indexed_triangle_mesh mesh = curved_charts(4)[3].mesh;
+  write_records(mesh, input());
+  Options o = options(mesh.points.size() / 4, mesh.points.size() / 4, 1e-3);
+  const auto stop = [&] {
+    o.solver.progress = [](double part) { return part < 0.7; };
+    o.resumes = false;
+    const Report report = map(o);
+    EXPECT_TRUE(report.solver.cancelled);
+    EXPECT_TRUE(fs::exists(work()));
+    o.solver.progress = nullptr;
+    o.resumes = true;
+  };
+  stop();
+  const fs::path file = fs::path(work()) / "level0_value.hlscm";
+  {
+    std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
+    stream.seekg(std::streamoff(fs::file_size(file) / 2));
+    const char old = char(stream.get());
+    stream.seekp(std::streamoff(fs::file_size(file) / 2));
+    stream.put(char(~old));
+  }
+  EXPECT_EQ(error_in_failure(map(o), output, "is not what was written"), "");
+  stop();
+  Options other = o;
+  other.block_vertices /= 2;
+  EXPECT_EQ(error_in_failure(map(other), output, "other options"), "");
+  fs::last_write_time(input(), fs::last_write_time(input()) + std::chrono::seconds(5));
+  EXPECT_EQ(error_in_failure(map(o), output, "another input"), "");
+  o.resumes = false; // begins anew
+  EXPECT_EQ(map(o).error, SMP::OK);
+  o.resumes = true;  // nothing is there
+  EXPECT_EQ(map(o).error, SMP::OK);
+  EXPECT_FALSE(fs::exists(work()));
+}
+
+} // namespace very_large_chart_test

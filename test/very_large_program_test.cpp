@@ -1,0 +1,104 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// `parameterize --memory`: the map of `parameterize`, and what is left when it does not come to an end.
+
+#include <support/program_runs.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <string>
+#include <thread>
+
+namespace very_large_program_test {
+
+using namespace program_test;
+
+// Hills for which a megabyte of memory is not enough: two levels in files.
+std::string hills() { return ply(grid(60, hilly), "binary_little_endian"); }
+
+class Very_large_program : public Program
+{
+};
+
+TEST_F(Very_large_program, writes_the_map_of_the_one_in_memory)
+{
+  const std::string in = write("in.ply", hills());
+  const Json expected = report(in, {"--tolerance", "1e-9"});
+  const std::string in_memory = read_file(path("out.ply"));
+  const Json found = report(in, {"--tolerance", "1e-9", "--memory", "1M"});
+  const std::string out = read_file(path("out.ply"));
+  EXPECT_EQ(found["flips"], expected["flips"]);
+  EXPECT_EQ(found["borders"], expected["borders"]);
+  EXPECT_EQ(found["vertices"], expected["vertices"]);
+  EXPECT_GE(found["levels_in_files"], 1);
+  EXPECT_GE(found["blocks"], 3);
+  EXPECT_EQ(found["pins"].size(), 2u);
+  EXPECT_NEAR(double(found["energy"]), double(expected["energy"]), 1e-6 * double(expected["energy"]));
+  ASSERT_EQ(out.size(), in_memory.size());
+  const std::size_t begin = out.find("end_header\n") + 11;
+  EXPECT_EQ(out.substr(0, begin), in_memory.substr(0, begin));
+  const std::size_t vertices = found["vertices"];
+  double most = 0;
+  for(std::size_t v = 0; v < vertices; ++v) {
+    double uv[2], expected_uv[2];
+    std::memcpy(uv, out.data() + begin + 48 * v + 24, sizeof(uv));
+    std::memcpy(expected_uv, in_memory.data() + begin + 48 * v + 24, sizeof(uv));
+    most = std::max({most, std::abs(uv[0] - expected_uv[0]), std::abs(uv[1] - expected_uv[1])});
+  }
+  EXPECT_LT(most, 1e-5);
+  EXPECT_TRUE(out.substr(begin + 48 * vertices) == in_memory.substr(begin + 48 * vertices));
+  EXPECT_EQ(names(), (std::set<std::string>{"in.ply", "out.ply", "report.json"}));
+}
+
+TEST_F(Very_large_program, refuses_what_it_cannot_do)
+{
+  const std::string in = write("in.ply", hills());
+  for(const Texts& options :
+      {Texts{"--memory", "1M", "--pin", "0=0,0", "--pin", "1=1,1"}, Texts{"--memory", "1M", "--strict"},
+       Texts{"--memory", "1M", "--method", "direct"}, Texts{"--memory", "lots"}, Texts{"--resume"},
+       Texts{"--memory", "1M", "--pictures", path("p")}}) {
+    const Outcome outcome = parameterize(in, "out.ply", options);
+    EXPECT_EQ(outcome.exit_code, 2) << options.back() << outcome.err;
+    EXPECT_EQ(outcome.err.rfind("hlscm: usage: ", 0), 0u) << outcome.err;
+  }
+  EXPECT_EQ(parameterize(in, "out.obj", {"--memory", "1M"}).exit_code, 2);
+  const std::string text = write("text.ply", ply(grid(5, flat), "ascii"));
+  const Outcome outcome = parameterize(text, "out.ply", {"--memory", "1M"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(error_in_message(outcome.err, text, {"convert it to binary PLY"}), "");
+  EXPECT_EQ(names(), (std::set<std::string>{"in.ply", "text.ply"}));
+}
+
+// SIGKILL at some moment, and the same run again; what was there before is there until it is done.
+TEST_F(Very_large_program, is_resumed)
+{
+  const std::string in = write("in.ply", ply(grid(250, hilly), "binary_little_endian"));
+  const Texts options = {"--memory", "2M", "--tolerance", "1e-6"};
+  const Outcome whole = parameterize(in, "out.ply", options);
+  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  const std::string expected = read_file(path("out.ply"));
+  for(const double part : {0.3, 0.6, 0.9}) {
+    write("out.ply", "old");
+    Texts arguments = {"parameterize", in, "-o", path("out.ply")};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const pid_t child = start(arguments);
+    std::this_thread::sleep_for(std::chrono::duration<double>(part * whole.seconds));
+    kill(child, SIGKILL);
+    const Outcome killed = finish(child);
+    if(killed.exit_code == 0) { // it was faster than before
+      continue;
+    }
+    EXPECT_EQ(read_file(path("out.ply")), "old");
+    arguments.push_back("--resume");
+    const Outcome resumed = finish(start(arguments));
+    ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+    EXPECT_TRUE(read_file(path("out.ply")) == expected);
+    EXPECT_FALSE(fs::exists(path("out.ply.work")));
+  }
+}
+
+} // namespace very_large_program_test
