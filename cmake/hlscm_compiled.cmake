@@ -14,7 +14,7 @@ file(CONFIGURE OUTPUT ${source} @ONLY CONTENT "#define CGAL_HLSCM_SOURCE
 #include <CGAL/Surface_mesh_parameterization/border_first_map.h>
 #include <CGAL/Surface_mesh_parameterization/conformal_map.h>
 #include <CGAL/Surface_mesh_parameterization/low_stretch_map.h>
-#if defined(__unix__) || defined(__APPLE__)
+#if defined(__unix__)
 #include <CGAL/Surface_mesh_parameterization/map_very_large_chart.h>
 #endif
 #include <CGAL/Surface_mesh_parameterization/repair_flipped_faces.h>

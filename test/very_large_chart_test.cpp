@@ -10,12 +10,12 @@
 #include <support/bad_surfaces.h>
 #include <support/binary_ply.h>
 #include <support/chart_generators.h>
+#include <support/very_large_runs.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -24,57 +24,16 @@
 #include <utility>
 #include <vector>
 
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 namespace very_large_chart_test {
 
 namespace SMP = CGAL::Surface_mesh_parameterization;
 namespace fs = std::filesystem;
 using namespace test_support;
 
-typedef SMP::Very_large_chart_options Options;
-typedef SMP::Very_large_chart_report Report;
 typedef CGAL::Simple_cartesian<double>::Point_2 Point_2;
 
-// A folder of its own for each test.
-class Very_large_chart
-  : public testing::Test
+class Very_large_chart : public Very_large_runs
 {
-protected:
-  void SetUp() override
-  {
-    std::string pattern = (fs::temp_directory_path() / "very_large_XXXXXX").string();
-    folder = mkdtemp(pattern.data());
-  }
-  void TearDown() override { fs::remove_all(folder); }
-
-  std::string input() const { return (folder / "in.ply").string(); }
-  std::string work() const { return (folder / "work").string(); }
-
-  // Blocks of so many vertices; levels of no more than `gathered` are taken into memory.
-  Options options(std::size_t block, std::size_t gathered, double tolerance) const
-  {
-    Options result;
-    result.block_vertices = block;
-    result.gathered_vertices = gathered;
-    result.solver.tolerance = tolerance;
-    result.solver.coarsest_size = 200;
-    result.solver.threads = 1;
-    result.work_folder = work();
-    return result;
-  }
-
-  Report map(const Options& o)
-  {
-    output.clear();
-    return SMP::map_very_large_chart(
-      input(), [this](std::string_view bytes) { output += bytes; }, o);
-  }
-
-  fs::path folder;
-  std::string output;
 };
 
 // The map of the chart in memory, in the unit square.
@@ -251,14 +210,6 @@ TEST_F(Very_large_chart, takes_all_records)
 
 // ---- what is wrong
 
-// Empty if a run ended with a sentence with these words and wrote nothing.
-std::string error_in_failure(const Report& report, const std::string& output, const std::string& words)
-{
-  if(report.error == SMP::OK || report.message.find(words) == std::string::npos)
-    return "\"" + report.message + "\" does not say: " + words;
-  return output.empty() ? "" : "something was written";
-}
-
 TEST_F(Very_large_chart, refuses_bad_surfaces)
 {
   const Indexed_triangle_mesh hills = curved_charts(3)[1].mesh;
@@ -267,7 +218,7 @@ TEST_F(Very_large_chart, refuses_bad_surfaces)
     write_records(mesh, input());
     for(const std::size_t block : {n, n / 5}) {
       const Report report = map(options(block, block == n ? n : n / 3, 1e-2));
-      const std::string error = error_in_failure(report, output, words);
+      const std::string error = error_in_failure(report, words);
       if(!error.empty() || fs::exists(work()))
         return error + (fs::exists(work()) ? " the folder is still there" : "");
     }
@@ -295,6 +246,9 @@ TEST_F(Very_large_chart, refuses_bad_surfaces)
       v = v == n / 2 ? Vertex_index(n / 4) : v;
   EXPECT_EQ(error(bad, "the faces at vertex " + std::to_string(n / 4) + " do not form one fan"), "");
   bad = hills;
+  bad.triangles[17][1] = bad.triangles[17][2];
+  EXPECT_EQ(error(bad, "face 17 has a vertex twice"), "");
+  bad = hills;
   for(auto& p : bad.points)
     p = Point_3(1., 2., 3.);
   EXPECT_EQ(error(bad, "all vertices lie in one point"), "");
@@ -309,7 +263,7 @@ TEST_F(Very_large_chart, refuses_bad_files)
   const std::string good(std::istreambuf_iterator<char>(in), {});
   const auto error = [&](const std::string& bytes, const std::string& words) {
     std::ofstream(input(), std::ios::binary) << bytes;
-    return error_in_failure(map(options(n / 3, n / 2, 1e-2)), output, words);
+    return error_in_failure(map(options(n / 3, n / 2, 1e-2)), words);
   };
   const auto changed = [&good](const std::string& from, const std::string& to) {
     std::string bytes = good;
@@ -319,6 +273,10 @@ TEST_F(Very_large_chart, refuses_bad_files)
   EXPECT_EQ(error(good.substr(0, good.size() - 1), "the file is cut off: it should have "
                   + std::to_string(good.size()) + " bytes"), "");
   EXPECT_EQ(error(good.substr(0, 90), "the header of the PLY file does not end"), "");
+  EXPECT_EQ(error(good.substr(0, good.find("end_header") + 10), "the header of the PLY file does not end"),
+            "");
+  const std::string format = "format binary_little_endian 1.0\n";
+  EXPECT_EQ(error(changed(format, std::string(format.size() - 1, ' ') + '\n'), "has no format"), "");
   EXPECT_EQ(error("", "this is not a PLY file"), "");
   EXPECT_EQ(error("v 0 0 0\nf 1 1 1\n", "this is not a PLY file, convert it to binary PLY"), "");
   EXPECT_EQ(error(changed("binary_little_endian", "ascii"), "convert it to binary PLY"), "");
@@ -330,125 +288,28 @@ TEST_F(Very_large_chart, refuses_bad_files)
   EXPECT_EQ(error(polygon, "face " + std::to_string(mesh.triangles.size() - 5)
                   + " is not a triangle"), "");
   fs::remove(input());
-  EXPECT_EQ(error_in_failure(map(options(n, n, 1e-2)), output, "cannot be opened"), "");
+  EXPECT_EQ(error_in_failure(map(options(n, n, 1e-2)), "cannot be opened"), "");
 }
 
-// No file may become longer than so many bytes: as on a full disk. What was finished can be resumed.
-TEST_F(Very_large_chart, says_that_there_is_no_room)
+// Faces without area that several blocks know are counted once.
+TEST_F(Very_large_chart, counts_faces_without_area)
 {
-  const Indexed_triangle_mesh mesh = curved_charts(5)[1].mesh;
-  write_records(mesh, input());
-  Options o = options(mesh.points.size() / 3, mesh.points.size() / 4, 1e-2);
-  ASSERT_EQ(map(o).error, SMP::OK);
-  const std::string expected = output;
-  rlimit old;
-  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &old), 0);
-  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
-  for(const rlim_t bytes : {2000, 60000, 150000}) {
-    const rlimit small = {bytes, old.rlim_max};
-    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
-    const Report report = map(o);
-    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &old), 0);
-    EXPECT_EQ(error_in_failure(report, output, "room"), "") << bytes;
+  Indexed_triangle_mesh mesh = grid(40, 40);
+  std::size_t expected = 0;
+  for(std::size_t t = 0; t < mesh.triangles.size(); t += 211) { // one vertex onto another
+    const auto v = mesh.triangles[t];
+    mesh.points[v[0]] = mesh.points[v[1]];
   }
-  std::signal(SIGXFSZ, old_handler);
-  o.resumes = true;
-  ASSERT_EQ(map(o).error, SMP::OK);
-  EXPECT_TRUE(output == expected);
-  EXPECT_FALSE(fs::exists(work()));
-}
-
-// ---- going on
-
-// Killed at ten moments, a run that goes on writes what one that was left alone does.
-TEST_F(Very_large_chart, goes_on_when_it_was_killed)
-{
-  const Indexed_triangle_mesh mesh = curved_charts(4)[3].mesh;
+  for(std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    expected += SMP::internal::conformal_triangle(mesh, t).is_mollified() ? 1 : 0;
+  ASSERT_GT(expected, 10u);
   write_records(mesh, input());
-  Options o = options(mesh.points.size() / 4, mesh.points.size() / 10, 1e-3);
-  int calls = 0;
-  o.solver.progress = [&calls](double) { ++calls; return true; };
-  ASSERT_EQ(map(o).error, SMP::OK);
-  const std::string expected = output;
-  const int all = calls;
-  std::size_t most = 0;
-  for(int k = 0; k < 10; ++k) {
-    SCOPED_TRACE("killed at call " + std::to_string(1 + k * (all - 1) / 9));
-    const pid_t child = fork();
-    if(child == 0) {
-      int left = 1 + k * (all - 1) / 9;
-      o.solver.progress = [&left](double) {
-        if(--left == 0)
-          raise(SIGKILL);
-        return true;
-      };
-      map(o);
-      _exit(0);
-    }
-    int status = 0;
-    waitpid(child, &status, 0);
-    ASSERT_TRUE(WIFSIGNALED(status));
-    o.resumes = true;
-    const Report report = map(o);
-    o.resumes = false;
+  const std::size_t n = mesh.points.size();
+  for(const std::size_t block : {n, n / 7}) {
+    const Report report = map(options(block, n / 3, 1e-2));
     ASSERT_EQ(report.error, SMP::OK) << report.message;
-    EXPECT_TRUE(output == expected);
-    most = (std::max)(most, report.finished_before);
-    EXPECT_FALSE(fs::exists(work()));
+    EXPECT_EQ(report.solver.mollified_faces, expected) << report.blocks;
   }
-  EXPECT_GT(most, 1u);
-}
-
-TEST_F(Very_large_chart, has_its_folder_for_itself)
-{
-  write_records(grid(30, 30), input());
-  Options o = options(300, 400, 1e-2);
-  const Options same = o;
-  std::string message;
-  o.solver.progress = [&](double) {
-    if(message.empty())
-      message = SMP::map_very_large_chart(input(), [](std::string_view) {}, same).message;
-    return true;
-  };
-  EXPECT_EQ(map(o).error, SMP::OK);
-  EXPECT_EQ(message, work() + ": another run works in this folder, name another one");
-}
-
-TEST_F(Very_large_chart, sees_what_changed_before_it_goes_on)
-{
-  const Indexed_triangle_mesh mesh = curved_charts(4)[3].mesh;
-  write_records(mesh, input());
-  Options o = options(mesh.points.size() / 4, mesh.points.size() / 4, 1e-3);
-  const auto stop = [&] {
-    o.solver.progress = [](double part) { return part < 0.7; };
-    o.resumes = false;
-    const Report report = map(o);
-    EXPECT_TRUE(report.solver.cancelled);
-    EXPECT_TRUE(fs::exists(work()));
-    o.solver.progress = nullptr;
-    o.resumes = true;
-  };
-  stop();
-  const fs::path file = fs::path(work()) / "level0_value.hlscm";
-  {
-    std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
-    stream.seekg(std::streamoff(fs::file_size(file) / 2));
-    const char old = char(stream.get());
-    stream.seekp(std::streamoff(fs::file_size(file) / 2));
-    stream.put(char(~old));
-  }
-  EXPECT_EQ(error_in_failure(map(o), output, "is not what was written"), "");
-  stop();
-  Options other = o;
-  other.block_vertices /= 2;
-  EXPECT_EQ(error_in_failure(map(other), output, "other options"), "");
-  fs::last_write_time(input(), fs::last_write_time(input()) + std::chrono::seconds(5));
-  EXPECT_EQ(error_in_failure(map(o), output, "another input"), "");
-  o.resumes = false; // begins anew
-  EXPECT_EQ(map(o).error, SMP::OK);
-  o.resumes = true;  // nothing is there
-  EXPECT_EQ(map(o).error, SMP::OK);
-  EXPECT_FALSE(fs::exists(work()));
 }
 
 } // namespace very_large_chart_test

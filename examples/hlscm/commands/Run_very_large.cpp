@@ -147,18 +147,21 @@ int run_very_large(const Program_options& options)
   library.memory = options.memory;
   library.work_folder = work_folder_of(options);
   library.resumes = options.is_resumed;
+  library.finish = [&](const Report& report) {
+    Interruption::check();
+    if(report_file != nullptr) {
+      report_file->put(to_json(report, options));
+    }
+    Interruption::finish();
+    files.commit();
+  };
   progress.start_stage("mapping");
   const Report report = SMP::map_very_large_chart(
       options.input, [&output](std::string_view bytes) { output.put(bytes); }, library);
-  Interruption::check();
   if(report.error != SMP::OK) {
+    Interruption::check();
     throw Program_error(options.input, report.message);
   }
-  if(report_file != nullptr) {
-    report_file->put(to_json(report, options));
-  }
-  Interruption::finish();
-  files.commit();
   progress.erase();
   if(options.is_verbose) {
     std::cerr << report.solver;

@@ -196,7 +196,17 @@ inline double longest_side(const Bbox_3& box)
   return (std::max)({box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin()});
 }
 
-/// The Morton code of each point: ten bits an axis in the bounding cube.
+/// The Morton code of a point, ten bits an axis, in a cube of 1024 cells a side at `corner`.
+template <class Point, class Corner>
+std::uint32_t morton_code(const Point& p, const Corner& corner, double cells_per_length)
+{
+  std::uint32_t code = 0;
+  for(int c = 0; c < 3; ++c)
+    code |= spread_bits(std::uint32_t((p[c] - corner[c]) * cells_per_length)) << c;
+  return code;
+}
+
+/// The Morton code of each point in the bounding cube.
 inline std::vector<std::uint32_t>
 morton_codes(const std::vector<Indexed_triangle_mesh::Point_3>& points)
 {
@@ -206,11 +216,11 @@ morton_codes(const std::vector<Indexed_triangle_mesh::Point_3>& points)
   const Bbox_3 box = bounding_box(points);
   const double extent = longest_side(box);
   const double scale = extent > 0. ? 1023.999 / extent : 0.;
+  const std::array<double, 3> corner = {box.xmin(), box.ymin(), box.zmin()};
   Blocked_execution::blocked_for(points.size(), block_of_points,
                                  [&](std::size_t begin, std::size_t end) {
     for(std::size_t i = begin; i < end; ++i)
-      for(int c = 0; c < 3; ++c)
-        codes[i] |= spread_bits(std::uint32_t((points[i][c] - (box.min)(c)) * scale)) << c;
+      codes[i] = morton_code(points[i], corner, scale);
   });
   return codes;
 }

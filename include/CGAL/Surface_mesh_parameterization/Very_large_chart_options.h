@@ -9,10 +9,13 @@
 #include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
 
 #include <cstddef>
+#include <functional>
 #include <string>
 
 namespace CGAL {
 namespace Surface_mesh_parameterization {
+
+struct Very_large_chart_report;
 
 /// \ingroup PkgHLSCMParameterizer
 /// The options of `map_very_large_chart()`.
@@ -29,11 +32,14 @@ struct Very_large_chart_options
   /// Vertices of the first level that is taken into memory at most; 0: as many as the memory allows.
   std::size_t gathered_vertices = 0;
   /// The folder of the files of the run, which it creates and removes. It should be on the disk of
-  /// the output, and needs about 100 bytes a face.
+  /// the output, and needs about 150 bytes a face.
   std::string work_folder;
   /// Whether the run goes on from the last finished level of one that was ended, whose files are
   /// still in the folder; if there are none, it begins.
   bool resumes = false;
+  /// Called when all of the output was put, before the files are removed: it may give the output its
+  /// name. What it throws leaves the files, and the function.
+  std::function<void(const Very_large_chart_report&)> finish;
 };
 
 /*!

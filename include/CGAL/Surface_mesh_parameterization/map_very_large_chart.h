@@ -12,6 +12,7 @@
 #endif
 
 #include <functional>
+#include <new>
 #include <string>
 #include <string_view>
 
@@ -37,7 +38,10 @@ Bad data of any kind, a full disk and damaged files are errors, in one sentence.
 there is something to resume: after a full disk, too few iterations, or `progress` that said stop, or
 if the process was killed; not after what is wrong with the input.
 
-Linear time but for the iterations; for POSIX systems.
+The input must not change until the function returns; that it did is an error if it is seen.
+
+Linear time but for the iterations; for POSIX systems. On a file system that copies on write the
+promise of room on a full disk may be broken by it, and with it the process.
 */
 CGAL_HLSCM_INLINE Very_large_chart_report
 map_very_large_chart(const std::string& input, const std::function<void(std::string_view)>& put,
@@ -68,6 +72,11 @@ map_very_large_chart(const std::string& input, const std::function<void(std::str
     report.message = report.solver.message = failure.what();
     report.solver.converged = false;
     report.solver.cancelled = failure.kind == internal::Streaming_failure::CANCELLED;
+  } catch(const std::bad_alloc&) {
+    report.error = ERROR_CANNOT_SOLVE_LINEAR_SYSTEM;
+    report.message = report.solver.message = "there is not enough memory for this run, begin anew and "
+                                             "let it use less";
+    report.solver.converged = false;
   }
   return report;
 }

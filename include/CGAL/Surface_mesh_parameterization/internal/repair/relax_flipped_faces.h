@@ -223,6 +223,8 @@ void relax_flipped_faces(const Matrix& h, const Triangles& triangles, Map& z)
     const std::vector<std::uint32_t> flipped = faces_without_positive_area(triangles, z);
     if(flipped.empty())
       return;
+    if(free_vertices_around(h, triangles, flipped, 0).size() > largest) // without all of their rings
+      return;
     const std::vector<std::uint32_t> patch = free_vertices_around(h, triangles, flipped, rings);
     if(patch.size() > largest)
       return;

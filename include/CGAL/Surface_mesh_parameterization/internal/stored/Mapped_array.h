@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_STORED_MAPPED_ARRAY_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_STORED_MAPPED_ARRAY_H
 
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_parameterization/internal/stored/Streaming_failure.h>
 
 #include <algorithm>
@@ -14,6 +15,7 @@
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -146,6 +148,38 @@ private:
   bool m_is_in_memory = false;
 };
 
+// A hash with one more word.
+inline std::uint64_t mixed(std::uint64_t hash, std::uint64_t word)
+{
+  hash = (hash ^ word) * 0x9E3779B97F4A7C15u; // odd: no bit is lost
+  return hash ^ (hash >> 29);
+}
+
+// A number that another content of the file hardly has: of each megabyte a hash of its words, and a
+// hash of these. It guards against damage, not against malice.
+inline std::uint64_t checksum_of(const Mapped_file& file)
+{
+  constexpr std::size_t block = std::size_t(1) << 20;
+  std::vector<std::uint64_t> of_block(Blocked_execution::number_of_blocks(file.bytes(), block));
+  Blocked_execution::blocked_for(file.bytes(), block, [&](std::size_t begin, std::size_t end) {
+    std::uint64_t lanes[4] = {1, 2, 3, 4}, words[4];
+    std::size_t i = begin;
+    for(; i + sizeof(words) <= end; i += sizeof(words)) {
+      std::memcpy(words, file.data() + i, sizeof(words));
+      for(int lane = 0; lane < 4; ++lane)
+        lanes[lane] = mixed(lanes[lane], words[lane]);
+    }
+    for(; i < end; ++i)
+      lanes[0] = mixed(lanes[0], std::uint8_t(file.data()[i]));
+    of_block[begin / block] = mixed(mixed(lanes[0], lanes[1]), mixed(lanes[2], lanes[3]));
+    file.release(begin, end);
+  });
+  std::uint64_t result = mixed(1, file.bytes());
+  for(const std::uint64_t hash : of_block)
+    result = mixed(result, hash);
+  return result;
+}
+
 // An array in a file: a handle, which may be constant while the entries are not.
 template <class T>
 class Mapped_array
@@ -177,6 +211,44 @@ public:
 private:
   Mapped_file m_file;
 };
+
+// What takes ranges of arrays in files out of the memory.
+template <class... Array>
+auto releases(const Array&... array)
+{
+  return [&](std::size_t begin, std::size_t end) { (array.release(begin, end), ...); };
+}
+
+// Calls `body(begin, end)` for blocks of rows, and after each slab of them `release(begin, end)`,
+// so that what was streamed takes no memory any more.
+template <class Body, class Release>
+void stream_rows(std::size_t n, const Body& body, const Release& release)
+{
+  constexpr std::size_t slab = std::size_t(1) << 18, block = 16384;
+  for(std::size_t first = 0; first < n; first += slab) {
+    const std::size_t last = (std::min)(n, first + slab);
+    Blocked_execution::blocked_for(last - first, block, [&](std::size_t begin, std::size_t end) {
+      body(first + begin, first + end);
+    });
+    release(first, last);
+  }
+}
+
+// The same for `body`s that return sums of their rows; returns those of all.
+template <class Sum, class Body, class Release>
+Sum sum_rows(std::size_t n, const Body& body, const Release& release)
+{
+  constexpr std::size_t slab = std::size_t(1) << 18, block = 16384;
+  Sum result = Sum();
+  for(std::size_t first = 0; first < n; first += slab) {
+    const std::size_t last = (std::min)(n, first + slab);
+    result += Blocked_execution::blocked_sum<Sum>(
+      last - first, block,
+      [&](std::size_t begin, std::size_t end) { return body(first + begin, first + end); });
+    release(first, last);
+  }
+  return result;
+}
 
 } // namespace internal
 } // namespace Surface_mesh_parameterization

@@ -6,6 +6,7 @@
 
 #include <CGAL/Surface_mesh_parameterization/internal/stored/Mapped_array.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -36,13 +37,17 @@ public:
     if(m_file.bytes() < needed)
       refuse("the file is cut off: it should have " + std::to_string(needed) + " bytes, but has "
              + std::to_string(m_file.bytes()) + "; copy or export it again");
-    if(m_vertices >= std::uint32_t(-1) || m_faces >= std::uint32_t(-1))
-      refuse("there are more vertices or faces than 32 bits can number");
+    if(m_vertices > std::size_t(2147483647))
+      refuse("there are more vertices than the type int of PLY can number, 2147483647");
+    if(m_faces >= std::uint32_t(-1))
+      refuse("there are more faces than 32 bits can number");
   }
 
   std::size_t number_of_vertices() const { return m_vertices; }
   std::size_t number_of_faces() const { return m_faces; }
+  const std::string& path() const { return m_file.path(); }
   std::size_t bytes() const { return m_file.bytes(); }
+  std::uint64_t checksum() const { return checksum_of(m_file); }
 
   Point point(std::size_t v) const
   {
@@ -192,15 +197,17 @@ inline void Ply_records::read_header()
   if(line.substr(0, 3) != "ply")
     refuse("this is not a PLY file, convert it to binary PLY: only its records can be found without "
            "reading all of it");
-  bool has_ended = false;
+  bool has_ended = false, has_format = false;
   while(!has_ended && std::getline(lines, line)) {
     if(!line.empty() && line.back() == '\r')
       line.pop_back();
     std::istringstream words(line);
+    word.clear();
     words >> word;
-    if(word == "format")
+    if(word == "format") {
       read_format(words);
-    else if(word == "element") {
+      has_format = true;
+    } else if(word == "element") {
       std::size_t count = 0;
       const std::string before = element;
       words >> element >> count;
@@ -216,8 +223,10 @@ inline void Ply_records::read_header()
       read_property(words, element == "vertex");
     has_ended = word == "end_header";
   }
-  if(!has_ended)
+  if(!has_ended || lines.eof())
     refuse("the header of the PLY file does not end");
+  if(!has_format)
+    refuse("the header has no format, export the mesh again");
   if(m_type[0].size == 0 || m_type[1].size == 0 || m_type[2].size == 0)
     refuse("the vertices have no properties x, y and z, export the mesh again");
   if(m_count_size == 0 || m_faces == 0)

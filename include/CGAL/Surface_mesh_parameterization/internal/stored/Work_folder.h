@@ -4,12 +4,10 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_STORED_WORK_FOLDER_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_STORED_WORK_FOLDER_H
 
-#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_parameterization/internal/stored/Mapped_array.h>
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -24,36 +22,6 @@ namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
 
-// A number that another content of the file hardly has: of each megabyte a hash of its words, and a
-// hash of these. It guards against damage, not against malice.
-inline std::uint64_t checksum_of(const Mapped_file& file)
-{
-  constexpr std::size_t block = std::size_t(1) << 20;
-  constexpr std::uint64_t factor = 0x9E3779B97F4A7C15u; // odd: no bit is lost
-  const auto mix = [](std::uint64_t h, std::uint64_t word) {
-    h = (h ^ word) * factor;
-    return h ^ (h >> 29);
-  };
-  std::vector<std::uint64_t> of_block(Blocked_execution::number_of_blocks(file.bytes(), block));
-  Blocked_execution::blocked_for(file.bytes(), block, [&](std::size_t begin, std::size_t end) {
-    std::uint64_t lanes[4] = {1, 2, 3, 4}, words[4];
-    std::size_t i = begin;
-    for(; i + sizeof(words) <= end; i += sizeof(words)) {
-      std::memcpy(words, file.data() + i, sizeof(words));
-      for(int lane = 0; lane < 4; ++lane)
-        lanes[lane] = mix(lanes[lane], words[lane]);
-    }
-    for(; i < end; ++i)
-      lanes[0] = mix(lanes[0], std::uint8_t(file.data()[i]));
-    of_block[begin / block] = mix(mix(lanes[0], lanes[1]), mix(lanes[2], lanes[3]));
-    file.release(begin, end);
-  });
-  std::uint64_t result = mix(factor, file.bytes());
-  for(const std::uint64_t hash : of_block)
-    result = mix(result, hash);
-  return result;
-}
-
 // Creates a folder, if it is not there, in which nobody else works as long as this exists.
 class Folder_lock
 {
@@ -66,7 +34,10 @@ public:
     if(m_folder < 0)
       throw Streaming_failure(Streaming_failure::RESUMABLE, path + ": the work folder cannot be created ("
                               + (error ? error.message() : std::strerror(errno)) + ")");
-    if(::flock(m_folder, LOCK_EX | LOCK_NB) == 0)
+    struct stat opened, named; // a run that ends now may have removed what was opened
+    if(::flock(m_folder, LOCK_EX | LOCK_NB) == 0 && ::fstat(m_folder, &opened) == 0
+       && ::stat(path.c_str(), &named) == 0 && opened.st_ino == named.st_ino
+       && opened.st_dev == named.st_dev)
       return;
     ::close(m_folder);
     throw Streaming_failure(Streaming_failure::RESUMABLE,
@@ -193,29 +164,42 @@ private:
   {
     std::error_code ignored;
     std::vector<std::filesystem::path> result;
-    for(const auto& entry : std::filesystem::directory_iterator(m_path, ignored))
-      if(entry.path().extension() == suffix)
-        result.push_back(entry.path());
+    for(std::filesystem::directory_iterator at(m_path, ignored), end; !ignored && at != end;
+        at.increment(ignored))
+      if(at->path().extension() == suffix)
+        result.push_back(at->path());
     return result;
   }
 
+  // The list first: while it is there, so are the files that it names, whenever the process ends.
   void remove_files()
   {
     std::error_code ignored;
+    std::filesystem::remove(m_path / manifest_name, ignored);
     for(const auto& file : files())
       std::filesystem::remove(file, ignored);
   }
 
+  // By which damage to the list is seen.
+  static std::string last_line(const std::string& text)
+  {
+    std::uint64_t hash = 1;
+    for(const char c : text)
+      hash = mixed(hash, std::uint8_t(c));
+    return "end " + std::to_string(hash);
+  }
+
   void write_manifest() const
   {
+    std::ostringstream text;
+    text << "identity " << m_identity << '\n';
+    for(const auto& [phase, values] : m_values)
+      text << "phase " << phase << ' ' << values << '\n';
+    for(const auto& [name, checksum] : m_checksums)
+      text << "file " << name << ' ' << checksum << '\n';
     const std::filesystem::path temporary = path_of("finished_new");
     std::ofstream out(temporary);
-    out << "identity " << m_identity << '\n';
-    for(const auto& [phase, values] : m_values)
-      out << "phase " << phase << ' ' << values << '\n';
-    for(const auto& [name, checksum] : m_checksums)
-      out << "file " << name << ' ' << checksum << '\n';
-    out << "end\n";
+    out << text.str() << last_line(text.str()) << '\n';
     out.close();
     std::error_code error;
     if(out)
@@ -228,9 +212,11 @@ private:
   void read_manifest()
   {
     std::ifstream in(m_path / manifest_name);
-    std::string line, key, name;
+    std::string text, line, key, name;
     bool is_whole = false, is_same = false;
     while(std::getline(in, line)) {
+      is_whole = line == last_line(text);
+      text += line + '\n';
       std::istringstream words(line);
       words >> key;
       if(key == "identity")
@@ -239,14 +225,17 @@ private:
         std::getline(words, m_values[name]);
       else if(key == "file" && words >> name)
         words >> m_checksums[name];
-      is_whole = is_whole || line == "end";
     }
     std::error_code ignored;
     for(const auto& file : files())
       if(file.filename() != manifest_name && m_checksums.count(file.stem().string()) == 0
          && is_whole && is_same)
         std::filesystem::remove(file, ignored); // it was being written
-    if(!is_whole || !is_same)
+    if(!is_whole)
+      throw Streaming_failure(Streaming_failure::RESUMABLE, (m_path / manifest_name).string()
+                              + ": the file is not what was written, remove the work folder and begin "
+                              "again");
+    if(!is_same)
       throw Streaming_failure(Streaming_failure::RESUMABLE, m_path.string() + ": this is work on another "
                               "input or with other options, remove it or do not resume it");
   }

@@ -31,6 +31,7 @@ struct Mesh_block
   std::vector<std::uint32_t> ghosts;
   Indexed_mesh::Indexed_triangle_mesh mesh; // triangles by their smallest vertex, which is the first
   Half_cotangents cotangents;               // of these
+  std::size_t own_mollified = 0;            // of those that no earlier block has
 
   Mesh_block(const Streamed_mesh& whole, std::size_t block);
 
@@ -95,8 +96,12 @@ inline Mesh_block::Mesh_block(const Streamed_mesh& whole, std::size_t block)
   whole.triangles.release(whole.triangle_begin[block], whole.triangle_begin[block + 1]);
   if(!whole.cotangents.empty())
     whole.cotangents.release(whole.triangle_begin[block], whole.triangle_begin[block + 1]);
-  if(given.empty())
-    cotangents = Half_cotangents(mesh);
+  if(!given.empty())
+    return;
+  cotangents = Half_cotangents(mesh);
+  if(cotangents.mollified > 0)
+    for(std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      own_mollified += owns(mesh.triangles[t]) && conformal_triangle(mesh, t).is_mollified() ? 1 : 0;
 }
 
 // From numbers in the whole mesh to those of the block.

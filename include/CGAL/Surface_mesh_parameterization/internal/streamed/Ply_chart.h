@@ -39,7 +39,6 @@ public:
   const Ply_records& records() const { return m_ply; }
   std::size_t number_of_used() const { return m_number_of_used; }
   const Bbox_3& box() const { return m_box; } // of what `point()` returns
-  double scale() const { return 1. / m_extent; }
 
   std::size_t number_of_vertices() const { return m_ply.number_of_vertices(); }
   std::size_t number_of_triangles() const { return m_ply.number_of_faces(); }
@@ -83,7 +82,10 @@ inline void Ply_chart::scan_faces()
     if(!m_ply.is_triangle(f))
       refuse("face " + std::to_string(f) + " is not a triangle; triangulate the mesh first",
              ERROR_NON_TRIANGULAR_MESH);
-    for(const std::uint32_t v : m_ply.triangle(f)) {
+    const Triangle_indices triangle = m_ply.triangle(f);
+    if(triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0])
+      refuse("face " + std::to_string(f) + " has a vertex twice; remove it", ERROR_NON_TRIANGULAR_MESH);
+    for(const std::uint32_t v : triangle) {
       if(v >= number_of_vertices())
         refuse("face " + std::to_string(f) + " names vertex " + std::to_string(std::int32_t(v))
                + " but there are " + std::to_string(number_of_vertices()) + " vertices, the file is "
@@ -97,11 +99,14 @@ inline void Ply_chart::scan_faces()
 
 inline void Ply_chart::scan_vertices()
 {
+  constexpr std::size_t slab = std::size_t(1) << 20;
   for(std::size_t v = 0; v < number_of_vertices(); ++v) {
     const Three_numbers p = m_ply.point(v);
     if(!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
       refuse("vertex " + std::to_string(v)
              + " has a coordinate that is not a finite number; correct or remove it");
+    if((v + 1) % slab == 0)
+      release_vertices(v + 1 - slab, v + 1);
     if(!m_is_used[v])
       continue;
     ++m_number_of_used;
@@ -113,7 +118,7 @@ inline void Ply_chart::scan_vertices()
     refuse(m_extent > 0. ? "the mesh is larger than a number; scale it"
                          : "all vertices lie in one point");
   for(int c = 0; c < 3; ++c)
-    m_middle[c] = 0.5 * ((m_box.min)(c) + (m_box.max)(c));
+    m_middle[c] = 0.5 * (m_box.min)(c) + 0.5 * (m_box.max)(c);
   const auto moved = [this](double x, int c) { return (x - m_middle[c]) / m_extent; };
   m_box = Bbox_3(moved(m_box.xmin(), 0), moved(m_box.ymin(), 1), moved(m_box.zmin(), 2),
                  moved(m_box.xmax(), 0), moved(m_box.ymax(), 1), moved(m_box.zmax(), 2));

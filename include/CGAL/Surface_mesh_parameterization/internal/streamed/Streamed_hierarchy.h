@@ -47,7 +47,8 @@ public:
   Streamed_hierarchy(const std::string& input, const Very_large_chart_options& options,
                      Very_large_chart_report& report)
     : m_options(options), m_report(report), m_input(input)
-    , m_folder(options.work_folder, identity_of(input), options.resumes), m_finished(m_folder)
+    , m_written(last_write_time(input))
+    , m_folder(options.work_folder, identity(), options.resumes), m_finished(m_folder)
   {
     m_report.solver.method = "hlscm";
     m_report.solver.faces = m_input.number_of_triangles();
@@ -57,11 +58,26 @@ public:
   // Builds all levels.
   void build();
 
+  // Refuses an input that is no longer what was mapped.
+  void check_input() const
+  {
+    const std::string& path = m_input.records().path();
+    std::error_code error;
+    if(last_write_time(path) != m_written
+       || std::filesystem::file_size(path, error) != m_input.records().bytes())
+      refuse("the file was changed while it was mapped; begin again");
+  }
+
   const Ply_records& input() const { return m_input.records(); }
   Work_folder& folder() { return m_folder; }
   std::vector<Streamed_level>& levels() { return m_levels; } // the coarsest first
   Gathered_hierarchy& gathered() { return *m_gathered; }
   std::size_t bytes_of_gathered() const { return bytes_of_vertex * m_gathered->size(); }
+  // What is in memory of arrays that are streamed, and of the program.
+  std::size_t bytes_of_window() const
+  {
+    return (std::min)(m_options.memory / 4, std::size_t(400) << 20);
+  }
   const Pins& pins() const { return m_state.pins; } // of the coarsest of all
   const Mapped_array<Streamed_mesh::Triangle_indices>& triangles() const { return m_triangles; }
   const Mapped_array<std::uint32_t>& rank() const { return m_rank; } // of the input's vertices
@@ -91,16 +107,19 @@ private:
   static constexpr std::size_t bytes_of_vertex = 650;
   // Of smaller blocks nearly all vertices are at others, and stay.
   static constexpr std::size_t least_in_block = 200;
+  // Corners of what is in memory have numbers of 32 bits.
+  static constexpr std::size_t most_with_32_bits = std::size_t(1) << 28;
 
   std::size_t most_gathered() const
   {
     const std::size_t most = m_options.gathered_vertices;
-    return (std::max)(std::size_t(4), most > 0 ? most : m_options.memory / (2 * bytes_of_vertex));
+    return (std::clamp)(most > 0 ? most : m_options.memory / (2 * bytes_of_vertex), std::size_t(4),
+                        most_with_32_bits);
   }
   std::size_t most_in_block() const
   {
     const std::size_t most = m_options.block_vertices;
-    return (std::max)(least_in_block, most > 0 ? most : m_options.memory / 1000);
+    return (std::clamp)(most > 0 ? most : m_options.memory / 1000, least_in_block, most_with_32_bits);
   }
   std::size_t block_size_for(std::size_t vertices) const
   {
@@ -110,7 +129,12 @@ private:
     return (vertices + blocks - 1) / blocks;
   }
 
-  std::string identity_of(const std::string& input) const;
+  static std::filesystem::file_time_type last_write_time(const std::string& path)
+  {
+    std::error_code ignored;
+    return std::filesystem::last_write_time(path, ignored);
+  }
+  std::string identity() const;
   Streamed_mesh sort_input();
   Streamed_mesh sort_coarse(std::size_t k, const Streamed_mesh& fine, Decimated_level& level);
   void normalize(Streamed_mesh& mesh);
@@ -123,6 +147,7 @@ private:
   Very_large_chart_report& m_report;
   bool m_is_cancelled = false;
   Ply_chart m_input;
+  std::filesystem::file_time_type m_written;
   Work_folder m_folder;
   Finished_levels m_finished;
   Run_state m_state;    // of the level that is being worked on
@@ -132,14 +157,13 @@ private:
   Mapped_array<std::uint32_t> m_rank;
 };
 
-inline std::string Streamed_hierarchy::identity_of(const std::string& input) const
+// Of the input's bytes and of what the levels depend on.
+inline std::string Streamed_hierarchy::identity() const
 {
-  std::error_code ignored;
+  constexpr int format = 1; // of the files in the folder
   std::ostringstream text;
   text.precision(17);
-  text << std::filesystem::file_size(input, ignored) << ' '
-       << std::filesystem::last_write_time(input, ignored).time_since_epoch().count() << ' '
-       << most_gathered() << ' ' << most_in_block() << ' ' << m_options.solver.level_ratio << ' '
+  text << format << ' ' << m_input.records().checksum() << ' ' << most_gathered() << ' ' << most_in_block() << ' ' << m_options.solver.level_ratio << ' '
        << m_options.solver.angular_defect_bound;
   return text.str();
 }
@@ -157,6 +181,7 @@ inline void Streamed_hierarchy::build()
       m_finished.open("mesh0", "rank", m_rank);
       m_finished.open("mesh0", "triangles", m_triangles);
     }
+    m_finished.remove_before(k + 1); // what is left if the run was ended before it could
   }
   mesh = m_finished.has_mesh(k) ? m_finished.open_mesh(k, m_state) : sort_input();
   m_report.seconds_sort += watch.lap();
@@ -206,24 +231,20 @@ inline Streamed_mesh Streamed_hierarchy::sort_input()
 // Scales the mean length of the edges to 1.
 inline void Streamed_hierarchy::normalize(Streamed_mesh& mesh)
 {
-  double sum = 0.;
-  constexpr std::size_t slab = std::size_t(1) << 20;
-  for(std::size_t first = 0; first < mesh.triangles.size(); first += slab) {
-    const std::size_t last = (std::min)(mesh.triangles.size(), first + slab);
-    sum += Blocked_execution::blocked_sum<double>(
-      last - first, 16384, [&](std::size_t begin, std::size_t end) {
-        double lengths = 0.;
-        for(std::size_t t = first + begin; t < first + end; ++t)
-          for(int c = 0; c < 3; ++c) {
-            const Three_numbers& p = mesh.points[mesh.triangles[t][c]];
-            const Three_numbers& q = mesh.points[mesh.triangles[t][(c + 1) % 3]];
-            lengths += std::sqrt((p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1])
-                                 + (p[2] - q[2]) * (p[2] - q[2]));
-          }
-        return lengths;
-      });
-    mesh.triangles.release(first, last);
-  }
+  const double sum = sum_rows<double>(
+    mesh.triangles.size(),
+    [&](std::size_t begin, std::size_t end) {
+      double lengths = 0.;
+      for(std::size_t t = begin; t < end; ++t)
+        for(int c = 0; c < 3; ++c) {
+          const Three_numbers& p = mesh.points[mesh.triangles[t][c]];
+          const Three_numbers& q = mesh.points[mesh.triangles[t][(c + 1) % 3]];
+          lengths += std::sqrt((p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1])
+                               + (p[2] - q[2]) * (p[2] - q[2]));
+        }
+      return lengths;
+    },
+    releases(mesh.triangles));
   if(!(sum > 0.))
     refuse("all vertices lie in one point");
   const double mean = sum / (3. * double(mesh.triangles.size()));
@@ -252,7 +273,7 @@ inline void Streamed_hierarchy::decimate(std::size_t k, Streamed_mesh& mesh, Dec
       check_rings(Indexed_mesh::Vertex_rings(block.mesh),
                   [&](std::uint32_t v) { return name(block.global(v)); });
     level.matrix.add_block(block);
-    m_state.mollified_faces += block.cotangents.mollified;
+    m_state.mollified_faces += block.own_mollified;
     give_memory_back();
     check_whether_to_go_on(0.1 + 0.1 * double(b + 1) / double(blocks));
   }
@@ -285,12 +306,17 @@ inline Streamed_mesh Streamed_hierarchy::sort_coarse(std::size_t k, const Stream
   const Coarse_source source = {fine, decimated};
   std::size_t count = 0;
   Bbox_3 box;
-  for(std::size_t v = 0; v < fine.number_of_vertices(); ++v) {
-    const Three_numbers& p = fine.points[v];
-    count += decimated.is_kept(v) ? 1 : 0;
-    box += Bbox_3(p[0], p[1], p[2], p[0], p[1], p[2]);
+  const std::size_t n = fine.number_of_vertices();
+  constexpr std::size_t slab = std::size_t(1) << 18;
+  for(std::size_t first = 0; first < n; first += slab) {
+    const std::size_t last = (std::min)(n, first + slab);
+    for(std::size_t v = first; v < last; ++v) {
+      const Three_numbers& p = fine.points[v];
+      count += decimated.is_kept(v) ? 1 : 0;
+      box += Bbox_3(p[0], p[1], p[2], p[0], p[1], p[2]);
+    }
+    source.release_vertices(first, last);
   }
-  source.release_vertices(0, fine.number_of_vertices());
   const double golden = 0.6180339887498949; // the cells of no two levels have faces in common
   const std::string prefix = m_finished.mesh_name(k) + "_";
   Streamed_mesh_builder<Coarse_source> builder(m_folder, prefix, source);
@@ -330,7 +356,7 @@ inline void Streamed_hierarchy::gather(std::size_t k, Streamed_mesh& mesh)
   HLSCM_options options = m_options.solver;
   options.progress = [this](double part) { return tell(0.6 + 0.1 * part); };
   Mesh_block block(mesh, 0);
-  const std::size_t mollified = block.cotangents.mollified;
+  const std::size_t mollified = block.own_mollified;
   m_gathered = std::make_unique<Gathered_hierarchy>(
     std::move(block), options, [&](std::uint32_t v) { return mesh.source[v]; });
   if(k == 0) {
@@ -361,6 +387,7 @@ inline void Streamed_hierarchy::complete_report()
     for(std::size_t i = 0; i < pins.size(); ++i)
       if(m_rank[v] == pins[i])
         report.pins.push_back({v, m_state.pins[i].value.real(), m_state.pins[i].value.imag()});
+  m_rank.release();
   if(report.mollified_faces > 0)
     report.warnings.push_back(std::to_string(report.mollified_faces)
                               + " faces have no area; they were given some by mollification");

@@ -134,24 +134,23 @@ private:
       x[pin] = 0.f;
   }
 
-  template <class Value>
-  static std::complex<double> product(const Vector& x, const Value& y)
+  static std::complex<double> product(const Vector& x, const Vector& y)
   {
-    return Blocked_execution::blocked_sum<std::complex<double>>(
-      x.size(), 16384, [&](std::size_t begin, std::size_t end) {
+    return sum_rows<std::complex<double>>(
+      x.size(), [&](std::size_t begin, std::size_t end) {
         std::complex<double> sum = 0.;
         for(std::size_t i = begin; i < end; ++i)
           sum += std::conj(std::complex<double>(x[i])) * std::complex<double>(y[i]);
         return sum;
-      });
+      }, releases(x, y));
   }
 
   static void add_scaled(Rounded c, const Vector& x, const Vector& y)
   {
-    Blocked_execution::blocked_for(x.size(), 16384, [&](std::size_t begin, std::size_t end) {
+    stream_rows(x.size(), [&](std::size_t begin, std::size_t end) {
       for(std::size_t i = begin; i < end; ++i)
         y[i] += c * x[i];
-    });
+    }, releases(x, y));
   }
 
   Gathered_hierarchy& m_gathered;
@@ -269,7 +268,9 @@ void Streamed_levels::accelerate(std::size_t l, unsigned int steps, const Coarse
     const std::string number = std::to_string(level.directions.size());
     level.directions.emplace_back(level.create("p" + number), level.create("q" + number));
   }
-  std::fill(level.x.begin(), level.x.end(), Rounded(0.f));
+  stream_rows(level.x.size(), [&level](std::size_t begin, std::size_t end) {
+    std::fill(level.x.begin() + begin, level.x.begin() + end, Rounded(0.f));
+  }, releases(level.x));
   const double enough = 0.0625 * product(level.f, level.f).real(); // a quarter, squared
   for(unsigned int step = 0; step < steps; ++step) {
     start_at_zero(l);
@@ -282,6 +283,8 @@ void Streamed_levels::accelerate(std::size_t l, unsigned int steps, const Coarse
         q[i] = s;
       });
     });
+    p.release();
+    q.release();
     clear_pins(level, q);
     for(unsigned int j = 0; j < step; ++j) {
       const auto& [pj, qj] = level.directions[j];

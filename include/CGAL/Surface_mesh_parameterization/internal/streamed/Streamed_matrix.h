@@ -19,21 +19,6 @@ namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
 
-// Calls `body(begin, end)` for blocks of rows, and after each slab of them `release(begin, end)`,
-// so that what was streamed takes no memory any more.
-template <class Body, class Release>
-void stream_rows(std::size_t n, const Body& body, const Release& release)
-{
-  constexpr std::size_t slab = std::size_t(1) << 18, block = 16384;
-  for(std::size_t first = 0; first < n; first += slab) {
-    const std::size_t last = (std::min)(n, first + slab);
-    Blocked_execution::blocked_for(last - first, block, [&](std::size_t begin, std::size_t end) {
-      body(first + begin, first + end);
-    });
-    release(first, last);
-  }
-}
-
 // The Hermitian matrix of the conformal energy of a streamed mesh, in files. A row has an entry for
 // each triangle at its vertex v, that of the corner after v: these are all neighbours but one at the
 // border. That one, and the imaginary parts, which only border edges have, are kept in memory.
@@ -96,8 +81,7 @@ public:
     m_begin.release(begin, end);
   }
 
-  // As a `Self_adjoint_matrix` offers them.
-  std::size_t slot_of_row(std::uint32_t i) const { return i; }
+  // As a `Self_adjoint_matrix` offers it.
   template <class Use>
   void for_each_entry(std::size_t row, const Use& use) const;
 

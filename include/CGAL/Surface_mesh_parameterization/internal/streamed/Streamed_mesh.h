@@ -83,10 +83,7 @@ struct Curve_cube
 
   std::uint32_t code(const Three_numbers& p) const
   {
-    std::uint32_t result = 0;
-    for(int c = 0; c < 3; ++c)
-      result |= Indexed_mesh::spread_bits(std::uint32_t((p[c] - corner[c]) * cells_per_length)) << c;
-    return result;
+    return Indexed_mesh::morton_code(p, corner, cells_per_length);
   }
 };
 
@@ -200,9 +197,16 @@ void Streamed_mesh_builder<Source>::sort_vertices(const Curve_cube& cube, std::s
 {
   auto keys = create<Curve_key>("keys", vertices), other = create<Curve_key>("other_keys", vertices);
   std::size_t count = 0;
-  for(std::size_t v = 0; v < m_source.number_of_vertices(); ++v)
-    if(m_source.is_used(v))
-      keys[count++] = {cube.code(m_source.point(v)), std::uint32_t(v)};
+  constexpr std::size_t slab = std::size_t(1) << 18;
+  const std::size_t all = m_source.number_of_vertices();
+  for(std::size_t first = 0; first < all; first += slab) {
+    const std::size_t last = (std::min)(all, first + slab), count_before = count;
+    for(std::size_t v = first; v < last; ++v)
+      if(m_source.is_used(v))
+        keys[count++] = {cube.code(m_source.point(v)), std::uint32_t(v)};
+    m_source.release_vertices(first, last);
+    keys.release(count_before, count);
+  }
   sort_keys(keys, other);
   other = Mapped_array<Curve_key>();
   m_folder.remove(m_name + "other_keys");
@@ -210,11 +214,15 @@ void Streamed_mesh_builder<Source>::sort_vertices(const Curve_cube& cube, std::s
   m_mesh.source = create<std::uint32_t>("source", vertices);
   m_mesh.rank = create<std::uint32_t>("rank", m_source.number_of_vertices());
   std::fill(m_mesh.rank.begin(), m_mesh.rank.end(), Indexed_mesh::no_vertex);
-  for(std::size_t i = 0; i < vertices; ++i) {
-    const std::uint32_t v = keys[i].vertex;
-    m_mesh.source[i] = v;
-    m_mesh.rank[v] = std::uint32_t(i);
-    m_mesh.points[i] = m_source.point(v);
+  for(std::size_t first = 0; first < vertices; first += slab) {
+    const std::size_t last = (std::min)(vertices, first + slab);
+    for(std::size_t i = first; i < last; ++i) {
+      const std::uint32_t v = keys[i].vertex;
+      m_mesh.source[i] = v;
+      m_mesh.rank[v] = std::uint32_t(i);
+      m_mesh.points[i] = m_source.point(v);
+    }
+    releases(keys, m_mesh.source, m_mesh.points)(first, last);
   }
   keys = Mapped_array<Curve_key>();
   m_folder.remove(m_name + "keys");

@@ -17,7 +17,6 @@
 #include <cstdint>
 #include <fstream>
 #include <functional>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -90,6 +89,7 @@ public:
   void write(const std::function<void(std::string_view)>& put)
   {
     Blocked_execution::Stopwatch watch;
+    m_hierarchy.check_input();
     const auto& rank = m_hierarchy.rank();
     write_mapped_ply(m_hierarchy.input(), [&](std::size_t v) -> std::array<double, 2> {
       return rank[v] == Indexed_mesh::no_vertex ? std::array<double, 2>{0., 0.} : uv(rank[v]);
@@ -98,6 +98,8 @@ public:
     const Disk_traffic now = Disk_traffic::so_far();
     m_report.bytes_read = now.read - m_before.read;
     m_report.bytes_written = now.written - m_before.written;
+    if(m_options.finish)
+      m_options.finish(m_report);
     discard();
   }
 
@@ -105,6 +107,7 @@ private:
   Multigrid::Energy_stop stop_for(double extent) const;
   Streamed_map map_in_memory();
   Streamed_map map_in_files();
+  Streamed_map iterate();
   void conclude(const Multigrid::Iteration_report& result);
   void place_map();
   void count_flips();
@@ -128,13 +131,12 @@ private:
 
 inline Bbox_2 box_of(const Streamed_map& z)
 {
-  return Blocked_execution::blocked_sum<Bbox_2>(
-    z.size(), 16384, [&z](std::size_t begin, std::size_t end) {
-      Bbox_2 box;
-      for(std::size_t i = begin; i < end; ++i)
-        box += Bbox_2(z[i].real(), z[i].imag(), z[i].real(), z[i].imag());
-      return box;
-    });
+  return sum_rows<Bbox_2>(z.size(), [&z](std::size_t begin, std::size_t end) {
+    Bbox_2 box;
+    for(std::size_t i = begin; i < end; ++i)
+      box += Bbox_2(z[i].real(), z[i].imag(), z[i].real(), z[i].imag());
+    return box;
+  }, releases(z));
 }
 
 inline double longer_side(const Bbox_2& box)
@@ -176,8 +178,8 @@ inline void Streamed_run::conclude(const Multigrid::Iteration_report& result)
     throw Streaming_failure(Streaming_failure::CANCELLED, "cancelled");
   if(!result.converged)
     throw Streaming_failure(Streaming_failure::RESUMABLE, "the tolerance was not met after "
-                            + std::to_string(result.iterations) + " iterations; raise the number of "
-                            "iterations, and resume", ERROR_CANNOT_SOLVE_LINEAR_SYSTEM);
+                            + std::to_string(result.iterations) + " iterations; raise their number, and "
+                            "resume: the levels are kept, the iteration begins anew", ERROR_CANNOT_SOLVE_LINEAR_SYSTEM);
 }
 
 inline Streamed_map Streamed_run::map_in_memory()
@@ -197,11 +199,22 @@ inline Streamed_map Streamed_run::map_in_memory()
 
 inline Streamed_map Streamed_run::map_in_files()
 {
+  Streamed_map z = iterate();
+  std::vector<Streamed_level>& levels = m_hierarchy.levels();
+  relax_flipped_faces(Pinned_rows(levels.back()), m_hierarchy.triangles(), z);
+  m_report.solver.energy = Streamed_solver::energy(levels.back(), z);
+  m_hierarchy.measure_files();
+  return z;
+}
+
+// The map of the finest level to the tolerance; what the cycle needs is given back.
+inline Streamed_map Streamed_run::iterate()
+{
   Work_folder& folder = m_hierarchy.folder();
   std::vector<Streamed_level>& levels = m_hierarchy.levels();
   Gathered_hierarchy& gathered = m_hierarchy.gathered();
-  const std::size_t gathered_bytes = m_hierarchy.bytes_of_gathered();
-  folder.set_room_for_scratch(m_options.memory > gathered_bytes ? m_options.memory - gathered_bytes : 0);
+  const std::size_t others = m_hierarchy.bytes_of_gathered() + m_hierarchy.bytes_of_window();
+  folder.set_room_for_scratch(m_options.memory > others ? m_options.memory - others : 0);
   Streamed_levels cycle(folder, levels, gathered);
   Streamed_solver solver(folder, levels, cycle);
   const auto observe = [this](double part) { return m_hierarchy.tell(0.75 + 0.2 * part); };
@@ -225,11 +238,10 @@ inline Streamed_map Streamed_run::map_in_files()
     result = solver.minimize(l, z,
                              l == levels.size() ? stop_for(longer_side(box_of(z))) : coarse_stop, observe);
     m_report.solver.levels[gathered.number_of_levels() + l - 1].iterations = result.iterations;
+    if(result.cancelled)
+      break;
   }
   conclude(result);
-  relax_flipped_faces(Pinned_rows(levels.back()), m_hierarchy.triangles(), z);
-  m_report.solver.energy = solver.energy(levels.size(), z);
-  m_hierarchy.measure_files();
   return z;
 }
 
@@ -253,22 +265,18 @@ inline void Streamed_run::count_flips()
     const auto at = uv(v);
     return Uv_triangle::value_type(at[0], at[1]);
   };
-  std::size_t flips = 0;
-  constexpr std::size_t slab = std::size_t(1) << 20;
-  for(std::size_t first = 0; first < triangles.size(); first += slab) {
-    const std::size_t last = (std::min)(triangles.size(), first + slab);
-    flips += Blocked_execution::blocked_sum<std::size_t>(
-      last - first, 16384, [&](std::size_t begin, std::size_t end) {
-        std::size_t count = 0;
-        for(std::size_t t = first + begin; t < first + end; ++t) {
-          const auto& v = triangles[t];
-          count += orientation_of({point(v[0]), point(v[1]), point(v[2])}) == RIGHT_TURN ? 1 : 0;
-        }
-        return count;
-      });
-    triangles.release(first, last);
-  }
-  m_report.flipped_faces = flips;
+  m_report.flipped_faces = sum_rows<std::size_t>(
+    triangles.size(),
+    [&](std::size_t begin, std::size_t end) {
+      std::size_t count = 0;
+      for(std::size_t t = begin; t < end; ++t) {
+        const auto& v = triangles[t];
+        count += orientation_of({point(v[0]), point(v[1]), point(v[2])}) == RIGHT_TURN ? 1 : 0;
+      }
+      return count;
+    },
+    releases(triangles));
+  m_map.release();
 }
 
 } // namespace internal

@@ -30,30 +30,6 @@ struct Row_sums
   }
 };
 
-// Calls `body(begin, end)`, which returns the sums of these rows, for all of `n`, and
-// `release(begin, end)`; returns the sums of all.
-template <class Body, class Release>
-Row_sums sum_rows(std::size_t n, const Body& body, const Release& release)
-{
-  constexpr std::size_t slab = std::size_t(1) << 18, block = 16384;
-  Row_sums result;
-  for(std::size_t first = 0; first < n; first += slab) {
-    const std::size_t last = (std::min)(n, first + slab);
-    result += Blocked_execution::blocked_sum<Row_sums>(
-      last - first, block,
-      [&](std::size_t begin, std::size_t end) { return body(first + begin, first + end); });
-    release(first, last);
-  }
-  return result;
-}
-
-// What takes rows of vectors that are in files out of the memory.
-template <class... Vector>
-auto releases(const Vector&... vector)
-{
-  return [&](std::size_t begin, std::size_t end) { (vector.release(begin, end), ...); };
-}
-
 // The flexible conjugate gradient method on levels in files, as `Multigrid::minimize_energy()`, with
 // the passes over the rows put together: one with the matrix, and two without, a step.
 class Streamed_solver
@@ -70,9 +46,9 @@ public:
   Multigrid::Iteration_report minimize(std::size_t l, const Streamed_map& z,
                                        const Multigrid::Energy_stop& stop, const Observe& observe);
 
-  double energy(std::size_t l, const Streamed_map& z) const
+  static double energy(const Streamed_level& level, const Streamed_map& z)
   {
-    return 0.5 * apply(m_levels[l - 1].matrix, z, [](std::size_t, const Complex&) {
+    return 0.5 * apply(level.matrix, z, [](std::size_t, const Complex&) {
       return Complex(0.);
     }, releases(z)).first.real();
   }
@@ -83,7 +59,7 @@ private:
   static Row_sums apply(const Streamed_matrix& h, const Streamed_map& x, const Use& use,
                         const Release& release)
   {
-    return sum_rows(
+    return sum_rows<Row_sums>(
       h.size(),
       [&](std::size_t begin, std::size_t end) {
         Row_sums sums;
@@ -142,7 +118,7 @@ Streamed_solver::minimize(std::size_t l, const Streamed_map& z, const Multigrid:
     return Complex(0.);
   }, releases(z, r)).first.real();
   clear_pins(r);
-  double squared_norm = sum_rows(n, [&](std::size_t begin, std::size_t end) {
+  double squared_norm = sum_rows<Row_sums>(n, [&](std::size_t begin, std::size_t end) {
     Row_sums sums;
     for(std::size_t i = begin; i < end; ++i)
       sums.first += std::norm(r[i]);
@@ -155,7 +131,7 @@ Streamed_solver::minimize(std::size_t l, const Streamed_map& z, const Multigrid:
     const auto& u = m_cycle.solution(l);
     Complex c = 0.;
     if(curvature > 0.) // make the direction H-orthogonal to the last one
-      c = -scale / curvature * sum_rows(n, [&](std::size_t begin, std::size_t end) {
+      c = -scale / curvature * sum_rows<Row_sums>(n, [&](std::size_t begin, std::size_t end) {
         Row_sums sums;
         for(std::size_t i = begin; i < end; ++i)
           sums.first += std::conj(q[i]) * Complex(u[i]);
@@ -178,7 +154,7 @@ Streamed_solver::minimize(std::size_t l, const Streamed_map& z, const Multigrid:
     }
     const Complex alpha = slope / curvature;
     double largest = 0.;
-    squared_norm = sum_rows(n, [&](std::size_t begin, std::size_t end) {
+    squared_norm = sum_rows<Row_sums>(n, [&](std::size_t begin, std::size_t end) {
       Row_sums parts;
       for(std::size_t i = begin; i < end; ++i) {
         z[i] += alpha * p[i];
@@ -187,9 +163,11 @@ Streamed_solver::minimize(std::size_t l, const Streamed_map& z, const Multigrid:
       }
       return parts;
     }, releases(z, p, q, r)).first.real();
-    if(control.watches_changes())
+    if(control.watches_changes()) {
       for(const Complex& value : p)
         largest = (std::max)(largest, std::abs(value));
+      p.release();
+    }
     const double decrease = 0.5 * std::norm(slope) / curvature;
     control.step(control.report().energy - decrease, decrease, std::abs(alpha) * largest, observe);
   }

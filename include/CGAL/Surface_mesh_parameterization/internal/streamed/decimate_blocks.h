@@ -10,6 +10,7 @@
 #include <CGAL/Surface_mesh_parameterization/internal/streamed/Mesh_block.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <fstream>
@@ -123,15 +124,11 @@ public:
 
   void add(const Mesh_block& block, const Decimated_block& decimated);
 
-  std::size_t number_of_kept() const { return m_kept; }
-
   Decimated_level finish()
   {
     m_triangles.close();
     m_cotangents.close();
-    if(!m_triangles || !m_cotangents)
-      throw Streaming_failure(Streaming_failure::RESUMABLE, m_folder.path().string()
-                              + ": the work folder cannot be written, make room");
+    check_room();
     Decimated_level result;
     result.stencils = std::move(m_stencils);
     result.triangles = Mapped_array<Streamed_mesh::Triangle_indices>(
@@ -142,10 +139,11 @@ public:
   }
 
 private:
-  void keep(std::uint32_t v)
+  void check_room() const
   {
-    m_stencils[v] = {{v, v, v}, {1.f, 0.f, 0.f}};
-    ++m_kept;
+    if(!m_triangles || !m_cotangents)
+      throw Streaming_failure(Streaming_failure::RESUMABLE, m_folder.path().string()
+                              + ": the work folder cannot be written, make room");
   }
 
   template <class T>
@@ -159,14 +157,15 @@ private:
   std::string m_name;
   Mapped_array<Streamed_stencil> m_stencils;
   std::ofstream m_triangles, m_cotangents;
-  std::size_t m_kept = 0;
 };
 
 inline void Block_collector::add(const Mesh_block& block, const Decimated_block& decimated)
 {
   for(const std::uint32_t v : decimated.coarse.vertices)
-    if(block.is_own(v))
-      keep(block.global(v));
+    if(block.is_own(v)) {
+      const std::uint32_t kept = block.global(v);
+      m_stencils[kept] = {{kept, kept, kept}, {1.f, 0.f, 0.f}};
+    }
   for(const auto& s : decimated.fine.from_coarser.stencils())
     m_stencils[block.global(s.vertex)]
       = {{block.global(s.source[0]), block.global(s.source[1]), block.global(s.source[2])}, s.weight};
@@ -185,6 +184,7 @@ inline void Block_collector::add(const Mesh_block& block, const Decimated_block&
   }
   put(m_triangles, triangles);
   put(m_cotangents, cotangents);
+  check_room();
   m_stencils.release(block.first, block.first + block.own);
 }
 
