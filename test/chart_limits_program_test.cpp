@@ -158,9 +158,15 @@ TEST_F(Atlas, leads_seams_through_faces)
   const std::string quad = write("quad.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
   EXPECT_EQ(error_in_message(call("atlas", quad, "none", {"--smooth-seams"}).err, quad,
                              {"more than three corners", "--smooth-seams"}), "");
-  const Outcome stacked = call("atlas", in, "none", {"--smooth-seams", "--stack"});
-  EXPECT_EQ(stacked.exit_code, 2);
-  EXPECT_NE(stacked.err.find("--smooth-seams: it cuts faces"), std::string::npos) << stacked.err;
+  for(const Texts& other : {Texts{"--stack"}, {"--limits", "groups"}, {"--separate", "groups"}}) {
+    Texts options = other;
+    options.push_back("--smooth-seams");
+    const Outcome outcome = call("atlas", in, "none", options);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.err.find("--smooth-seams: it moves seams and cuts faces"), std::string::npos)
+        << outcome.err;
+  }
+  EXPECT_EQ(call("atlas", in, "none", {"--one-disk", "--method", "low-stretch"}).exit_code, 2);
 }
 
 } // namespace program_test

@@ -307,6 +307,9 @@ TEST_F(View_page, says_what_is_missing)
   EXPECT_EQ(error_in_message(outcome.err, path("nothing"), {"atlas.obj"}), "");
   fs::remove(folder / "nothing");
   EXPECT_EQ(run({"view", in, "-o", path("page.png")}).exit_code, 2);
+  outcome = run({"view", in, "--template", path("viewer.html"), "-o", path("viewer.html")});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(error_in_message(outcome.err, path("viewer.html"), {"is the input"}), "");
   EXPECT_EQ(names(), before);
 }
 

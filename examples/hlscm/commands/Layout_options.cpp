@@ -20,6 +20,11 @@ void check_layout(const CLI::App& app, const Layout_settings& layout)
     }
   }
   for(const char* other : {"--charts", "--one-disk"}) {
+    if(app.count("--method") > 0 && app.count(other) > 0
+       && app.get_option("--method")->results().back() == "low-stretch") {
+      throw CLI::ValidationError("--method", "low-stretch is for charts with bounds, leave it or "
+                                                 + std::string(other) + " out");
+    }
     if(app.count("--min-used") > 0 && app.count(other) > 0) {
       throw CLI::ValidationError("--min-used", "charts that are given are not cut, leave it or "
                                                    + std::string(other) + " out");
@@ -32,10 +37,10 @@ void check_layout(const CLI::App& app, const Layout_settings& layout)
   if(layout.separate != Chart_limits::NONE && layout.is_stacked) {
     throw CLI::ValidationError("--separate", "equal parts would share a texture, leave --stack out");
   }
-  for(const char* other : {"--repack", "--stack", "--lightmap", "--colors"}) {
+  for(const char* other : {"--repack", "--stack", "--lightmap", "--colors", "--limits", "--separate"}) {
     if(app.count("--smooth-seams") > 0 && app.get_option_no_throw(other) != nullptr
        && app.count(other) > 0) {
-      throw CLI::ValidationError("--smooth-seams", "it cuts faces, leave it or "
+      throw CLI::ValidationError("--smooth-seams", "it moves seams and cuts faces, leave it or "
                                                        + std::string(other) + " out");
     }
   }

@@ -37,17 +37,9 @@ fs::path page_file(const Program_options& options)
   return share_folder() / page_name;
 }
 
-std::string read_page(const Program_options& options)
+std::string read_page(const fs::path& file)
 {
-  const fs::path file = page_file(options);
-  std::error_code ignored;
-  if(!fs::exists(file, ignored)) {
-    throw Program_error(file.string(),
-                        "the page that shows models is not there, build it by scripts/"
-                        "install_dependencies.sh --web and cmake with -D HLSCM_BUILD_WEB=ON");
-  }
-  const File_bytes bytes = load_file(file.string());
-  std::string page(bytes.begin(), bytes.end());
+  std::string page = load_page(file);
   if(page.find(view_page_mark) == std::string::npos) {
     throw Program_error(file.string(), "this is not the page that shows models, name another one");
   }
@@ -59,9 +51,11 @@ std::string read_page(const Program_options& options)
 int run_view(const Program_options& options)
 {
   Progress_bar progress(!options.is_quiet);
-  const std::string page = read_page(options);
+  const fs::path empty_page = page_file(options);
+  const std::string page = read_page(empty_page);
   Output_files files;
   refuse_to_overwrite(options.input, options.output);
+  refuse_to_overwrite(empty_page, options.output);
   Output_file& file = files.create(options.output);
   Levels_report report;
   const Viewed_model model = read_viewed(options, progress, report);

@@ -26,25 +26,12 @@ namespace {
 
 constexpr std::size_t web_checker_size = 1024, web_checker_squares = 64; // each way
 
-std::string load_part(const fs::path& folder, const std::string& name)
-{
-  std::error_code ignored;
-  if(!fs::exists(folder / name, ignored)) {
-    throw Program_error((folder / name).string(),
-                        "the page that streams models is not there, build it by scripts/"
-                        "install_dependencies.sh --web and cmake with -D HLSCM_BUILD_WEB=ON");
-  }
-  const File_bytes bytes = load_file((folder / name).string());
-  return {bytes.begin(), bytes.end()};
-}
-
 std::string load_texture(const Program_options& options)
 {
   if(options.web_texture.empty()) {
     return checkerboard_png(web_checker_size, web_checker_size, web_checker_squares);
   }
-  const File_bytes bytes = load_file(options.web_texture);
-  const std::string image(bytes.begin(), bytes.end());
+  std::string image = load_text(options.web_texture);
   if(image.compare(0, 4, "\x89PNG") != 0) {
     throw Program_error(options.web_texture, "this is not a PNG file, convert it");
   }
@@ -56,12 +43,15 @@ std::string load_texture(const Program_options& options)
 int run_web(const Program_options& options)
 {
   Progress_bar progress(!options.is_quiet);
-  const std::string page = load_part(share_folder(), "stream.html");
-  const std::string reader = load_part(share_folder(), "stream.wasm");
+  const std::string page = load_page(share_folder() / "stream.html");
+  const std::string reader = load_page(share_folder() / "stream.wasm");
   const std::string texture = load_texture(options);
   Folder_outputs folder(options.output, {options.input, options.web_texture});
   Levels_report report;
   const Progressive_model model = make_progressive(options, progress, report);
+  if(!options.web_texture.empty() && !model.has_texture()) {
+    throw Program_error(options.input, "it has no texture coordinates for the picture, leave --texture out");
+  }
   progress.start_stage("writing");
   const auto file = CGAL::Surface_mesh_multiresolution::encode_progressive_mesh(model);
   if(!file.error.empty()) {
@@ -80,8 +70,8 @@ int run_web(const Program_options& options)
     for(const auto& [name, size] : sizes) {
       std::cout << "written     " << name << " (" << size << " bytes)\n";
     }
-    std::cout << "look at it  python3 -m http.server --directory " << options.output
-              << ", then http://localhost:8000\n" << std::flush;
+    std::cout << "look at it  python3 -m http.server --directory '" << options.output
+              << "', then http://localhost:8000\n" << std::flush;
   }
   return 0;
 }

@@ -23,12 +23,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string text_of(const fs::path& file)
-{
-  const File_bytes bytes = load_file(file.string());
-  return std::string(bytes.begin(), bytes.end());
-}
-
 bool is_there(const fs::path& file)
 {
   std::error_code ignored;
@@ -117,24 +111,30 @@ void add_pictures(const fs::path& folder, const std::string& name, const std::st
     if(!is_there(plain) && !is_there(tile)) {
       return;
     }
-    model.pictures.push_back({sheet, page, text_of(is_there(plain) ? plain : tile)});
+    model.pictures.push_back({sheet, page, load_text((is_there(plain) ? plain : tile).string())});
   }
 }
 
-// A report that cannot be read is none.
+// What the page shows of a report: no names of folders, since pages are passed on. What is no report is
+// none.
 nlohmann::ordered_json read_report(const fs::path& file)
 {
   std::error_code ignored;
   if(!fs::is_regular_file(file, ignored)) {
     return nullptr;
   }
-  auto report = nlohmann::ordered_json::parse(text_of(file), nullptr, false);
+  const auto report = nlohmann::ordered_json::parse(load_text(file.string()), nullptr, false);
   if(!report.is_object()) {
     return nullptr;
   }
-  report.erase("charts"); // long, and not shown
-  report.erase("files");
-  return report;
+  nlohmann::ordered_json shown = nlohmann::ordered_json::object();
+  for(const char* member : {"method", "iterations", "number_of_charts", "pages", "utilisation",
+                            "overlapping_texels", "light", "peak_memory_mb", "seconds"}) {
+    if(report.contains(member)) {
+      shown[member] = report[member];
+    }
+  }
+  return shown;
 }
 
 Viewed_model read_folder(const Program_options& options, Progress_bar& progress,
@@ -153,7 +153,7 @@ Viewed_model read_folder(const Program_options& options, Progress_bar& progress,
     add_pictures(folder, "color", "colours", model);
     // Materials name normal maps of tangent space only.
     model.is_object_space = !is_there(folder / "light.mtl")
-                         || text_of(folder / "light.mtl").find("norm ") == std::string::npos;
+                         || load_text((folder / "light.mtl").string()).find("norm ") == std::string::npos;
   }
   if(!model.original && !model.light) {
     throw Program_error(options.input, "this folder has no atlas.obj, light.obj or mesh.pm, give one "

@@ -9,11 +9,14 @@
 namespace hlscm {
 
 /// Where the pages are that the program fills: share/hlscm beside the folder of the program, in its
-/// build or where it was installed.
+/// build or where it was installed. Linux knows where the program is; elsewhere there is none.
 inline std::filesystem::path share_folder()
 {
   std::error_code ignored;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  if(program.empty()) {
+    return {};
+  }
   return program.parent_path().parent_path() / "share" / "hlscm";
 }
 

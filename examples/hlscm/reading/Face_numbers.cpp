@@ -71,7 +71,7 @@ std::vector<double> read_face_numbers(const std::string& name, const Input_surfa
 Named_parts parts_of_surface(const Input_surface& surface, Name_of_part name)
 {
   const std::string keyword = name == Name_of_part::MATERIAL ? "usemtl" : "g";
-  std::map<std::string, std::uint32_t> numbers;
+  std::map<std::pair<std::string, std::string>, std::uint32_t> numbers;
   std::string object, part;
   Named_parts result;
   auto line = surface.file.lines.begin();
@@ -83,11 +83,10 @@ Named_parts parts_of_surface(const Input_surface& surface, Name_of_part name)
         object = name_in(line->text);
       }
     }
-    const std::string key = object + (object.empty() || part.empty() ? "" : "/") + part;
-    const auto added = numbers.insert({key, std::uint32_t(numbers.size())});
+    const auto added = numbers.insert({{object, part}, std::uint32_t(numbers.size())});
     result.of_triangles.push_back(added.first->second);
     if(added.second) {
-      result.names.push_back(key);
+      result.names.push_back(object + (object.empty() || part.empty() ? "" : "/") + part);
     }
   }
   return result.names == std::vector<std::string>{""} ? Named_parts() : result;

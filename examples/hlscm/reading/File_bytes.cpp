@@ -83,6 +83,23 @@ char* File_bytes::room_for(std::size_t more)
   return m_data.get() + m_size;
 }
 
+std::string load_text(const std::string& file_name)
+{
+  const File_bytes bytes = load_file(file_name);
+  return {bytes.begin(), bytes.end()};
+}
+
+std::string load_page(const fs::path& file)
+{
+  std::error_code ignored;
+  if(!fs::exists(file, ignored)) {
+    throw Program_error(file.string(), "this page is not there: check its name, or build it by scripts/"
+                                       "install_dependencies.sh --web and cmake with -D "
+                                       "HLSCM_BUILD_WEB=ON");
+  }
+  return load_text(file.string());
+}
+
 bool is_stream(const std::string& file_name)
 {
   if(file_name == "-" || file_name.rfind("/dev/", 0) == 0) { // "/dev/stdin" may be a file

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -38,6 +39,12 @@ private:
 /// Reads a file, a pipe or, by the name "-", the standard input to the end. Throws `Program_error`
 /// if there is none, and `Cancelled`.
 File_bytes load_file(const std::string& file_name);
+
+/// The same as a string.
+std::string load_text(const std::string& file_name);
+
+/// A file of the pages for browsers, which not everybody has built.
+std::string load_page(const std::filesystem::path& file);
 
 /// Whether the name is one of a pipe, of a device or of the standard input, whose names say nothing
 /// of what they hold.

@@ -94,7 +94,7 @@ struct Plane
   std::array<double, 4> pages; ///< left, bottom, width and height
 };
 
-// Pages are unit squares; what is far from them is scaled into one.
+// Pages are unit squares, whose sides rounding may pass; what is far from them is scaled into one.
 Plane plane_of(const Box<2>& box)
 {
   const double unit = box.longest_side() / steps;
@@ -104,10 +104,11 @@ Plane plane_of(const Box<2>& box)
   if(is_far) {
     return {{box.low, unit, {0, 0}, 1. / steps}, {0, 0, 1, 1}};
   }
+  constexpr double rounding = 1e-4;
   std::array<double, 4> pages;
   for(std::size_t k = 0; k < 2; ++k) {
-    pages[k] = std::floor(box.low[k]);
-    pages[k + 2] = std::max(1., std::ceil(box.high[k]) - pages[k]);
+    pages[k] = std::floor(box.low[k] + rounding);
+    pages[k + 2] = std::max(1., std::ceil(box.high[k] - rounding) - pages[k]);
   }
   return {{box.low, unit, box.low, unit}, pages};
 }

@@ -36,7 +36,8 @@ export class Feed {
       if (!response.ok) {
         throw new Error(`the server says ${response.status} to ${url}`);
       }
-      this.size = Number(response.headers.get("Content-Length") ?? 0);
+      const isPacked = response.headers.has("Content-Encoding"); // then the length is that of less
+      this.size = isPacked ? 0 : Number(response.headers.get("Content-Length") ?? 0);
       const reader = response.body.getReader();
       for (let step = await reader.read(); !step.done; step = await reader.read()) {
         this.#pieces.push(step.value);

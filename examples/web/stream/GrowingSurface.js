@@ -5,7 +5,7 @@ import { BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, GLSL3, M
          Sphere, Vector3 } from "three";
 
 /** Seconds in which a new wedge goes from where its surface was to its place. */
-export const MORPH = 0.6;
+const MORPH = 0.6;
 
 const VERTEX = /* glsl */ `
   uniform float now;

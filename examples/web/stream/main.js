@@ -3,10 +3,10 @@
 
 // Draws model.pm while it is loading.
 
-import { PerspectiveCamera, Scene, TextureLoader, WebGLRenderer } from "three";
+import { PerspectiveCamera, RepeatWrapping, Scene, TextureLoader, WebGLRenderer } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { Feed } from "./Feed.js";
-import { GrowingSurface, MORPH } from "./GrowingSurface.js";
+import { GrowingSurface } from "./GrowingSurface.js";
 import { ModelStream, Status } from "./ModelStream.js";
 
 const element = (id) => document.getElementById(id);
@@ -42,10 +42,9 @@ class Viewer {
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
     this.rate = new FrameRate();
     this.status = Status.TRUNCATED;
-    this.bytes = 0;         // that the reader has taken
     this.firstPicture = -1; // the bytes that had come when there was something to see
     this.isHeld = false;
-    this.changed = 0;
+    this.error = ""; // of what was to be drawn
     addEventListener("resize", () => this.#resize());
     this.#resize();
     this.controls.listenToKeyEvents(window);
@@ -56,12 +55,17 @@ class Viewer {
     this.rate.count(now);
     this.isHeld = element("hold").checked && this.stream.numberOfTriangles > 50000
       && this.rate.rate > 0 && this.rate.rate < SLOWEST;
-    if (!this.isHeld) {
-      this.#take(now);
+    if (!this.isHeld && !this.error) {
+      try {
+        this.#take(now);
+      } catch (error) { // the frames go on with what there is
+        this.error = `the model is too large for this browser, or damaged: ${error.message}`;
+      }
     }
     const { uniforms } = this.surface.material;
     uniforms.now.value = now / 1000;
-    uniforms.textured.value = element("textured").checked && this.stream.hasTexture ? 1 : 0;
+    uniforms.textured.value = element("textured").checked && this.stream.hasTexture
+      && this.surface.material.uniforms.map.value.image ? 1 : 0; // black without a picture
     this.controls.update();
     this.renderer.render(this.scene, this.camera);
     this.#count();
@@ -73,7 +77,6 @@ class Viewer {
       return;
     }
     this.status = this.stream.push(bytes);
-    this.bytes += bytes.length;
     this.surface.update(this.stream, now / 1000);
     if (this.firstPicture < 0 && this.stream.numberOfTriangles > 0) {
       this.firstPicture = this.feed.received;
@@ -104,6 +107,9 @@ class Viewer {
   }
 
   #message() {
+    if (this.error) {
+      return this.error;
+    }
     const isOver = this.feed.isOver && this.feed.waiting === 0;
     if (this.feed.error) {
       return `${this.feed.error}; ${this.stream.message}`;
@@ -126,14 +132,19 @@ async function start() {
     element("hold").checked = false;
   }
   const feed = new Feed("model.pm"); // at once, with the reader
-  const reader = await fetch("stream.wasm").then((response) => response.arrayBuffer());
+  const response = await fetch("stream.wasm");
+  if (!response.ok) {
+    throw new Error(`the server says ${response.status} to stream.wasm`);
+  }
+  const reader = await response.arrayBuffer();
   const map = new TextureLoader().load("texture.png"); // its numbers are drawn as they are
+  map.wrapS = map.wrapT = RepeatWrapping;
   const viewer = new Viewer(await ModelStream.create(reader), feed, map);
-  window.hlscm = { viewer, MORPH, Status };
+  window.hlscm = { viewer, Status };
   viewer.renderer.setAnimationLoop((now) => viewer.frame(now));
 }
 
 start().catch((error) => {
-  element("message").textContent = `the page cannot be shown: ${error.message}; a folder like this one `
-    + "has to come from a web server";
+  element("message").textContent = `the page cannot be shown: ${error.message}`
+    + (location.protocol === "file:" ? "; a folder like this one has to come from a web server" : "");
 });

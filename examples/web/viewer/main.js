@@ -35,14 +35,12 @@ async function start() {
     return;
   }
   await nextFrame();
-  const begin = performance.now();
   const reader = await openArrays(takeText("hlscm-data"));
   const original = facts.model ? readProgressiveMesh(reader, facts.model) : null;
   const light = facts.light ? readFramedMesh(reader, facts.light) : null;
   const sheets = await loadSheets(facts.sheets ?? {}, facts.box, takeText);
   const viewer = new Viewer(facts, { original, light, sheets });
   byId("cover").hidden = true;
-  document.body.dataset.secondsToLoad = ((performance.now() - begin) / 1000).toFixed(3);
   document.body.dataset.state = "ready";
   window.hlscm = viewer;
 }

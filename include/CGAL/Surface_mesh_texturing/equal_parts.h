@@ -198,7 +198,7 @@ Returns the atlas of a surface some of whose components share their place with o
 
 \param mesh the surface
 \param parts what `find_equal_parts()` returned for it
-\param atlas an atlas of `parts.representatives`, without an error
+\param atlas an atlas of `parts.representatives`, without an error and without smooth seams
 
 The invariants of `Texture_atlas` hold but for the last one: triangles overlap if, and only if, they
 have the same stand-in; those of mirrored copies are mirrored. The report has each chart as often as

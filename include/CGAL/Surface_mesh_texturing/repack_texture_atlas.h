@@ -60,7 +60,8 @@ that are missing or not finite.
 \tparam ConcurrencyTag as for `build_texture_atlas()`
 \tparam Packer a model of `ChartPacker`, or `Default` for `Raster_packer`
 \param mesh the surface and its texture
-\param options of these count `density`, `is_aligned`, `packing`, `seconds`, `threads` and `progress`
+\param options of these count `density`, `is_aligned`, `largest_aspect`, `packing`, `page_set`, which
+       is that of a chart's first triangle, `seconds`, `threads` and `progress`
 \param repacking how charts are taken over, before `options.density` counts
 \param packer what packs them
 
@@ -85,6 +86,7 @@ Repacked_atlas_result repack_texture_atlas(const Textured_triangle_mesh& mesh,
   Texture_atlas_options used = options;
   used.metric.clear();
   used.no_seams.clear();
+  used.has_smooth_seams = false;
   internal::Atlas_models models;
   models.is_own = models.is_bounded = false;
   models.pack = [&](const std::vector<Chart_shape>& charts, const Packing_options& o) {

@@ -94,6 +94,7 @@ export class Stage {
     this.#takeColours();
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.#takeColours());
     new ResizeObserver(() => this.#resize()).observe(element);
+    canvas.addEventListener("webglcontextrestored", () => this.changed());
   }
 
   /**

@@ -31,7 +31,6 @@ function linearRgbOf([lightness, a, b]) {
 const toScreen = (x) => Math.round(255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055));
 
 /** Bytes from 0 to 255 as on a screen (sRGB) of a colour given by lightness, chroma and hue. */
-export const screenRgb = (colour) => linearRgbOf(labOf(colour)).map(toScreen);
 
 // Equal steps along the line through colours in OKLab
 function colourMap(colours) {

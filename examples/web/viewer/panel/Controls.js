@@ -83,7 +83,7 @@ export class Controls {
       divider.setPointerCapture(event.pointerId);
       divider.addEventListener("pointermove", move);
     });
-    divider.addEventListener("pointerup", () => divider.removeEventListener("pointermove", move));
+    divider.addEventListener("lostpointercapture", () => divider.removeEventListener("pointermove", move));
     divider.addEventListener("keydown", (event) => {
       const step = { ArrowLeft: -0.05, ArrowRight: 0.05 }[event.key];
       if (step) {

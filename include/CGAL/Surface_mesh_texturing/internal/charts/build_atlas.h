@@ -32,9 +32,10 @@ inline Texture_atlas_result build_with_smooth_seams(const Indexed_triangle_mesh&
   constexpr double least_seconds = 1e-9; // 0 would be no limit
   const Blocked_execution::Stopwatch watch;
   Texture_atlas_result result;
-  if(!options.no_seams.empty() || models.take_maps)
+  if(!options.no_seams.empty() || !options.page_set.empty() || models.take_maps)
     result.fail(Mesh_status::BAD_OPTIONS, "seams cannot go through triangles if some edges shall be "
-                                          "none, or if the charts have maps");
+                                          "none, if parts have pages of their own, or if the charts "
+                                          "have maps");
   Segmentation_result found;
   if(result.is_ok())
     found = Texture_atlas_builder(mesh, options, models).charts();
@@ -52,7 +53,6 @@ inline Texture_atlas_result build_with_smooth_seams(const Indexed_triangle_mesh&
   Texture_atlas_options of_smooth = options;
   of_pieces(of_smooth.density);
   of_pieces(of_smooth.metric);
-  of_pieces(of_smooth.page_set);
   const double seconds_segment = watch.seconds();
   if(options.seconds > 0.)
     of_smooth.seconds = (std::max)(least_seconds, options.seconds - seconds_segment);

@@ -9,6 +9,8 @@
 #include <CGAL/Surface_mesh_texturing/Chart_distortion.h>
 
 #include <cmath>
+#include <functional>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -25,12 +27,14 @@ inline bool is_worth_stretching(const Chart_distortion& conformal, const Distort
       && conformal.quasi_conformal <= bound.quasi_conformal;
 }
 
-// A map with little stretch, without a flipped triangle; empty if there is none.
+// A map with little stretch, without a flipped triangle; empty if there is none. `progress` as of
+// `Low_stretch_options`.
 inline std::vector<Simple_cartesian<double>::Point_2>
-stretch_map(const Indexed_mesh::Indexed_triangle_mesh& chart)
+stretch_map(const Indexed_mesh::Indexed_triangle_mesh& chart, std::function<bool(double)> progress)
 {
   Surface_mesh_parameterization::Low_stretch_options options;
   options.tolerance = 1e-2;
+  options.progress = std::move(progress);
   return Surface_mesh_parameterization::low_stretch_map(chart, options).uv;
 }
 

@@ -32,7 +32,7 @@ inline std::size_t best_page_height(double largest_aspect, Packing_options packi
   const auto used = [&] { return Page_filler(charts, packing, mapping).used(); };
   double most_used = used();
   for(packing.height /= 2;
-      packing.height >= least_height
+      packing.height >= least_height && mapping.has_time()
       && double(packing.width) <= largest_aspect * double(packing.height)
       && packing_options_error(packing).empty(); packing.height /= 2)
     if(const double here = used(); here > most_used + clearly_more) {
