@@ -1,11 +1,15 @@
 # Copyright (c) 2026  The HLSCM for CGAL authors.
 # SPDX-License-Identifier: GPL-3.0-or-later
 
-# Builds the core tests with the preset asan-ubsan, in a folder of its own, and runs them.
+# Builds the core tests with the preset asan-ubsan, in a folder of its own, and runs them, but for those
+# that would take longer than all others; see the file of these.
 
 include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 
 set(ENV{UBSAN_OPTIONS} print_stacktrace=1)
+file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/long_under_sanitizers.txt long_tests REGEX "^[^#]")
+list(JOIN long_tests ":" long_tests)
+set(ENV{GTEST_FILTER} "-${long_tests}")
 run(${CMAKE_COMMAND} --preset asan-ubsan -S ${source_dir} -B ${work_dir}
     -D CMAKE_CXX_COMPILER=${compiler} -D CGAL_DIR=${cgal_dir})
 run(${CMAKE_COMMAND} --build ${work_dir})

@@ -30,7 +30,8 @@ inline bool is_worth_stretching(const Chart_distortion& conformal, const Distort
 // A map with little stretch, without a flipped triangle; empty if there is none. `progress` as of
 // `Low_stretch_options`.
 inline std::vector<Simple_cartesian<double>::Point_2>
-stretch_map(const Indexed_mesh::Indexed_triangle_mesh& chart, std::function<bool(double)> progress)
+stretch_map(const Indexed_mesh::Indexed_triangle_mesh& chart,
+            std::function<bool(double)> progress = nullptr)
 {
   Surface_mesh_parameterization::Low_stretch_options options;
   options.tolerance = 1e-2;
