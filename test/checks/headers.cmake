@@ -73,10 +73,16 @@ foreach(header IN LISTS headers)
   set(kernel_of_${header} none)
 endforeach()
 
-# Most of the time would go to CGAL's kernels. So each is compiled once, before the files of those
-# headers that include it anyway, the greater one rather than the smaller that it includes. No header
+# Most of the time would go to CGAL's kernels and to our own large headers. So each is compiled once,
+# before the files of those headers that include it anyway, the last of these that they do. No header
 # gets what it does not include: only that an include stands below what needs it is not seen.
-set(kernels Simple_cartesian Exact_predicates_inexact_constructions_kernel)
+set(kernels
+  Simple_cartesian
+  Exact_predicates_inexact_constructions_kernel
+  Surface_mesh_multiresolution/Flat_collapse_engine
+  Multigrid/Multigrid_levels
+  Surface_mesh_parameterization/low_stretch_map
+  Surface_mesh_texturing/segment_into_charts)
 foreach(kernel IN LISTS kernels)
   find_including(CGAL/${kernel}.h including)
   foreach(header IN LISTS including)
@@ -129,7 +135,7 @@ set(header_targets)
 add_custom_target(lone_headers)
 foreach(kernel IN ITEMS none ${kernels})
   if(lone_files_${kernel})
-    set(target lone_headers_${kernel})
+    string(REPLACE "/" "_" target lone_headers_${kernel})
     add_library(${target} OBJECT EXCLUDE_FROM_ALL ${lone_files_${kernel}})
     if(NOT kernel STREQUAL none)
       target_precompile_headers(${target} PRIVATE <CGAL/${kernel}.h>)

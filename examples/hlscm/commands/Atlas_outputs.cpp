@@ -191,6 +191,9 @@ void Atlas_outputs::write(const Input_surface& input, const Texture_atlas& atlas
     model.base_uv = std::move(base.uv);
     model.base_wedges = std::move(base.wedges);
   }
+  if(!atlas.source_triangle.empty() && !input.file.normal_corners.empty()) {
+    warnings.push_back("its normals are made anew, since seams cut its faces");
+  }
   if(input.surface.repairs.sentences().empty() && input.file.lines.empty()) {
     m_model->write(std::move(model));
     return;
