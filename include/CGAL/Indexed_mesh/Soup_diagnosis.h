@@ -119,7 +119,9 @@ public:
     examine_faces();
     examine_vertices();
     Edge_table table(m_soup);
-    table.for_each_edge([this](Vertex_index v, const Side* first, const Side* last) { examine_edge(v, first, last); });
+    table.for_each_edge([this](Vertex_index v, const Side* first, const Side* last) {
+      examine_edge(v, first, last);
+    });
     examine_fans();
     count_parts();
     return m_result;

@@ -24,7 +24,8 @@ how many there are less then.
 The vertices are taken in their order. Each becomes the first of those kept so far that is not
 farther than the distance; if there is none, it is kept itself, at its place. So no chain forms:
 a vertex is never farther than the distance from the one that it became, and those that are kept lie
-farther than it from each other, both up to rounding. The result depends on nothing but the order of the vertices.
+farther than it from each other, both up to rounding. The result depends on nothing but the order of
+the vertices.
 
 Faces and texture coordinates keep their numbers. A face may have a vertex twice afterwards, which
 `surface_of_soup()` takes.

@@ -145,8 +145,8 @@ Returns `mesh` as a progressive mesh file (extension `.pm`): the coarsest mesh a
 coarse to fine, so that any beginning of the file that has the coarsest mesh is a coarser model.
 
 What is read back has the connectivity of `mesh`, or if quantized by default that of
-`sort_batches(mesh)`, all numberings, the order of triangles and corners and `batch_ends` included; `source_vertex` is not
-written. Where the sorted mesh would not be a manifold at some level, the order is kept. A mesh
+`sort_batches(mesh)`, all numberings, the order of triangles and corners and `batch_ends` included;
+`source_vertex` is not written. Where the sorted mesh would not be a manifold at some level, the order is kept. A mesh
 without texture stays without. If lossless, coordinates have the same bits; if quantized, distinct
 ones may become equal, and tiny triangles may flip.
 

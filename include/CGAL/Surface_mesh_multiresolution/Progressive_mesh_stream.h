@@ -37,9 +37,8 @@ It needs the standard library only, and knows nothing of CGAL: it is what a brow
 `Progressive_mesh_decoder` makes of it a `Textured_progressive_mesh`.
 
 The bytes may come from anywhere: what they say is checked, and however they lie they cost memory in
-proportion to their number only, less than 1000 bytes for each, and no more than 16384 steps a split.
-A section is taken as a whole
-or not at all, so that there is a valid mesh before any damage.
+proportion to their number only, less than 2000 bytes for each, and no more than 32768 steps a split.
+A section is taken as a whole or not at all, so that there is a valid mesh before any damage.
 
 Linear time. Memory: 64 bytes a wedge beside the mesh, 48 if coordinates have 16 bits at most.
 */

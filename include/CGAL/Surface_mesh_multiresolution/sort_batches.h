@@ -212,7 +212,7 @@ A split whose parent is made in the same batch comes behind all others, and one 
 before others that keep a manifold comes first. `mesh` is returned as it is if there is no such
 order, if its collapses do not keep manifolds, and without `batch_ends`.
 
-\f$ O(n \log n) \f$ time.
+Expected time \f$ O(n \log n) \f$.
 */
 inline Textured_progressive_mesh sort_batches(const Textured_progressive_mesh& mesh)
 {

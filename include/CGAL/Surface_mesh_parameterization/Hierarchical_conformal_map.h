@@ -206,7 +206,8 @@ Hierarchical_conformal_map<TM, ST, CT>::
 Hierarchical_conformal_map(const Triangle_mesh& mesh, halfedge_descriptor bhd,
                            const HLSCM_options& options, const std::vector<Pin>& pins)
   : m_mesh(&mesh), m_index(get(CGAL::dynamic_vertex_property_t<std::uint32_t>(), mesh))
-  , m_threads(is_parallel ? options.threads : 1), m_map(std::make_unique<Map>(options, internal::coarsest_solver_of(Solver_traits())))
+  , m_threads(is_parallel ? options.threads : 1)
+  , m_map(std::make_unique<Map>(options, internal::coarsest_solver_of(Solver_traits())))
 {
   const Blocked_execution::Thread_scope scope(m_threads);
   if(error() == OK)

@@ -103,8 +103,8 @@ struct Texture_atlas_options
 The struct `Texture_atlas` is a mesh with its charts side by side in one or several textures.
 
 Invariants: `mesh.triangles` are those of the surface, in their order, unless seams were led through
-them (`Texture_atlas_options::has_smooth_seams`): then the pieces of each are in its place; the texture coordinates lie
-in \f$ [0, 1]^2 \f$ of the page of their chart, one for each wedge (see `with_wedges()`); no two
+them (`Texture_atlas_options::has_smooth_seams`): then the pieces of each are in its place; the texture
+coordinates lie in \f$ [0, 1]^2 \f$ of the page of their chart, one for each wedge (see `with_wedges()`); no two
 triangles on a page overlap.
 */
 struct Texture_atlas

@@ -138,7 +138,8 @@ atlas, with meshes of any types: see the other overloads. Parameters and errors 
        of a value, as for `std::array` and `IO::Color`
 \param channels the numbers of a value
 */
-template <class ConcurrencyTag = Default, class FineMesh, class FineUVMap, class FineValueMap, class LightMesh, class LightUVMap,
+template <class ConcurrencyTag = Default, class FineMesh, class FineUVMap, class FineValueMap,
+          class LightMesh, class LightUVMap,
           class NamedParameters_fine = parameters::Default_named_parameters,
           class NamedParameters_light = parameters::Default_named_parameters,
           class = typename boost::property_traits<FineUVMap>::key_type>

@@ -134,9 +134,9 @@ Lays charts side by side on pages of texels: each is turned and moved, never mir
 scaled by the same factor. `Packing_options` defines the padding between them.
 
 The result has an error, and nothing else, if a coordinate is not finite, an index is out of range,
-an option makes no sense, a packer of the user returns no such result, a chart is larger than a page at the density asked for, the charts need
-more pages than allowed, or `Packing_options::progress` says stop. Charts without area are placed,
-too; each takes one texel at least. Without charts the result is empty.
+an option makes no sense, a packer of the user returns no such result, a chart is larger than a page
+at the density asked for, the charts need more pages than allowed, or `Packing_options::progress` says
+stop. Charts without area are placed, too; each takes one texel at least. Without charts the result is empty.
 
 The result does not depend on the number of threads of the `Blocked_execution::Thread_scope`.
 

@@ -75,7 +75,8 @@ class Progressive_mesh_encoder
 {
 public:
   Progressive_mesh_encoder(const Textured_progressive_mesh& mesh, const File_header& header)
-    : m_mesh(mesh), m_header(header), m_codec(header), m_triangle_numbers(triangle_numbers(mesh)), m_coder(header)
+    : m_mesh(mesh), m_header(header), m_codec(header), m_triangle_numbers(triangle_numbers(mesh))
+    , m_coder(header)
   {
     m_header.base.triangles = (std::min)(m_triangle_numbers[0], m_header.fine.triangles);
   }

@@ -18,8 +18,9 @@ namespace CGAL {
 namespace Surface_mesh_multiresolution {
 namespace internal {
 
-// The numbers of a section of version 1 or 2, and of the base of later ones, read in loops that a processor can run ahead in. What is not sound in
-// itself is refused; what they say of the mesh is for others to check.
+// The numbers of a section of version 1 or 2, and of the base of later ones, read in loops that a
+// processor can run ahead in. What is not sound in itself is refused; what they say of the mesh is for
+// others to check.
 struct Section_numbers
 {
   // How reading keeps within the bytes: by a look at each number, or by what can be read behind.

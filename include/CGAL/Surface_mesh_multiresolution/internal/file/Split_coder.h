@@ -116,7 +116,6 @@ public:
   // The numbers of corners of the wedges: those of the base, and what a split changes.
   void count_corners(const std::vector<Triangle_indices>& triangles, std::size_t wedges);
   void count_corners(const Ring_split& split, const Split_ring& ring);
-  void forget_corners(std::size_t wedges) { m_corners.resize(wedges); }
   void reserve(std::size_t wedges) { m_corners.reserve(wedges); }
 
 private:

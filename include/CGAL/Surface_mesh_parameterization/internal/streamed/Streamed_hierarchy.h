@@ -163,8 +163,8 @@ inline std::string Streamed_hierarchy::identity() const
   constexpr int format = 1; // of the files in the folder
   std::ostringstream text;
   text.precision(17);
-  text << format << ' ' << m_input.records().checksum() << ' ' << most_gathered() << ' ' << most_in_block() << ' ' << m_options.solver.level_ratio << ' '
-       << m_options.solver.angular_defect_bound;
+  text << format << ' ' << m_input.records().checksum() << ' ' << most_gathered() << ' '
+       << most_in_block() << ' ' << m_options.solver.level_ratio << ' ' << m_options.solver.angular_defect_bound;
   return text.str();
 }
 

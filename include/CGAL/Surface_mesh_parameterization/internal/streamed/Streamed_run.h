@@ -179,7 +179,8 @@ inline void Streamed_run::conclude(const Multigrid::Iteration_report& result)
   if(!result.converged)
     throw Streaming_failure(Streaming_failure::RESUMABLE, "the tolerance was not met after "
                             + std::to_string(result.iterations) + " iterations; raise their number, and "
-                            "resume: the levels are kept, the iteration begins anew", ERROR_CANNOT_SOLVE_LINEAR_SYSTEM);
+                            "resume: the levels are kept, the iteration begins anew",
+                            ERROR_CANNOT_SOLVE_LINEAR_SYSTEM);
 }
 
 inline Streamed_map Streamed_run::map_in_memory()

@@ -77,8 +77,8 @@ inline Trial_map judge_map(const Chart_mesh& chart, const std::vector<Border_edg
   return result;
 }
 
-// Maps the chart, if it is a disk, as the whole chart will be mapped later: conformally, or, if it may be, with
-// little stretch where only then it is within the bound.
+// Maps the chart, if it is a disk, as the whole chart will be mapped later: conformally, or, if it may
+// be, with little stretch where only then it is within the bound.
 inline Trial_map try_map(const Chart_mesh& chart, const Distortion_bound& bound, bool may_stretch)
 {
   const auto map = Surface_mesh_parameterization::border_first_map(chart.mesh);

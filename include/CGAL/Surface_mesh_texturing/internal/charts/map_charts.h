@@ -164,7 +164,8 @@ inline Mapped_chart map_chart(Chart_mesh chart, const Chart_mapping& mapping)
   const auto is_allowed = [&mapping](const Chart_distortion& distortion) {
     return !mapping.is_bounded || distortion.is_within(mapping.bound) || !mapping.has_time();
   };
-  if(mapping.may_stretch && mapping.has_time() && is_worth_stretching(result.report.distortion, mapping.bound)) {
+  if(mapping.may_stretch && mapping.has_time()
+     && is_worth_stretching(result.report.distortion, mapping.bound)) {
     const std::vector<Point_2> uv = stretch_map(mesh, [&mapping](double) { return mapping.has_time(); });
     const Chart_distortion distortion
       = uv.empty() ? result.report.distortion : measure_chart_distortion(mesh, uv);

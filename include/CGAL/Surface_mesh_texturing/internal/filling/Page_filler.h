@@ -132,7 +132,8 @@ inline std::size_t Page_filler::run(const Terms& terms)
 {
   std::size_t cuts = 0;
   while(cuts < terms.most_cuts && used() < terms.enough
-        && (terms.most_charts == 0 || m_charts.size() < terms.most_charts) && m_mapping.has_time() && cut_once(terms))
+        && (terms.most_charts == 0 || m_charts.size() < terms.most_charts) && m_mapping.has_time()
+        && cut_once(terms))
     ++cuts;
   return cuts;
 }
