@@ -44,3 +44,8 @@ number_of_jobs() {
 can_build_pages() {
   command -v node >/dev/null && command -v npm >/dev/null && command -v esbuild >/dev/null
 }
+
+# Whether there are MPI and PETSc.
+can_build_mpi() {
+  command -v mpirun >/dev/null && compgen -G "/usr/lib/petscdir/petsc*/*-complex" >/dev/null
+}

@@ -4,10 +4,11 @@
 #
 # Installs the Debian packages that are missing, as root or by sudo.
 #
-# Usage: scripts/install_dependencies.sh [--doc] [--bench] [--coverage] [--python] [--web]
+# Usage: scripts/install_dependencies.sh [--doc] [--bench] [--coverage] [--mpi] [--python] [--web]
 #   --doc       also what the manual needs
 #   --bench     also what the benchmarks need: plots, memory, and the libraries of peers
 #   --coverage  also gcovr
+#   --mpi       also what charts that are distributed over processes need: PETSc and Open MPI
 #   --python    also what the Python module and its tests need
 #   --web       also what the pages for browsers and their tests need
 
@@ -26,6 +27,7 @@ for option in "$@"; do
     --doc) packages+=(doxygen) ;;
     --bench) packages+=(python3-matplotlib valgrind libopenblas0-pthread draco) ;;
     --coverage) packages+=(gcovr) ;;
+    --mpi) packages+=(libpetsc-complex-dev openmpi-bin) ;;
     --python)
       packages+=(pybind11-dev python3-dev python3-mypy python3-numpy python3-pip python3-scipy
                  python3-setuptools python3-wheel)
@@ -35,7 +37,7 @@ for option in "$@"; do
       command -v node >/dev/null || packages+=(nodejs)
       command -v npm >/dev/null || packages+=(npm)
       ;;
-    *) fail "unknown option $option; there are --doc, --bench, --coverage, --python and --web" ;;
+    *) fail "unknown option $option; there are --doc, --bench, --coverage, --mpi, --python and --web" ;;
   esac
 done
 

@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # Installs what is missing, builds all but the benchmarks, the Python module too, and runs all tests.
-# The pages for browsers are built and tested if what they need is installed, which
-# scripts/install_dependencies.sh --web does.
+# The pages for browsers, and what maps by several processes, are built and tested if what they need is
+# installed, which scripts/install_dependencies.sh --web and --mpi do.
 #
 # Usage: scripts/test.sh [ARGUMENT of ctest]...      for instance: scripts/test.sh -L core
 
@@ -26,6 +26,11 @@ elif cmake --preset release "${options[@]}" -D HLSCM_BUILD_WEB=ON >&2 &&
   options+=(-D HLSCM_BUILD_WEB=ON)
 else
   say "without the pages for browsers, which could not be built"
+fi
+if can_build_mpi; then
+  options+=(-D HLSCM_BUILD_MPI=ON)
+else
+  say "without PETSc: scripts/install_dependencies.sh --mpi installs it"
 fi
 cmake --preset release "${options[@]}" >&2
 cmake --build --preset release >&2

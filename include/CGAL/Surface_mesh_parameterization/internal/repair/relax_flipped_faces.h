@@ -175,41 +175,58 @@ free_vertices_around(const Matrix& h, const Triangles& triangles,
   return result;
 }
 
+// Solves the rows of a patch, vertices 0 ... f.size() - 1, for which all others stay;
+// `for_each_entry(i, use)` calls `use(j, value)` for the entries of row i beside the diagonal. `x` is 0
+// if that is impossible.
+template <class ForEachEntry>
+void solve_on_patch(const std::vector<double>& diagonal, const ForEachEntry& for_each_entry,
+                    const Multigrid::Complex_vector<double>& f, Multigrid::Complex_vector<double>& x)
+{
+  std::vector<std::uint32_t> lengths(f.size(), 0);
+  for(std::uint32_t i = 0; i < f.size(); ++i)
+    for_each_entry(i, [&](std::uint32_t, const std::complex<double>&) { ++lengths[i]; });
+  const auto fill = [&](std::uint32_t i, Multigrid::Matrix_row& row) {
+    row.diagonal = diagonal[i];
+    for_each_entry(i, [&row](std::uint32_t j, const std::complex<double>& value) {
+      row.entries.push_back({j, value.real(), value.imag()});
+    });
+  };
+  Multigrid::Sparse_cholesky<> solver;
+  if(solver.factorize(Multigrid::Matrix_builder::build<double>(lengths, fill)))
+    solver.solve(f, x);
+  else
+    x.assign(f.size(), 0.);
+}
+
 // Moves the vertices of a patch to the minimum of the energy for which all others stay. The patch
 // is ascending and has no pins.
 template <class Matrix, class Map>
 void minimize_on_patch(const Matrix& h, const std::vector<std::uint32_t>& patch, Map& z)
 {
   typedef std::complex<double> Complex;
-  const auto use_inner_entries = [&](std::uint32_t i, const auto& use) {
+  const auto for_each_inner_entry = [&](std::uint32_t i, const auto& use) {
     h.for_each_entry(h.slot_of_row(patch[i]), [&](std::uint32_t w, const Complex& value) {
       const auto found = std::lower_bound(patch.begin(), patch.end(), w);
       if(found != patch.end() && *found == w)
         use(std::uint32_t(found - patch.begin()), value);
     });
   };
-  std::vector<std::uint32_t> lengths(patch.size(), 0);
+  std::vector<double> diagonal(patch.size());
   Multigrid::Complex_vector<double> f(patch.size()), x;
   for(std::uint32_t i = 0; i < patch.size(); ++i) {
-    use_inner_entries(i, [&](std::uint32_t, const Complex&) { ++lengths[i]; });
-    f[i] = -h.diagonal()[patch[i]] * z[patch[i]];
+    diagonal[i] = h.diagonal()[patch[i]];
+    f[i] = -diagonal[i] * z[patch[i]];
     h.for_each_entry(h.slot_of_row(patch[i]), [&](std::uint32_t w, const Complex& value) {
       f[i] -= value * z[w];
     });
   }
-  const auto fill = [&](std::uint32_t i, Multigrid::Matrix_row& row) {
-    row.diagonal = h.diagonal()[patch[i]];
-    use_inner_entries(i, [&row](std::uint32_t j, const Complex& value) {
-      row.entries.push_back({j, value.real(), value.imag()});
-    });
-  };
-  Multigrid::Sparse_cholesky<> solver;
-  if(!solver.factorize(Multigrid::Matrix_builder::build<double>(lengths, fill)))
-    return;
-  solver.solve(f, x);
+  solve_on_patch(diagonal, for_each_inner_entry, f, x);
   for(std::size_t i = 0; i < patch.size(); ++i)
     z[patch[i]] += x[i];
 }
+
+constexpr std::size_t largest_relaxed_patch = 8000; // vertices: some hundredths of a second
+constexpr int rings_relaxed[] = {3, 6, 12, 24};
 
 // Brings the neighbourhoods of flipped faces to their minimum. An iteration that stops at a small
 // gap of the energy may leave single small faces flipped that are not flipped at the minimum, since
@@ -218,8 +235,8 @@ void minimize_on_patch(const Matrix& h, const std::vector<std::uint32_t>& patch,
 template <class Matrix, class Triangles, class Map>
 void relax_flipped_faces(const Matrix& h, const Triangles& triangles, Map& z)
 {
-  constexpr std::size_t largest = 8000; // vertices: some hundredths of a second
-  for(const int rings : {3, 6, 12, 24}) {
+  constexpr std::size_t largest = largest_relaxed_patch;
+  for(const int rings : rings_relaxed) {
     const std::vector<std::uint32_t> flipped = faces_without_positive_area(triangles, z);
     if(flipped.empty())
       return;

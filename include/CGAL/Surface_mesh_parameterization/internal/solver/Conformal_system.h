@@ -23,6 +23,11 @@ namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
 
+inline std::string mollification_warning(std::size_t faces)
+{
+  return std::to_string(faces) + " faces have no area; they were given some by mollification";
+}
+
 // Decimates the mesh of a chart, whose rings are used up; pins stay.
 inline Surface_mesh_multiresolution::Progressive_mesh
 decimate(Chart& chart, const Pins& pins, const HLSCM_options& options,
@@ -257,8 +262,7 @@ inline void Conformal_system::build_operators(Run_control& run)
     std::tie(report.levels[l].entries, report.levels[l].bytes) = hierarchy.size_of_matrices(l);
   report.mollified_faces = hierarchy.finest().mollified_triangles;
   if(report.mollified_faces > 0)
-    report.warnings.push_back(std::to_string(report.mollified_faces)
-                              + " faces have no area; they were given some by mollification");
+    report.warnings.push_back(mollification_warning(report.mollified_faces));
 }
 
 inline double Conformal_system::fit_to_surface(std::size_t l, Vector& z) const

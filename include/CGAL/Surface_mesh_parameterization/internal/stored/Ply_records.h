@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <sstream>
@@ -17,6 +18,27 @@
 namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
+
+// Refuses a point that is none.
+inline void check_point(std::size_t v, const std::array<double, 3>& p)
+{
+  if(!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
+    refuse("vertex " + std::to_string(v)
+           + " has a coordinate that is not a finite number; correct or remove it");
+}
+
+// Refuses a face of a mesh of so many vertices that is no triangle.
+inline void check_triangle(std::size_t f, const std::array<std::uint32_t, 3>& triangle,
+                           std::size_t vertices)
+{
+  if(triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0])
+    refuse("face " + std::to_string(f) + " has a vertex twice; remove it", ERROR_NON_TRIANGULAR_MESH);
+  for(const std::uint32_t v : triangle)
+    if(v >= vertices)
+      refuse("face " + std::to_string(f) + " names vertex " + std::to_string(std::int32_t(v))
+             + " but there are " + std::to_string(vertices) + " vertices, the file is damaged: export "
+             "it again");
+}
 
 // A binary PLY file of triangles whose vertices, and whose faces, all take the same number of bytes,
 // so that each can be found without reading those before it.
@@ -48,6 +70,19 @@ public:
   const std::string& path() const { return m_file.path(); }
   std::size_t bytes() const { return m_file.bytes(); }
   std::uint64_t checksum() const { return checksum_of(m_file); }
+  // Of some pages alone, the first among them.
+  std::uint64_t sample() const
+  {
+    constexpr std::size_t samples = 64, length = 4096;
+    std::uint64_t result = mixed(1, m_file.bytes());
+    for(std::size_t i = 0; i < samples; ++i) {
+      const std::size_t begin = m_file.bytes() / samples * i,
+                        end = (std::min)(begin + length, m_file.bytes());
+      for(std::size_t k = begin; k < end; ++k)
+        result = mixed(result, std::uint8_t(m_file.data()[k]));
+    }
+    return result;
+  }
 
   Point point(std::size_t v) const
   {
@@ -70,6 +105,23 @@ public:
     return (m_count_size == 1   ? std::uint32_t(std::uint8_t(*count))
             : m_count_size == 2 ? std::uint32_t(whole<std::uint16_t>(count))
                                 : whole<std::uint32_t>(count)) == 3;
+  }
+
+  // The same for what may be bad, which is refused.
+  Point checked_point(std::size_t v) const
+  {
+    const Point p = point(v);
+    check_point(v, p);
+    return p;
+  }
+  Triangle checked_triangle(std::size_t f) const
+  {
+    if(!is_triangle(f))
+      refuse("face " + std::to_string(f) + " is not a triangle; triangulate the mesh first",
+             ERROR_NON_TRIANGULAR_MESH);
+    const Triangle result = triangle(f);
+    check_triangle(f, result, m_vertices);
+    return result;
   }
 
   void release_vertices(std::size_t begin, std::size_t end) const

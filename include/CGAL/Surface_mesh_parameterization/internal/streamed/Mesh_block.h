@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -34,6 +35,13 @@ struct Mesh_block
   std::size_t own_mollified = 0;            // of those that no earlier block has
 
   Mesh_block(const Streamed_mesh& whole, std::size_t block);
+
+  // Of all triangles at the vertices [first, first + own) of a mesh, those first that no earlier block
+  // has. `given`: their cotangents; if empty, they are those of the points. `point(v)` is asked for
+  // these vertices and the others of the triangles.
+  template <class Point>
+  Mesh_block(std::size_t first_vertex, std::size_t number_of_own, std::vector<Triangle_indices> triangles,
+             const std::vector<Three_numbers>& given, const Point& point);
 
   // What a vertex is in the whole mesh.
   std::uint32_t global(std::uint32_t v) const
@@ -64,44 +72,56 @@ private:
   void sort_triangles(const std::vector<Three_numbers>& given);
 };
 
-inline Mesh_block::Mesh_block(const Streamed_mesh& whole, std::size_t block)
-  : first(block * whole.block_size)
-  , own((std::min)(whole.block_size, whole.number_of_vertices() - first))
+template <class Point>
+Mesh_block::Mesh_block(std::size_t first_vertex, std::size_t number_of_own,
+                       std::vector<Triangle_indices> triangles, const std::vector<Three_numbers>& given,
+                       const Point& point)
+  : first(first_vertex), own(number_of_own)
 {
-  const auto range = [block](const auto& array, const auto& begin) {
-    return std::make_pair(array.begin() + begin[block], array.begin() + begin[block + 1]);
-  };
-  const auto triangles = range(whole.triangles, whole.triangle_begin);
-  const auto ghost_triangles = range(whole.ghosts, whole.ghost_begin);
-  mesh.triangles.assign(triangles.first, triangles.second);
-  mesh.triangles.insert(mesh.triangles.end(), ghost_triangles.first, ghost_triangles.second);
-  std::vector<Three_numbers> given;
-  if(!whole.cotangents.empty()) {
-    const auto own_cotangents = range(whole.cotangents, whole.triangle_begin);
-    given.assign(own_cotangents.first, own_cotangents.second);
-    if(!whole.ghost_cotangents.empty()) {
-      const auto others = range(whole.ghost_cotangents, whole.ghost_begin);
-      given.insert(given.end(), others.first, others.second);
-    }
-  }
+  mesh.triangles = std::move(triangles);
   number_ghosts();
   split_ghosts();
   sort_triangles(given);
   mesh.points.reserve(own + ghosts.size());
   for(std::uint32_t v = 0; v < own + ghosts.size(); ++v) {
-    const Three_numbers& p = whole.points[global(v)];
+    const Three_numbers& p = point(global(v));
     mesh.points.emplace_back(p[0], p[1], p[2]);
   }
-  whole.points.release();
-  whole.triangles.release(whole.triangle_begin[block], whole.triangle_begin[block + 1]);
-  if(!whole.cotangents.empty())
-    whole.cotangents.release(whole.triangle_begin[block], whole.triangle_begin[block + 1]);
   if(!given.empty())
     return;
   cotangents = Half_cotangents(mesh);
   if(cotangents.mollified > 0)
     for(std::size_t t = 0; t < mesh.triangles.size(); ++t)
       own_mollified += owns(mesh.triangles[t]) && conformal_triangle(mesh, t).is_mollified() ? 1 : 0;
+}
+
+// What a block has of an array that is sorted by blocks, and of that of the ghosts.
+template <class T, class Begin>
+std::vector<T> part_of_block(std::size_t block, const Mapped_array<T>& own, const Begin& own_begin,
+                             const Mapped_array<T>& ghosts, const Begin& ghost_begin)
+{
+  std::vector<T> result;
+  if(!own.empty())
+    result.assign(own.begin() + own_begin[block], own.begin() + own_begin[block + 1]);
+  if(!ghosts.empty())
+    result.insert(result.end(), ghosts.begin() + ghost_begin[block],
+                  ghosts.begin() + ghost_begin[block + 1]);
+  return result;
+}
+
+inline Mesh_block::Mesh_block(const Streamed_mesh& whole, std::size_t block)
+  : Mesh_block(block * whole.block_size,
+               (std::min)(whole.block_size, whole.number_of_vertices() - block * whole.block_size),
+               part_of_block(block, whole.triangles, whole.triangle_begin, whole.ghosts,
+                             whole.ghost_begin),
+               part_of_block(block, whole.cotangents, whole.triangle_begin, whole.ghost_cotangents,
+                             whole.ghost_begin),
+               [&whole](std::uint32_t v) -> const Three_numbers& { return whole.points[v]; })
+{
+  whole.points.release();
+  whole.triangles.release(whole.triangle_begin[block], whole.triangle_begin[block + 1]);
+  if(!whole.cotangents.empty())
+    whole.cotangents.release(whole.triangle_begin[block], whole.triangle_begin[block + 1]);
 }
 
 // From numbers in the whole mesh to those of the block.

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <cstring>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,7 +39,7 @@ public:
 
   const Ply_records& records() const { return m_ply; }
   std::size_t number_of_used() const { return m_number_of_used; }
-  const Bbox_3& box() const { return m_box; } // of what `point()` returns
+  const Bbox_3& box() const { return m_unit->box(); } // of what `point()` returns
 
   std::size_t number_of_vertices() const { return m_ply.number_of_vertices(); }
   std::size_t number_of_triangles() const { return m_ply.number_of_faces(); }
@@ -48,10 +49,7 @@ public:
   Three_numbers cotangents(std::size_t) const { return {}; }
   Three_numbers point(std::size_t v) const
   {
-    Three_numbers p = m_ply.point(v);
-    for(int c = 0; c < 3; ++c)
-      p[c] = (p[c] - m_middle[c]) / m_extent;
-    return p;
+    return m_unit->moved(m_ply.point(v));
   }
   void release_vertices(std::size_t begin, std::size_t end) const
   {
@@ -69,9 +67,7 @@ private:
   Ply_records m_ply;
   std::vector<bool> m_is_used;
   std::size_t m_number_of_used = 0;
-  Bbox_3 m_box;
-  Three_numbers m_middle = {0., 0., 0.};
-  double m_extent = 1.;
+  std::optional<Unit_box> m_unit;
 };
 
 inline void Ply_chart::scan_faces()
@@ -79,19 +75,9 @@ inline void Ply_chart::scan_faces()
   constexpr std::size_t slab = std::size_t(1) << 20;
   const std::size_t n = number_of_triangles();
   for(std::size_t f = 0; f < n; ++f) {
-    if(!m_ply.is_triangle(f))
-      refuse("face " + std::to_string(f) + " is not a triangle; triangulate the mesh first",
-             ERROR_NON_TRIANGULAR_MESH);
-    const Triangle_indices triangle = m_ply.triangle(f);
-    if(triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0])
-      refuse("face " + std::to_string(f) + " has a vertex twice; remove it", ERROR_NON_TRIANGULAR_MESH);
-    for(const std::uint32_t v : triangle) {
-      if(v >= number_of_vertices())
-        refuse("face " + std::to_string(f) + " names vertex " + std::to_string(std::int32_t(v))
-               + " but there are " + std::to_string(number_of_vertices()) + " vertices, the file is "
-               "damaged: export it again");
+    const Triangle_indices triangle = m_ply.checked_triangle(f);
+    for(const std::uint32_t v : triangle)
       m_is_used[v] = true;
-    }
     if((f + 1) % slab == 0)
       release_triangles(f + 1 - slab, f + 1);
   }
@@ -99,29 +85,19 @@ inline void Ply_chart::scan_faces()
 
 inline void Ply_chart::scan_vertices()
 {
+  Bbox_3 box;
   constexpr std::size_t slab = std::size_t(1) << 20;
   for(std::size_t v = 0; v < number_of_vertices(); ++v) {
-    const Three_numbers p = m_ply.point(v);
-    if(!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
-      refuse("vertex " + std::to_string(v)
-             + " has a coordinate that is not a finite number; correct or remove it");
+    const Three_numbers p = m_ply.checked_point(v);
     if((v + 1) % slab == 0)
       release_vertices(v + 1 - slab, v + 1);
     if(!m_is_used[v])
       continue;
     ++m_number_of_used;
-    m_box += Bbox_3(p[0], p[1], p[2], p[0], p[1], p[2]);
+    box += Bbox_3(p[0], p[1], p[2], p[0], p[1], p[2]);
   }
   release_vertices(0, number_of_vertices());
-  m_extent = Indexed_mesh::longest_side(m_box);
-  if(!(m_extent > 0.) || !std::isfinite(m_extent))
-    refuse(m_extent > 0. ? "the mesh is larger than a number; scale it"
-                         : "all vertices lie in one point");
-  for(int c = 0; c < 3; ++c)
-    m_middle[c] = 0.5 * (m_box.min)(c) + 0.5 * (m_box.max)(c);
-  const auto moved = [this](double x, int c) { return (x - m_middle[c]) / m_extent; };
-  m_box = Bbox_3(moved(m_box.xmin(), 0), moved(m_box.ymin(), 1), moved(m_box.zmin(), 2),
-                 moved(m_box.xmax(), 0), moved(m_box.ymax(), 1), moved(m_box.zmax(), 2));
+  m_unit.emplace(box);
 }
 
 // Writes the input's vertices, in their order, with texture coordinates `uv(v)`, and its faces, as

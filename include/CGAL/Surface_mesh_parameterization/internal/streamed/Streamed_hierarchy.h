@@ -236,12 +236,8 @@ inline void Streamed_hierarchy::normalize(Streamed_mesh& mesh)
     [&](std::size_t begin, std::size_t end) {
       double lengths = 0.;
       for(std::size_t t = begin; t < end; ++t)
-        for(int c = 0; c < 3; ++c) {
-          const Three_numbers& p = mesh.points[mesh.triangles[t][c]];
-          const Three_numbers& q = mesh.points[mesh.triangles[t][(c + 1) % 3]];
-          lengths += std::sqrt((p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1])
-                               + (p[2] - q[2]) * (p[2] - q[2]));
-        }
+        lengths += perimeter(mesh.points[mesh.triangles[t][0]], mesh.points[mesh.triangles[t][1]],
+                             mesh.points[mesh.triangles[t][2]]);
       return lengths;
     },
     releases(mesh.triangles));
@@ -279,7 +275,7 @@ inline void Streamed_hierarchy::decimate(std::size_t k, Streamed_mesh& mesh, Dec
   }
   if(k == 0) {
     m_state.blocks = blocks;
-    m_state.pins = far_border_pins(mesh, level.matrix);
+    m_state.pins = far_border_pins(level.matrix.border(), [&mesh](std::uint32_t v) { return mesh.points[v]; });
   }
   level.pins = m_state.pinned();
   for(const std::uint32_t pin : level.pins)
@@ -389,8 +385,7 @@ inline void Streamed_hierarchy::complete_report()
         report.pins.push_back({v, m_state.pins[i].value.real(), m_state.pins[i].value.imag()});
   m_rank.release();
   if(report.mollified_faces > 0)
-    report.warnings.push_back(std::to_string(report.mollified_faces)
-                              + " faces have no area; they were given some by mollification");
+    report.warnings.push_back(mollification_warning(report.mollified_faces));
 }
 
 } // namespace internal

@@ -19,6 +19,21 @@ namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
 
+struct Border_entry // of a row, beside those of its triangles
+{
+  std::uint32_t row, column;
+  double re, im;
+};
+
+// What a step of the smoother multiplies the residual of a row by: see `Chebyshev_smoother`.
+inline double inverse_diagonal_of(const Multigrid::Matrix_row& row)
+{
+  double sum = 0.;
+  for(const auto& entry : row.entries)
+    sum += std::hypot(entry.re, entry.im);
+  return row.diagonal > 0. ? 1. / (0.5 * (row.diagonal + sum)) : 0.;
+}
+
 // The Hermitian matrix of the conformal energy of a streamed mesh, in files. A row has an entry for
 // each triangle at its vertex v, that of the corner after v: these are all neighbours but one at the
 // border. That one, and the imaginary parts, which only border edges have, are kept in memory.
@@ -27,12 +42,6 @@ class Streamed_matrix
 {
 public:
   typedef std::complex<double> Complex;
-
-  struct Border_entry // added to what the files have
-  {
-    std::uint32_t row, column;
-    double re, im;
-  };
 
   std::size_t size() const { return m_diagonal.size(); }
   const Mapped_array<double>& diagonal() const { return m_diagonal; }
@@ -86,8 +95,7 @@ public:
   void for_each_entry(std::size_t row, const Use& use) const;
 
 private:
-  template <class Row>
-  void set_row(std::size_t i, std::uint64_t at, std::size_t entries, const Row& row);
+  void set_row(std::size_t i, std::uint64_t at, std::size_t entries, const Multigrid::Matrix_row& row);
 
   template <class Real>
   const Real* values() const
@@ -164,21 +172,17 @@ inline void Streamed_matrix::add_block(const Mesh_block& block)
   release(block.first, block.first + block.own);
 }
 
-template <class Row>
-void Streamed_matrix::set_row(std::size_t i, std::uint64_t at, std::size_t entries, const Row& row)
+inline void Streamed_matrix::set_row(std::size_t i, std::uint64_t at, std::size_t entries,
+                                     const Multigrid::Matrix_row& row)
 {
-  double sum = 0.;
-  for(std::size_t k = 0; k < row.entries.size(); ++k) {
+  for(std::size_t k = 0; k < entries; ++k) {
     const auto& e = row.entries[k];
-    sum += std::hypot(e.re, e.im);
-    if(k >= entries)
-      continue;
     m_column[at + k] = e.column;
     m_value[at + k] = e.re;
     m_rounded[at + k] = float(e.re);
   }
   m_diagonal[i] = row.diagonal;
-  m_inverse_diagonal[i] = row.diagonal > 0. ? float(1. / (0.5 * (row.diagonal + sum))) : 0.f;
+  m_inverse_diagonal[i] = float(inverse_diagonal_of(row));
 }
 
 template <class Real, class Use>

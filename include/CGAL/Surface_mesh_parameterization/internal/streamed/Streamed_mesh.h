@@ -8,6 +8,7 @@
 #include <CGAL/Surface_mesh_parameterization/internal/stored/Work_folder.h>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -19,6 +20,45 @@ namespace Surface_mesh_parameterization {
 namespace internal {
 
 typedef std::array<double, 3> Three_numbers; // a point, or half the cotangents of a triangle
+
+inline double perimeter(const Three_numbers& p, const Three_numbers& q, const Three_numbers& r)
+{
+  const auto length = [](const Three_numbers& a, const Three_numbers& b) {
+    return std::sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1])
+                     + (a[2] - b[2]) * (a[2] - b[2]));
+  };
+  return length(p, q) + length(q, r) + length(r, p);
+}
+
+// Moves what is in a box so that its middle is the origin and its longest side 1.
+class Unit_box
+{
+public:
+  explicit Unit_box(const Bbox_3& box) : m_extent(Indexed_mesh::longest_side(box))
+  {
+    if(!(m_extent > 0.) || !std::isfinite(m_extent))
+      refuse(m_extent > 0. ? "the mesh is larger than a number; scale it"
+                           : "all vertices lie in one point");
+    for(int c = 0; c < 3; ++c)
+      m_middle[c] = 0.5 * (box.min)(c) + 0.5 * (box.max)(c);
+    const Three_numbers low = moved({box.xmin(), box.ymin(), box.zmin()}),
+                        high = moved({box.xmax(), box.ymax(), box.zmax()});
+    m_box = Bbox_3(low[0], low[1], low[2], high[0], high[1], high[2]);
+  }
+
+  const Bbox_3& box() const { return m_box; } // moved
+  Three_numbers moved(Three_numbers p) const
+  {
+    for(int c = 0; c < 3; ++c)
+      p[c] = (p[c] - m_middle[c]) / m_extent;
+    return p;
+  }
+
+private:
+  double m_extent;
+  Three_numbers m_middle = {0., 0., 0.};
+  Bbox_3 m_box;
+};
 
 // A triangle mesh in files: vertices along a space-filling curve, cut into blocks of equal size.
 //

@@ -6,6 +6,7 @@
 
 #include <CGAL/Blocked_execution/Progress.h>
 #include <CGAL/Surface_mesh_parameterization/Very_large_chart_options.h>
+#include <CGAL/Surface_mesh_parameterization/internal/streamed/Iteration_goals.h>
 #include <CGAL/Surface_mesh_parameterization/internal/streamed/Streamed_hierarchy.h>
 #include <CGAL/Surface_mesh_parameterization/internal/streamed/Streamed_solver.h>
 #include <CGAL/Surface_mesh_parameterization/self_overlap.h>
@@ -17,6 +18,7 @@
 #include <cstdint>
 #include <fstream>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -104,29 +106,21 @@ public:
   }
 
 private:
-  Multigrid::Energy_stop stop_for(double extent) const;
   Streamed_map map_in_memory();
   Streamed_map map_in_files();
   Streamed_map iterate();
   void conclude(const Multigrid::Iteration_report& result);
-  void place_map();
   void count_flips();
 
   // Where a vertex of the finest level is in the output.
-  std::array<double, 2> uv(std::size_t v) const
-  {
-    const auto inside = [](double x) { return (std::min)((std::max)(x, 0.), 1.); };
-    return {inside(m_scale * m_map[v].real() + m_shift[0]),
-            inside(m_scale * m_map[v].imag() + m_shift[1])};
-  }
+  std::array<double, 2> uv(std::size_t v) const { return m_square->moved(m_map[v]); }
 
   const Very_large_chart_options& m_options;
   Very_large_chart_report& m_report;
   Disk_traffic m_before;
   Streamed_hierarchy m_hierarchy;
   Streamed_map m_map; // of the finest level
-  double m_scale = 1.;
-  std::array<double, 2> m_shift = {0., 0.};
+  std::optional<Unit_square> m_square;
 };
 
 inline Bbox_2 box_of(const Streamed_map& z)
@@ -139,28 +133,13 @@ inline Bbox_2 box_of(const Streamed_map& z)
   }, releases(z));
 }
 
-inline double longer_side(const Bbox_2& box)
-{
-  return (std::max)(box.xmax() - box.xmin(), box.ymax() - box.ymin());
-}
-
-// As on the finest level of a chart in memory, for a map of that extent.
-inline Multigrid::Energy_stop Streamed_run::stop_for(double extent) const
-{
-  Multigrid::Energy_stop stop;
-  stop.tolerance = m_options.solver.tolerance;
-  stop.maximal_iterations = maximal_iterations(m_options.solver, 500);
-  stop.negligible_energy = rounded_energy * extent * extent;
-  stop.change_tolerance = m_options.solver.uv_tolerance * extent;
-  return stop;
-}
-
 inline void Streamed_run::map()
 {
   m_hierarchy.build();
   Blocked_execution::Stopwatch watch;
   m_map = m_hierarchy.levels().empty() ? map_in_memory() : map_in_files();
-  place_map();
+  m_square.emplace(box_of(m_map));
+  m_square->move_report(m_report.solver);
   count_flips();
   m_report.solver.seconds_solve = watch.lap();
   m_report.solver.seconds_total = m_report.seconds_sort + m_report.solver.seconds_hierarchy
@@ -170,24 +149,15 @@ inline void Streamed_run::map()
 
 inline void Streamed_run::conclude(const Multigrid::Iteration_report& result)
 {
-  HLSCM_report& report = m_report.solver;
-  report.iterations = result.iterations;
-  report.converged = result.converged;
-  report.energy_gap_estimate = result.energy_gap;
-  if(result.cancelled)
-    throw Streaming_failure(Streaming_failure::CANCELLED, "cancelled");
-  if(!result.converged)
-    throw Streaming_failure(Streaming_failure::RESUMABLE, "the tolerance was not met after "
-                            + std::to_string(result.iterations) + " iterations; raise their number, and "
-                            "resume: the levels are kept, the iteration begins anew",
-                            ERROR_CANNOT_SOLVE_LINEAR_SYSTEM);
+  conclude_iteration(result, ", and resume: the levels are kept, the iteration begins anew",
+                     m_report.solver);
 }
 
 inline Streamed_map Streamed_run::map_in_memory()
 {
   Gathered_hierarchy& gathered = m_hierarchy.gathered();
   Multigrid::Iteration_report result;
-  const Multigrid::Energy_stop stop = stop_for(1.); // the pins, far from each other, are at distance 1
+  const auto stop = energy_stop(m_options.solver, 1.); // the pins, far from each other, are at distance 1
   auto z = gathered.map(stop, [this](double part) { return m_hierarchy.tell(0.7 + 0.2 * part); },
                         result);
   conclude(result);
@@ -237,26 +207,15 @@ inline Streamed_map Streamed_run::iterate()
     folder.remove("map" + std::to_string(l - 1));
     coarse = z.data();
     result = solver.minimize(l, z,
-                             l == levels.size() ? stop_for(longer_side(box_of(z))) : coarse_stop, observe);
+                             l == levels.size()
+                               ? energy_stop(m_options.solver, longer_side(box_of(z))) : coarse_stop,
+                             observe);
     m_report.solver.levels[gathered.number_of_levels() + l - 1].iterations = result.iterations;
     if(result.cancelled)
       break;
   }
   conclude(result);
   return z;
-}
-
-// Into the unit square, as it is written.
-inline void Streamed_run::place_map()
-{
-  const Bbox_2 box = box_of(m_map);
-  const double size = longer_side(box);
-  if(!std::isfinite(size) || !(size > 0.))
-    refuse("the map that was found has parameters that are not finite numbers; scale the mesh",
-           ERROR_CANNOT_SOLVE_LINEAR_SYSTEM);
-  m_scale = 1. / size;
-  m_shift = {-m_scale * box.xmin(), -m_scale * box.ymin()};
-  move_report(m_report.solver, m_scale, m_shift[0], m_shift[1]);
 }
 
 inline void Streamed_run::count_flips()

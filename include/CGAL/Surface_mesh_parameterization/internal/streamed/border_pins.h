@@ -15,19 +15,21 @@ namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
 
-// The border vertices of a streamed mesh as a chart without faces: a vertex is followed by the one to
-// which its row has the imaginary part 1/2. `source` are vertices of the mesh, ascending.
-inline Chart border_of(const Streamed_mesh& mesh, const Streamed_matrix& matrix)
+// The border vertices of a mesh as a chart without faces: a vertex is followed by the one to which its
+// row has the imaginary part 1/2. `entries` are those of the border, by rows; `point(v)` is that of a
+// vertex; `source` of the chart are vertices of the mesh, ascending.
+template <class Point>
+Chart border_of(const std::vector<Border_entry>& entries, const Point& point)
 {
   Chart border;
   std::vector<std::uint32_t> next;
-  for(const auto& entry : matrix.border())
+  for(const Border_entry& entry : entries)
     if(entry.im > 0.) {
       border.source.push_back(entry.row);
       next.push_back(entry.column);
     }
   for(const std::uint32_t v : border.source) {
-    const Three_numbers& p = mesh.points[v];
+    const Three_numbers& p = point(v);
     border.mesh.points.emplace_back(p[0], p[1], p[2]);
   }
   const auto position = [&border](std::uint32_t v) {
@@ -47,10 +49,11 @@ inline Chart border_of(const Streamed_mesh& mesh, const Streamed_matrix& matrix)
   return border;
 }
 
-// The pins of a streamed mesh: those that a mesh in memory would get.
-inline Pins far_border_pins(const Streamed_mesh& mesh, const Streamed_matrix& matrix)
+// The pins of a mesh with such a border: those that it would get in memory.
+template <class Point>
+Pins far_border_pins(const std::vector<Border_entry>& entries, const Point& point)
 {
-  const Chart border = border_of(mesh, matrix);
+  const Chart border = border_of(entries, point);
   if(border.borders.empty())
     refuse("the surface is closed; cut it open first", ERROR_NO_TOPOLOGICAL_DISC);
   Pins pins = far_border_pins(border);

@@ -28,6 +28,9 @@ struct Streamed_stencil
 {
   std::array<std::uint32_t, 3> source;
   std::array<float, 3> weight;
+
+  // Whether it is that of a vertex v that stays.
+  bool stays(std::uint32_t v) const { return source[0] == v && source[1] == v; }
 };
 
 // What the decimation of the blocks of a level leaves: the next coarser mesh and the way from it, in
@@ -38,10 +41,7 @@ struct Decimated_level
   Mapped_array<Streamed_mesh::Triangle_indices> triangles; // coarse
   Mapped_array<Three_numbers> cotangents;                  // of these
 
-  bool is_kept(std::size_t v) const
-  {
-    return stencils[v].source[0] == v && stencils[v].source[1] == v;
-  }
+  bool is_kept(std::size_t v) const { return stencils[v].stays(std::uint32_t(v)); }
 };
 
 // A block and what it was decimated to. Of the vertices that may go, those without a ghost in their
@@ -159,29 +159,46 @@ private:
   std::ofstream m_triangles, m_cotangents;
 };
 
-inline void Block_collector::add(const Mesh_block& block, const Decimated_block& decimated)
+// Calls `put_stencil(v, stencil)` for all vertices of a block that stay or go, and
+// `put_triangle(triangle, cotangents)` for all that is left of its own triangles, in terms of the whole
+// mesh.
+template <class Put_stencil, class Put_triangle>
+void for_each_result(const Mesh_block& block, const Decimated_block& decimated,
+                     const Put_stencil& put_stencil, const Put_triangle& put_triangle)
 {
   for(const std::uint32_t v : decimated.coarse.vertices)
     if(block.is_own(v)) {
       const std::uint32_t kept = block.global(v);
-      m_stencils[kept] = {{kept, kept, kept}, {1.f, 0.f, 0.f}};
+      put_stencil(kept, Streamed_stencil{{kept, kept, kept}, {1.f, 0.f, 0.f}});
     }
   for(const auto& s : decimated.fine.from_coarser.stencils())
-    m_stencils[block.global(s.vertex)]
-      = {{block.global(s.source[0]), block.global(s.source[1]), block.global(s.source[2])}, s.weight};
-  std::vector<Streamed_mesh::Triangle_indices> triangles;
-  std::vector<Three_numbers> cotangents;
+    put_stencil(block.global(s.vertex),
+                Streamed_stencil{{block.global(s.source[0]), block.global(s.source[1]),
+                                  block.global(s.source[2])}, s.weight});
   const auto& kept = decimated.coarse.vertices;
   for(std::size_t t = 0; t < decimated.coarse.mesh.triangles.size(); ++t) {
     const auto& v = decimated.coarse.mesh.triangles[t];
     const Streamed_mesh::Triangle_indices of_block = {kept[v[0]], kept[v[1]], kept[v[2]]};
     if(!block.owns(of_block))
       continue;
-    triangles.push_back({block.global(of_block[0]), block.global(of_block[1]),
-                         block.global(of_block[2])});
     const auto& value = decimated.cotangents.value;
-    cotangents.push_back({value[3 * t], value[3 * t + 1], value[3 * t + 2]});
+    put_triangle(Streamed_mesh::Triangle_indices{block.global(of_block[0]), block.global(of_block[1]),
+                                                 block.global(of_block[2])},
+                 Three_numbers{value[3 * t], value[3 * t + 1], value[3 * t + 2]});
   }
+}
+
+inline void Block_collector::add(const Mesh_block& block, const Decimated_block& decimated)
+{
+  std::vector<Streamed_mesh::Triangle_indices> triangles;
+  std::vector<Three_numbers> cotangents;
+  for_each_result(
+    block, decimated,
+    [this](std::uint32_t v, const Streamed_stencil& stencil) { m_stencils[v] = stencil; },
+    [&](const Streamed_mesh::Triangle_indices& triangle, const Three_numbers& cotangents_of_it) {
+      triangles.push_back(triangle);
+      cotangents.push_back(cotangents_of_it);
+    });
   put(m_triangles, triangles);
   put(m_cotangents, cotangents);
   check_room();

@@ -1,0 +1,404 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_DISTRIBUTED_DISTRIBUTED_HIERARCHY_H
+#define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_DISTRIBUTED_DISTRIBUTED_HIERARCHY_H
+
+#include <CGAL/Blocked_execution/Progress.h>
+#include <CGAL/Surface_mesh_parameterization/Very_large_chart_options.h>
+#include <CGAL/Surface_mesh_parameterization/internal/distributed/Distributed_level.h>
+#include <CGAL/Surface_mesh_parameterization/internal/streamed/Gathered_hierarchy.h>
+#include <CGAL/Surface_mesh_parameterization/internal/streamed/border_pins.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_parameterization {
+namespace internal {
+
+// The levels of a distributed chart, and those below them, which rank 0 has in memory. The same blocks
+// are decimated as out of core, each by the rank that has it.
+class Distributed_hierarchy
+{
+public:
+  Distributed_hierarchy(Ranks& ranks, const Very_large_chart_options& options,
+                        Very_large_chart_report& report)
+    : m_ranks(ranks), m_options(options), m_report(report)
+  {}
+
+  // Builds all levels of a mesh whose points are not normalised yet.
+  void build(Mesh_part part);
+
+  std::vector<Distributed_level>& levels() { return m_levels; } // the coarsest first
+  Gathered_hierarchy& gathered() { return *m_gathered; }        // on rank 0
+  std::size_t size_of_gathered() const { return m_size_of_gathered; }
+  const std::vector<std::uint32_t>& finest_pins() const { return m_finest_pins; }
+
+  const Offsets& begin() const { return m_begin; }              // finest vertices of the ranks
+  // Of vertices of the input on this rank, what they are on the finest level; or `no_vertex`.
+  const std::vector<std::uint32_t>& number() const { return m_number; }
+  // Of the finest level, those that no earlier rank has.
+  const std::vector<Indexed_mesh::Triangle_indices>& triangles() const { return m_triangles; }
+
+  // Tells how much is done; ends the work of all ranks if the first is told to stop.
+  void tell(double part)
+  {
+    if(!goes_on(part))
+      throw Streaming_failure(Streaming_failure::CANCELLED, "cancelled");
+  }
+  bool goes_on(double part)
+  {
+    const bool goes = m_ranks.rank() != 0 || !m_options.solver.progress
+                   || m_options.solver.progress(part);
+    return m_ranks.broadcast(goes);
+  }
+
+private:
+  // As `Streamed_hierarchy`; but small blocks, for there are ranks that wait for work.
+  static constexpr std::size_t bytes_of_vertex = 650;
+  static constexpr std::size_t vertices_of_block = 100000;
+
+  std::size_t most_gathered() const
+  {
+    const std::size_t most = m_options.gathered_vertices;
+    return (std::max)(most > 0 ? most : m_options.memory / (2 * bytes_of_vertex), std::size_t(4));
+  }
+  std::size_t block_size_for(std::size_t vertices) const
+  {
+    if(vertices <= most_gathered())
+      return vertices;
+    const std::size_t most = m_options.block_vertices > 0
+      ? (std::max)(m_options.block_vertices, std::size_t(200)) : vertices_of_block;
+    const std::size_t blocks = Blocked_execution::number_of_blocks(vertices, most);
+    return (vertices + blocks - 1) / blocks;
+  }
+
+  Bbox_3 box_of(const std::vector<Three_numbers>& points, const std::vector<bool>& is_used) const;
+  Distributed_mesh sort_input(Mesh_part part);
+  void normalize(Distributed_mesh& mesh) const;
+  Pins choose_pins(const Distributed_mesh& mesh, const Conformal_row_collector& rows);
+  Mesh_part decimate(bool is_finest, Distributed_mesh& mesh, std::vector<Streamed_stencil>& stencils);
+  void set_prolongation(const Distributed_mesh& fine, std::vector<Streamed_stencil>& stencils,
+                        const Distributed_mesh& coarse);
+  void keep_triangles(const Distributed_mesh& mesh);
+  void report_pins(const Distributed_mesh& mesh);
+  void gather(bool is_finest, Distributed_mesh& mesh);
+  void complete_report();
+
+  Ranks& m_ranks;
+  const Very_large_chart_options& m_options;
+  Very_large_chart_report& m_report;
+  Pins m_pins; // of the level that is being worked on
+  std::vector<std::uint32_t> m_finest_pins;
+  std::vector<Distributed_level> m_levels;
+  std::unique_ptr<Gathered_hierarchy> m_gathered;
+  std::size_t m_size_of_gathered = 0;
+  Offsets m_begin;
+  std::vector<std::uint32_t> m_number;
+  std::vector<Indexed_mesh::Triangle_indices> m_triangles;
+};
+
+inline void Distributed_hierarchy::build(Mesh_part part)
+{
+  Blocked_execution::Stopwatch watch;
+  HLSCM_report& times = m_report.solver;
+  Distributed_mesh mesh = sort_input(std::move(part));
+  m_begin = mesh.begin;
+  m_number = std::move(mesh.number);
+  m_report.blocks = Blocked_execution::number_of_blocks(mesh.number_of_vertices(), mesh.block_size);
+  keep_triangles(mesh);
+  m_report.seconds_sort += watch.lap();
+  std::size_t k = 0;
+  for(; mesh.number_of_vertices() > most_gathered(); ++k) {
+    tell(0.1 + 0.1 * double((std::min)(k, std::size_t(4))));
+    std::vector<Streamed_stencil> stencils;
+    Mesh_part coarse = decimate(k == 0, mesh, stencils);
+    times.seconds_hierarchy += watch.lap();
+    const std::size_t vertices = m_ranks.sum(
+      std::size_t(std::count(coarse.is_used.begin(), coarse.is_used.end(), true)));
+    const Bbox_3 box = box_of(coarse.points, {});
+    const double golden = 0.6180339887498949; // the cells of no two levels have faces in common
+    Distributed_mesh next = Mesh_sorter(m_ranks, std::move(coarse))
+                              .sort(Curve_cube(box, std::fmod(golden * double(k + 1), 1.)), vertices,
+                                    block_size_for(vertices));
+    set_prolongation(mesh, stencils, next);
+    mesh = std::move(next);
+    m_report.seconds_sort += watch.lap();
+    if(10 * mesh.number_of_vertices() > 9 * m_levels.back().size)
+      refuse("the surface cannot be decimated to what one rank can hold, since too few vertices can "
+             "be removed; does it have very many components?", ERROR_NO_TOPOLOGICAL_DISC);
+  }
+  tell(0.6);
+  gather(k == 0, mesh);
+  times.seconds_operators += watch.lap();
+  std::reverse(m_levels.begin(), m_levels.end());
+  complete_report();
+}
+
+// Of the points that are used; of all if nothing is said. Of all ranks.
+inline Bbox_3 Distributed_hierarchy::box_of(const std::vector<Three_numbers>& points,
+                                            const std::vector<bool>& is_used) const
+{
+  Bbox_3 box;
+  for(std::size_t i = 0; i < points.size(); ++i)
+    if(is_used.empty() || is_used[i])
+      box += Bbox_3(points[i][0], points[i][1], points[i][2], points[i][0], points[i][1], points[i][2]);
+  return Bbox_3(m_ranks.least(box.xmin()), m_ranks.least(box.ymin()), m_ranks.least(box.zmin()),
+                m_ranks.largest(box.xmax()), m_ranks.largest(box.ymax()), m_ranks.largest(box.zmax()));
+}
+
+inline Distributed_mesh Distributed_hierarchy::sort_input(Mesh_part part)
+{
+  const Unit_box unit(box_of(part.points, part.is_used));
+  for(Three_numbers& p : part.points)
+    p = unit.moved(p);
+  const std::size_t vertices
+    = m_ranks.sum(std::size_t(std::count(part.is_used.begin(), part.is_used.end(), true)));
+  m_report.solver.vertices = vertices;
+  m_report.solver.faces = m_ranks.sum(part.triangles.size());
+  Distributed_mesh mesh = Mesh_sorter(m_ranks, std::move(part))
+                            .sort(Curve_cube(unit.box(), 0.), vertices, block_size_for(vertices));
+  normalize(mesh);
+  return mesh;
+}
+
+// Scales the mean length of the edges to 1.
+inline void Distributed_hierarchy::normalize(Distributed_mesh& mesh) const
+{
+  double lengths = 0.;
+  for(std::size_t b = 0; b < mesh.number_of_blocks(); ++b)
+    for(std::size_t t = mesh.triangle_begin[b]; t < mesh.triangle_begin[b + 1]; ++t) {
+      const auto& v = mesh.triangles[t];
+      if((std::min)({v[0], v[1], v[2]}) >= mesh.first + b * mesh.block_size)
+        lengths += perimeter(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]));
+    }
+  const double sum = m_ranks.sum(lengths);
+  if(!(sum > 0.))
+    refuse("all vertices lie in one point");
+  const double mean = sum / (3. * double(m_report.solver.faces));
+  for(auto* points : {&mesh.points, &mesh.ghost_points})
+    for(Three_numbers& p : *points)
+      for(double& x : p)
+        x /= mean;
+}
+
+inline void Distributed_hierarchy::keep_triangles(const Distributed_mesh& mesh)
+{
+  for(std::size_t b = 0; b < mesh.number_of_blocks(); ++b)
+    for(std::size_t t = mesh.triangle_begin[b]; t < mesh.triangle_begin[b + 1]; ++t) {
+      const auto& v = mesh.triangles[t];
+      if((std::min)({v[0], v[1], v[2]}) >= mesh.first + b * mesh.block_size)
+        m_triangles.push_back(v);
+    }
+}
+
+// The border is found by rank 0.
+inline Pins Distributed_hierarchy::choose_pins(const Distributed_mesh& mesh,
+                                               const Conformal_row_collector& rows)
+{
+  std::vector<Three_numbers> points;
+  for(const Border_entry& entry : rows.border())
+    points.push_back(mesh.point(entry.row));
+  const std::vector<Border_entry> border = m_ranks.gathered(rows.border());
+  points = m_ranks.gathered(points);
+  std::array<Pin, 2> pins = {};
+  m_ranks.together([&] {
+    if(m_ranks.rank() != 0)
+      return;
+    const Pins chosen = far_border_pins(border, [&](std::uint32_t v) -> const Three_numbers& {
+      const auto entry = std::lower_bound(border.begin(), border.end(), v,
+                                          [](const Border_entry& e, std::uint32_t row) {
+        return e.row < row;
+      });
+      return points[std::size_t(entry - border.begin())];
+    });
+    std::copy(chosen.begin(), chosen.end(), pins.begin());
+  });
+  pins = m_ranks.broadcast(pins);
+  return Pins(pins.begin(), pins.end());
+}
+
+// Builds a level; returns what is left of the mesh.
+inline Mesh_part Distributed_hierarchy::decimate(bool is_finest, Distributed_mesh& mesh,
+                                                 std::vector<Streamed_stencil>& stencils)
+{
+  const auto name = [&mesh](std::uint32_t v) { // where it matters
+    return mesh.is_own(v) ? mesh.source[v - mesh.first] : v;
+  };
+  Conformal_row_collector rows;
+  std::size_t mollified = 0;
+  m_ranks.together([&] {
+    for(std::size_t b = 0; b < mesh.number_of_blocks(); ++b) {
+      const Mesh_block block = mesh.block(b);
+      if(is_finest)
+        check_rings(Indexed_mesh::Vertex_rings(block.mesh),
+                    [&](std::uint32_t v) { return name(block.global(v)); });
+      rows.add(block);
+      mollified += block.own_mollified;
+    }
+  });
+  if(is_finest) {
+    m_report.solver.mollified_faces = m_ranks.sum(mollified);
+    m_pins = choose_pins(mesh, rows);
+    report_pins(mesh);
+  }
+  m_levels.emplace_back(m_ranks.comm(), mesh, m_pins, rows);
+  rows = Conformal_row_collector();
+  std::vector<std::uint32_t> pins;
+  for(const Pin& pin : m_pins)
+    pins.push_back(pin.vertex);
+  const double ratio = m_options.solver.level_ratio > 1. ? m_options.solver.level_ratio : 4.;
+  Mesh_part coarse;
+  coarse.begin = mesh.begin;
+  coarse.has_cotangents = true;
+  stencils.resize(mesh.points.size());
+  m_ranks.together([&] {
+    for(std::size_t b = 0; b < mesh.number_of_blocks(); ++b) {
+      Mesh_block block = mesh.block(b);
+      const Decimated_block decimated
+        = decimate_block(block, pins, ratio, m_options.solver.angular_defect_bound,
+                         [&](std::uint32_t v) { return name(block.global(v)); });
+      for_each_result(
+        block, decimated,
+        [&](std::uint32_t v, const Streamed_stencil& s) { stencils[v - mesh.first] = s; },
+        [&coarse](const Indexed_mesh::Triangle_indices& triangle, const Three_numbers& cotangents) {
+          coarse.triangles.push_back(triangle);
+          coarse.cotangents.push_back(cotangents);
+        });
+    }
+    coarse.is_used.resize(mesh.points.size());
+    for(std::size_t i = 0; i < stencils.size(); ++i)
+      coarse.is_used[i] = stencils[i].stays(std::uint32_t(mesh.first + i));
+  });
+  mesh.triangles = std::vector<Indexed_mesh::Triangle_indices>();
+  mesh.cotangents = std::vector<Three_numbers>();
+  coarse.points = std::move(mesh.points);
+  return coarse;
+}
+
+// The stencils are used up.
+inline void Distributed_hierarchy::set_prolongation(const Distributed_mesh& fine,
+                                                    std::vector<Streamed_stencil>& stencils,
+                                                    const Distributed_mesh& coarse)
+{
+  const std::size_t first = fine.first, last = first + stencils.size();
+  std::vector<std::uint32_t> others;
+  for(const Streamed_stencil& s : stencils)
+    for(const std::uint32_t v : s.source)
+      if(v < first || v >= last)
+        others.push_back(v);
+  std::sort(others.begin(), others.end());
+  others.erase(std::unique(others.begin(), others.end()), others.end());
+  const std::vector<std::uint32_t> numbers = m_ranks.values_at<std::uint32_t>(
+    others, fine.begin, [&coarse](std::size_t i) { return coarse.number[i]; });
+  const auto number = [&](std::uint32_t v) {
+    return v >= first && v < last
+      ? coarse.number[v - first]
+      : numbers[std::size_t(std::lower_bound(others.begin(), others.end(), v) - others.begin())];
+  };
+  Distributed_level& level = m_levels.back();
+  Petsc_rows rows;
+  for(std::uint32_t i = 0; i < stencils.size(); ++i) {
+    std::array<std::pair<std::uint32_t, float>, 3> entries;
+    for(int c = 0; c < 3; ++c)
+      entries[c] = {number(stencils[i].source[c]), stencils[i].weight[c]};
+    std::sort(entries.begin(), entries.end());
+    const bool is_pin
+      = std::find(level.own_pins.begin(), level.own_pins.end(), i) != level.own_pins.end();
+    for(int c = 0; c < 3 && !is_pin; ++c) {
+      if(entries[c].second == 0.f)
+        continue;
+      if(PetscInt(rows.column.size()) > rows.begin.back()
+         && rows.column.back() == PetscInt(entries[c].first)) {
+        rows.value.back() += double(entries[c].second);
+        continue;
+      }
+      rows.column.push_back(PetscInt(entries[c].first));
+      rows.value.emplace_back(double(entries[c].second));
+    }
+    rows.end_row();
+  }
+  level.prolongation = rows.matrix(m_ranks.comm(), coarse.points.size());
+  stencils = std::vector<Streamed_stencil>();
+  for(Pin& pin : m_pins) {
+    const std::vector<std::uint32_t> moved = m_ranks.values_at<std::uint32_t>(
+      {pin.vertex}, fine.begin, [&coarse](std::size_t i) { return coarse.number[i]; });
+    pin.vertex = moved[0];
+  }
+}
+
+// By what they are in the input.
+inline void Distributed_hierarchy::report_pins(const Distributed_mesh& mesh)
+{
+  for(const Pin& pin : m_pins) {
+    m_finest_pins.push_back(pin.vertex);
+    const std::vector<std::uint32_t> source = m_ranks.values_at<std::uint32_t>(
+      {pin.vertex}, mesh.begin, [&mesh](std::size_t i) { return mesh.source[i]; });
+    m_report.solver.pins.push_back({source[0], pin.value.real(), pin.value.imag()});
+  }
+}
+
+// All of the mesh is on rank 0.
+inline void Distributed_hierarchy::gather(bool is_finest, Distributed_mesh& mesh)
+{
+  m_size_of_gathered = mesh.number_of_vertices();
+  std::size_t mollified = 0;
+  std::array<Pin, 2> pins = {};
+  m_ranks.together([&] {
+    if(m_ranks.rank() != 0)
+      return;
+    HLSCM_options options = m_options.solver;
+    options.progress = nullptr; // the others wait
+    Mesh_block block = mesh.block(0);
+    mollified = block.own_mollified;
+    m_gathered = std::make_unique<Gathered_hierarchy>(
+      std::move(block), options, [&](std::uint32_t v) { return mesh.source[v]; });
+    if(is_finest) {
+      const Pins chosen = m_gathered->far_pins();
+      std::copy(chosen.begin(), chosen.end(), pins.begin());
+    }
+  });
+  if(is_finest) {
+    pins = m_ranks.broadcast(pins);
+    m_pins.assign(pins.begin(), pins.end());
+    m_report.solver.mollified_faces = m_ranks.broadcast(mollified);
+    report_pins(mesh);
+  }
+  mesh = Distributed_mesh();
+  m_ranks.together([&] {
+    if(m_gathered)
+      m_gathered->build(m_pins);
+  });
+  tell(0.7);
+}
+
+inline void Distributed_hierarchy::complete_report()
+{
+  HLSCM_report& report = m_report.solver;
+  report.method = "hlscm";
+  const bool is_first = m_ranks.rank() == 0;
+  m_report.levels_in_files = m_levels.size();
+  report.borders = m_ranks.broadcast(is_first ? m_gathered->number_of_borders() : 0);
+  report.levels.resize(m_ranks.broadcast(is_first ? m_gathered->number_of_levels() : 0));
+  if(is_first)
+    report.levels = m_gathered->level_reports();
+  for(HLSCM_level_report& level : report.levels)
+    level = m_ranks.broadcast(level);
+  for(const Distributed_level& level : m_levels)
+    report.levels.push_back({level.size, 0, 0, 0., 0, 0});
+  report.levels.back().faces = report.faces;
+  if(report.mollified_faces > 0)
+    report.warnings.push_back(mollification_warning(report.mollified_faces));
+}
+
+} // namespace internal
+} // namespace Surface_mesh_parameterization
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_DISTRIBUTED_DISTRIBUTED_HIERARCHY_H

@@ -1,0 +1,123 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_DISTRIBUTED_DISTRIBUTED_LEVEL_H
+#define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_DISTRIBUTED_DISTRIBUTED_LEVEL_H
+
+#include <CGAL/Surface_mesh_parameterization/internal/distributed/Distributed_mesh.h>
+#include <CGAL/Surface_mesh_parameterization/internal/distributed/petsc_objects.h>
+#include <CGAL/Surface_mesh_parameterization/internal/solver/Pins.h>
+#include <CGAL/Surface_mesh_parameterization/internal/streamed/Streamed_matrix.h>
+#include <CGAL/Surface_mesh_parameterization/internal/streamed/decimate_blocks.h>
+
+#include <algorithm>
+#include <complex>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_parameterization {
+namespace internal {
+
+// Collects the rows of the blocks of a rank.
+class Conformal_row_collector
+{
+public:
+  void add(const Mesh_block& block)
+  {
+    const auto& triangles = block.mesh.triangles;
+    const Indexed_mesh::Triangles_at_vertices at(triangles, block.mesh.points.size());
+    Multigrid::Matrix_row row;
+    for(std::uint32_t v = 0; v < block.own; ++v) {
+      row.entries.clear();
+      row.diagonal = 0.;
+      fill_conformal_row(v, triangles, at, block.cotangents, {}, row);
+      for(auto& entry : row.entries)
+        entry.column = block.global(entry.column);
+      add_row(std::uint32_t(block.first + v), row);
+    }
+  }
+
+  const Petsc_rows& rows() const { return m_rows; }
+  const std::vector<PetscScalar>& inverse_diagonal() const { return m_inverse_diagonal; }
+  const std::vector<Border_entry>& border() const { return m_border; } // those that are not real
+
+private:
+  void add_row(std::uint32_t i, Multigrid::Matrix_row& row)
+  {
+    m_inverse_diagonal.push_back(inverse_diagonal_of(row));
+    row.entries.push_back({i, row.diagonal, 0.});
+    std::sort(row.entries.begin(), row.entries.end(),
+              [](const auto& a, const auto& b) { return a.column < b.column; });
+    for(const auto& entry : row.entries) {
+      m_rows.column.push_back(PetscInt(entry.column));
+      m_rows.value.emplace_back(entry.re, entry.im);
+      if(entry.im != 0.)
+        m_border.push_back({i, entry.column, entry.re, entry.im});
+    }
+    m_rows.end_row();
+  }
+
+  Petsc_rows m_rows;
+  std::vector<PetscScalar> m_inverse_diagonal;
+  std::vector<Border_entry> m_border;
+};
+
+// A level that all ranks share: what PETSc's cycle needs of it.
+//
+// With pins E(z) is a function of the others, E = energy_of_pins + 1/2 z^H H z - Re f^H z, where z, f
+// and the rows and columns of H but for its diagonal are 0 at pins.
+struct Distributed_level
+{
+  Petsc_matrix matrix;           // H
+  Petsc_matrix prolongation;     // from the coarser level; 0 at pins
+  Petsc_vector inverse_diagonal; // of the smoother; 0 at pins
+  Petsc_vector pinned;           // the values of the pins, 0 elsewhere
+  Petsc_vector right_side;       // f
+  double energy_of_pins = 0.;
+  std::size_t size = 0;          // of all ranks
+  std::vector<std::uint32_t> own_pins;
+
+  Distributed_level(MPI_Comm comm, const Distributed_mesh& mesh, const Pins& pins,
+                    const Conformal_row_collector& rows)
+    : matrix(rows.rows().matrix(comm, mesh.points.size())), size(mesh.number_of_vertices())
+  {
+    check(MatCreateVecs(matrix, pinned.put(), right_side.put()));
+    check(VecSet(pinned, 0.));
+    inverse_diagonal = vector_like(pinned);
+    std::vector<PetscInt> own;
+    {
+      Petsc_part values(pinned), inverse(inverse_diagonal);
+      std::copy(rows.inverse_diagonal().begin(), rows.inverse_diagonal().end(), inverse.begin());
+      for(const Pin& pin : pins)
+        if(mesh.is_own(pin.vertex)) {
+          own_pins.push_back(pin.vertex - std::uint32_t(mesh.first));
+          own.push_back(PetscInt(pin.vertex));
+          values[own_pins.back()] = pin.value;
+          inverse[own_pins.back()] = 0.;
+        }
+    }
+    check(MatMult(matrix, pinned, right_side));
+    PetscScalar product;
+    check(VecDot(right_side, pinned, &product));
+    energy_of_pins = 0.5 * product.real();
+    check(VecScale(right_side, -1.));
+    clear_pins(right_side);
+    check(MatSetOption(matrix, MAT_KEEP_NONZERO_PATTERN, PETSC_TRUE));
+    check(MatZeroRowsColumns(matrix, PetscInt(own.size()), own.data(), 1., nullptr, nullptr));
+  }
+
+  void clear_pins(Vec x) const
+  {
+    Petsc_part part(x);
+    for(const std::uint32_t pin : own_pins)
+      part[pin] = 0.;
+  }
+};
+
+} // namespace internal
+} // namespace Surface_mesh_parameterization
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_DISTRIBUTED_DISTRIBUTED_LEVEL_H

@@ -1,0 +1,158 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_MAP_DISTRIBUTED_CHART_H
+#define CGAL_SURFACE_MESH_PARAMETERIZATION_MAP_DISTRIBUTED_CHART_H
+
+#include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Surface_mesh_parameterization/Very_large_chart_options.h>
+#include <CGAL/Surface_mesh_parameterization/internal/distributed/Distributed_run.h>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <mpi.h>
+#include <sys/resource.h>
+
+namespace CGAL {
+namespace Surface_mesh_parameterization {
+
+/*!
+\ingroup PkgHLSCMParameterizer
+
+The part of a chart that one rank of MPI has. Vertices have global numbers: those of rank 0 come
+first, then those of rank 1, and so on. Triangles may be on any rank.
+*/
+struct Distributed_chart
+{
+  std::vector<std::array<double, 3>> points;           ///< of the vertices of this rank
+  std::vector<std::array<std::uint32_t, 3>> triangles; ///< global numbers of their vertices
+};
+
+/// \ingroup PkgHLSCMParameterizer
+/// What one rank did in `map_distributed_chart()`.
+struct Rank_report
+{
+  std::size_t vertices = 0;    ///< of the finest level on it
+  std::size_t peak_memory = 0; ///< of its process, in bytes
+  std::size_t bytes_sent = 0;  ///< to other ranks
+  std::size_t messages = 0;    ///< in which they were sent
+};
+
+/// \ingroup PkgHLSCMParameterizer
+/// What `map_distributed_chart()` did: the same on all ranks. `levels_in_files` are those that all
+/// ranks share, and bytes of files are 0.
+struct Distributed_chart_report
+  : Very_large_chart_report
+{
+  std::vector<Rank_report> ranks; ///< what each of them did
+};
+
+namespace internal {
+
+// Calls `work(ranks, map)`, where `map(part)` returns the map of the vertices of a part, and reports what
+// came of it.
+template <class Work>
+Distributed_chart_report map_parts(MPI_Comm comm, const Very_large_chart_options& options,
+                                   const Work& work)
+{
+  const Blocked_execution::Thread_scope threads(options.solver.threads);
+  Distributed_chart_report report;
+  Ranks ranks(comm);
+  try {
+    begin_petsc();
+    if(!(options.solver.tolerance > 0.))
+      refuse("the tolerance must be positive");
+    const std::size_t bytes = petsc_bytes(), messages = petsc_messages();
+    work(ranks, [&](Mesh_part part) {
+      Distributed_run run(ranks, options, report);
+      run.map(std::move(part));
+      auto uv = run.uv();
+      struct rusage usage;
+      getrusage(RUSAGE_SELF, &usage);
+      report.ranks = ranks.all(Rank_report{
+        run.number_of_vertices(), std::size_t(usage.ru_maxrss) * 1024,
+        ranks.bytes_sent() + petsc_bytes() - bytes,
+        ranks.messages_sent() + petsc_messages() - messages});
+      return uv;
+    });
+    if(options.finish && ranks.rank() == 0)
+      options.finish(report);
+  } catch(const Streaming_failure& failure) {
+    report.error = failure.error;
+    report.message = report.solver.message = failure.what();
+    report.solver.converged = false;
+    report.solver.cancelled = failure.kind == Streaming_failure::CANCELLED;
+  }
+  return report;
+}
+
+} // namespace internal
+
+/*!
+\ingroup PkgHLSCMParameterizer
+
+Computes the least squares conformal map of a chart that is distributed over the ranks of MPI: that
+of `conformal_map()` with its two far border pins, to the same tolerance, moved into the unit square.
+All ranks decimate blocks of the surface and share the finer levels, on which PETSc iterates; rank 0
+has the coarser ones.
+
+\param comm the ranks, all of which call this
+\param chart what this rank has of a connected surface of genus 0 with one or more borders
+\param uv becomes where the vertices of this rank are; (0, 0) for vertices without a face
+\param options of these count: of `solver` what `Very_large_chart_options` says, `progress` that of
+       rank 0; `memory`, that of a rank, from which follows what rank 0 takes: levels of `memory` /
+       1300 vertices; `block_vertices` (0: 100000) and `gathered_vertices`
+
+Blocks do not depend on the number of ranks, and so the map depends on it by rounding alone. Bad data
+on any rank is an error on all of them, in one sentence. A rank that ends, or has no memory left in
+the iteration, ends all.
+
+PETSc, with complex numbers, is begun if it was not; who calls this ends it, before MPI.
+
+Linear time but for the iterations, about 700 bytes for each vertex of a rank.
+*/
+inline Distributed_chart_report
+map_distributed_chart(MPI_Comm comm, const Distributed_chart& chart,
+                      std::vector<std::array<double, 2>>& uv,
+                      const Very_large_chart_options& options = Very_large_chart_options())
+{
+  return internal::map_parts(comm, options, [&](internal::Ranks& ranks, const auto& map) {
+    uv = map(internal::checked_part(ranks, chart.points, chart.triangles));
+  });
+}
+
+/*!
+\ingroup PkgHLSCMParameterizer
+
+The same for a file, as `map_very_large_chart()`: of the binary PLY file `input`, which all ranks see,
+each reads its part; `put` and `options.finish` are called on rank 0.
+*/
+inline Distributed_chart_report
+map_distributed_chart(MPI_Comm comm, const std::string& input,
+                      const std::function<void(std::string_view)>& put,
+                      const Very_large_chart_options& options = Very_large_chart_options())
+{
+  return internal::map_parts(comm, options, [&](internal::Ranks& ranks, const auto& map) {
+    std::optional<internal::Ply_records> ply;
+    ranks.together([&] { ply.emplace(input); });
+    const std::uint64_t sample = ply->sample();
+    const auto uv = map(internal::read_part(ranks, *ply));
+    ranks.together([&] {
+      if(internal::Ply_records(input).sample() != sample)
+        internal::refuse("the file was changed while it was mapped; begin again");
+    });
+    internal::write_parts(ranks, *ply, uv, put);
+  });
+}
+
+} // namespace Surface_mesh_parameterization
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_MAP_DISTRIBUTED_CHART_H

@@ -1,0 +1,406 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Charts that are distributed over the ranks of MPI: their map is that of the chart in memory, however
+// many ranks there are; what is wrong on one of them is said by all. To be run by mpirun.
+
+#include <CGAL/Surface_mesh_parameterization/conformal_map.h>
+#include <CGAL/Surface_mesh_parameterization/map_distributed_chart.h>
+#include <CGAL/Surface_mesh_parameterization/map_very_large_chart.h>
+
+#include <support/bad_surfaces.h>
+#include <support/binary_ply.h>
+#include <support/chart_generators.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace distributed_chart_test {
+
+namespace SMP = CGAL::Surface_mesh_parameterization;
+using namespace test_support;
+
+typedef std::vector<std::array<double, 2>> Uv;
+typedef SMP::Very_large_chart_options Options;
+typedef SMP::Distributed_chart_report Report;
+
+int rank_in(MPI_Comm comm)
+{
+  int rank;
+  MPI_Comm_rank(comm, &rank);
+  return rank;
+}
+
+int size_of(MPI_Comm comm)
+{
+  int size;
+  MPI_Comm_size(comm, &size);
+  return size;
+}
+
+// What a rank has of a mesh that all have: vertices and triangles do not go together.
+SMP::Distributed_chart part_of(const Indexed_triangle_mesh& mesh, MPI_Comm comm)
+{
+  SMP::Distributed_chart chart;
+  const std::size_t rank = std::size_t(rank_in(comm)), ranks = std::size_t(size_of(comm)),
+                    n = mesh.points.size(), faces = mesh.triangles.size();
+  for(std::size_t i = n * rank / ranks; i < n * (rank + 1) / ranks; ++i)
+    chart.points.push_back({mesh.points[i].x(), mesh.points[i].y(), mesh.points[i].z()});
+  const std::size_t other = ranks - 1 - rank;
+  for(std::size_t t = faces * other / ranks; t < faces * (other + 1) / ranks; ++t)
+    chart.triangles.push_back(mesh.triangles[t]);
+  return chart;
+}
+
+// The map of all vertices, on all ranks.
+Uv all_of(const Uv& own, MPI_Comm comm)
+{
+  const int bytes = int(own.size() * sizeof(own[0]));
+  std::vector<int> sizes(std::size_t(size_of(comm))), places(sizes.size(), 0);
+  MPI_Allgather(&bytes, 1, MPI_INT, sizes.data(), 1, MPI_INT, comm);
+  for(std::size_t r = 1; r < sizes.size(); ++r)
+    places[r] = places[r - 1] + sizes[r - 1];
+  Uv result(std::size_t(places.back() + sizes.back()) / sizeof(own[0]));
+  MPI_Allgatherv(own.data(), bytes, MPI_BYTE, result.data(), sizes.data(), places.data(), MPI_BYTE, comm);
+  return result;
+}
+
+Options options_of(std::size_t block, std::size_t gathered, double tolerance)
+{
+  Options result;
+  result.block_vertices = block;
+  result.gathered_vertices = gathered;
+  result.solver.tolerance = tolerance;
+  result.solver.coarsest_size = 200;
+  result.solver.threads = 1;
+  return result;
+}
+
+struct Mapped
+{
+  Report report;
+  Uv uv; // of all vertices
+};
+
+Mapped map(const Indexed_triangle_mesh& mesh, const Options& options, MPI_Comm comm = MPI_COMM_WORLD)
+{
+  Mapped result;
+  Uv own;
+  result.report = SMP::map_distributed_chart(comm, part_of(mesh, comm), own, options);
+  if(result.report.error == SMP::OK)
+    result.uv = all_of(own, comm);
+  return result;
+}
+
+// The map of the chart in memory, in the unit square.
+struct Expected
+{
+  SMP::Conformal_map map;
+  Uv uv;
+
+  Expected(const Indexed_triangle_mesh& mesh, double tolerance)
+  {
+    SMP::HLSCM_options options;
+    options.tolerance = tolerance;
+    options.coarsest_size = 200;
+    options.threads = 1;
+    map = SMP::conformal_map(mesh, options);
+    CGAL::Bbox_2 box;
+    for(const auto& p : map.uv)
+      box += p.bbox();
+    const double scale = 1. / (std::max)(box.xmax() - box.xmin(), box.ymax() - box.ymin());
+    for(const auto& p : map.uv)
+      uv.push_back({scale * (p.x() - box.xmin()), scale * (p.y() - box.ymin())});
+    SMP::move_report(map.report, scale, -scale * box.xmin(), -scale * box.ymin());
+  }
+};
+
+double difference(const Uv& a, const Uv& b)
+{
+  double result = a.size() == b.size() ? 0. : std::numeric_limits<double>::infinity();
+  for(std::size_t i = 0; i < (std::min)(a.size(), b.size()); ++i)
+    result = (std::max)(result, std::hypot(a[i][0] - b[i][0], a[i][1] - b[i][1]));
+  return result;
+}
+
+std::size_t number_of_flips(const Indexed_triangle_mesh& mesh, const Uv& uv)
+{
+  typedef CGAL::Simple_cartesian<double>::Point_2 Point_2;
+  const auto point = [&uv](std::uint32_t v) { return Point_2(uv[v][0], uv[v][1]); };
+  std::size_t result = 0;
+  for(const auto& t : mesh.triangles)
+    result += CGAL::orientation(point(t[0]), point(t[1]), point(t[2])) == CGAL::RIGHT_TURN ? 1 : 0;
+  return result;
+}
+
+std::vector<Named_mesh> charts()
+{
+  std::vector<Named_mesh> result = curved_charts(1);
+  result.push_back({"long strip", with_noise(irregular_grid(600, 5, 4), 0.2, 5)});
+  return result;
+}
+
+TEST(Distributed_chart, is_that_in_memory)
+{
+  for(const Named_mesh& chart : charts()) {
+    SCOPED_TRACE(chart.name);
+    const std::size_t n = chart.mesh.points.size();
+    const Indexed_triangle_mesh mesh = shuffled(chart.mesh, 3);
+    const Expected expected(mesh, 1e-11);
+    if(expected.map.error != SMP::OK) // points twice: so small a tolerance is out of reach
+      continue;
+    for(const auto& [block, gathered] : {std::make_pair(n, n), std::make_pair(n / 4, n / 2),
+                                         std::make_pair(n / 17, n / 8)}) {
+      SCOPED_TRACE(std::to_string(block) + " vertices a block, in memory " + std::to_string(gathered));
+      const Mapped found = map(mesh, options_of(block, gathered, 1e-11));
+      const Report& report = found.report;
+      ASSERT_EQ(report.error, SMP::OK) << report.message;
+      EXPECT_LT(difference(found.uv, expected.uv), 1e-6);
+      EXPECT_NEAR(report.solver.energy, expected.map.report.energy,
+                  1e-8 * expected.map.report.energy + 1e-12);
+      EXPECT_EQ(report.flipped_faces, number_of_flips(mesh, found.uv));
+      EXPECT_EQ(report.flipped_faces, number_of_flips(mesh, expected.uv));
+      EXPECT_EQ(report.solver.borders, expected.map.report.borders);
+      EXPECT_EQ(report.levels_in_files > 0, gathered < n);
+      ASSERT_EQ(report.solver.pins.size(), 2u);
+      for(const SMP::HLSCM_pin& pin : report.solver.pins) {
+        const auto &p = expected.map.report.pins[0], &q = expected.map.report.pins[1];
+        EXPECT_TRUE(pin.vertex == p.vertex || pin.vertex == q.vertex);
+        EXPECT_NEAR(found.uv[pin.vertex][0], pin.u, 1e-12);
+      }
+      ASSERT_EQ(report.ranks.size(), std::size_t(size_of(MPI_COMM_WORLD)));
+      std::size_t vertices = 0;
+      for(const SMP::Rank_report& rank : report.ranks)
+        vertices += rank.vertices;
+      EXPECT_EQ(vertices, n);
+    }
+  }
+}
+
+// At the tolerances in use the energy is within them of the minimum, and the iterations are hardly more
+// than in memory.
+TEST(Distributed_chart, needs_no_more_iterations)
+{
+  std::vector<Named_mesh> all = curved_charts(1);
+  all = {all[2], all[3], all[9], large_charts(8)[1]};
+  std::size_t iterations = 0, expected_iterations = 0;
+  for(const Named_mesh& chart : all) {
+    SCOPED_TRACE(chart.name);
+    const std::size_t n = chart.mesh.points.size();
+    const Indexed_triangle_mesh mesh = shuffled(chart.mesh, 3);
+    const double least = Expected(mesh, 1e-9).map.report.energy;
+    for(const double tolerance : {1e-2, 1e-4}) {
+      SCOPED_TRACE(tolerance);
+      const Mapped found = map(mesh, options_of(n / 5, n / 20, tolerance));
+      ASSERT_EQ(found.report.error, SMP::OK) << found.report.message;
+      EXPECT_LE(found.report.solver.energy, (1. + tolerance) * least + 1e-13);
+      iterations += found.report.solver.iterations;
+      expected_iterations += Expected(mesh, tolerance).map.report.iterations;
+    }
+  }
+  EXPECT_LE(double(iterations), 1.3 * double(expected_iterations))
+    << iterations << " and " << expected_iterations;
+}
+
+// The levels are the same; what differs is the order of sums.
+TEST(Distributed_chart, is_the_same_for_any_number_of_ranks)
+{
+  const Indexed_triangle_mesh mesh = shuffled(with_noise(irregular_grid(90, 70, 4), 0.2, 5), 8);
+  const Options options = options_of(700, 300, 1e-9);
+  const Mapped alone = map(mesh, options, MPI_COMM_SELF), together = map(mesh, options);
+  ASSERT_EQ(together.report.error, SMP::OK) << together.report.message;
+  ASSERT_EQ(alone.report.solver.levels.size(), together.report.solver.levels.size());
+  for(std::size_t l = 0; l < alone.report.solver.levels.size(); ++l) {
+    EXPECT_EQ(alone.report.solver.levels[l].vertices, together.report.solver.levels[l].vertices);
+    EXPECT_EQ(alone.report.solver.levels[l].iterations, together.report.solver.levels[l].iterations);
+  }
+  EXPECT_EQ(alone.report.blocks, together.report.blocks);
+  EXPECT_LT(difference(alone.uv, together.uv), 1e-7);
+}
+
+class Distributed_file : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    std::string pattern = (std::filesystem::temp_directory_path() / "distributed_XXXXXX").string();
+    pattern.resize(pattern.size() + 1); // the first rank names the folder of all
+    if(rank_in(MPI_COMM_WORLD) == 0 && mkdtemp(pattern.data()) == nullptr)
+      ADD_FAILURE() << pattern;
+    MPI_Bcast(pattern.data(), int(pattern.size()), MPI_CHAR, 0, MPI_COMM_WORLD);
+    folder = pattern.c_str();
+  }
+  void TearDown() override
+  {
+    MPI_Barrier(MPI_COMM_WORLD);
+    if(rank_in(MPI_COMM_WORLD) == 0)
+      std::filesystem::remove_all(folder);
+  }
+
+  std::string input() const { return (folder / "in.ply").string(); }
+
+  void write(const Indexed_triangle_mesh& mesh) const
+  {
+    if(rank_in(MPI_COMM_WORLD) == 0)
+      write_records(mesh, input());
+    MPI_Barrier(MPI_COMM_WORLD);
+  }
+
+  Report map_file(const Options& options)
+  {
+    output.clear();
+    return SMP::map_distributed_chart(
+      MPI_COMM_WORLD, input(), [this](std::string_view bytes) { output += bytes; }, options);
+  }
+
+  std::filesystem::path folder;
+  std::string output;
+};
+
+// The blocks are the same, and so are the levels; what is written differs by the rounding of the cycle.
+TEST_F(Distributed_file, is_written_as_out_of_core)
+{
+  const Indexed_triangle_mesh mesh = shuffled(with_noise(irregular_grid(90, 70, 4), 0.2, 5), 8);
+  write(mesh);
+  Options options = options_of(700, 300, 1e-9);
+  const Report report = map_file(options);
+  ASSERT_EQ(report.error, SMP::OK) << report.message;
+  if(rank_in(MPI_COMM_WORLD) != 0) {
+    EXPECT_EQ(output, "");
+    return;
+  }
+  options.work_folder = (folder / "work").string();
+  std::string expected;
+  const SMP::Very_large_chart_report streamed = SMP::map_very_large_chart(
+    input(), [&expected](std::string_view bytes) { expected += bytes; }, options);
+  ASSERT_EQ(streamed.error, SMP::OK) << streamed.message;
+  ASSERT_EQ(streamed.solver.levels.size(), report.solver.levels.size());
+  for(std::size_t l = 0; l < report.solver.levels.size(); ++l)
+    EXPECT_EQ(streamed.solver.levels[l].vertices, report.solver.levels[l].vertices);
+  EXPECT_EQ(streamed.levels_in_files, report.levels_in_files);
+  EXPECT_EQ(streamed.blocks, report.blocks);
+  EXPECT_LE(report.solver.iterations, streamed.solver.iterations + 2);
+  const Mapped_ply a = read_mapped_ply(output, mesh.points.size(), mesh.triangles.size()),
+                   b = read_mapped_ply(expected, mesh.points.size(), mesh.triangles.size());
+  EXPECT_EQ(a.mesh.points, b.mesh.points);
+  EXPECT_EQ(a.mesh.triangles, b.mesh.triangles);
+  for(std::size_t v = 0; v < a.uv.size(); ++v)
+    ASSERT_LT(squared_distance(a.uv[v], b.uv[v]), 1e-10);
+}
+
+TEST_F(Distributed_file, is_refused_by_all_ranks)
+{
+  Indexed_triangle_mesh mesh = grid(20, 20);
+  mesh.points[395] = Point_3(0., std::numeric_limits<double>::quiet_NaN(), 0.); // of the last rank
+  write(mesh);
+  const Report report = map_file(options_of(200, 100, 1e-2));
+  EXPECT_EQ(report.message,
+            "vertex 395 has a coordinate that is not a finite number; correct or remove it");
+  EXPECT_EQ(output, "");
+  const std::filesystem::path missing = folder / "missing.ply";
+  const Report none = SMP::map_distributed_chart(
+    MPI_COMM_WORLD, missing.string(), [](std::string_view) {}, options_of(200, 100, 1e-2));
+  EXPECT_NE(none.error, SMP::OK);
+  EXPECT_NE(none.message.find("missing.ply"), std::string::npos) << none.message;
+}
+
+// What the writer throws is thrown where it was called; the others know.
+TEST_F(Distributed_file, says_that_it_cannot_be_written)
+{
+  write(grid(20, 20));
+  const auto fail = [](std::string_view) { throw std::string("full"); };
+  if(rank_in(MPI_COMM_WORLD) == 0)
+    EXPECT_THROW(SMP::map_distributed_chart(MPI_COMM_WORLD, input(), fail, options_of(200, 100, 1e-2)),
+                 std::string);
+  else
+    EXPECT_NE(SMP::map_distributed_chart(MPI_COMM_WORLD, input(), fail, options_of(200, 100, 1e-2)).error,
+              SMP::OK);
+}
+
+// A face on one rank that is wrong, a surface that is no chart: one sentence, on all ranks.
+TEST(Distributed_chart, is_refused_in_a_sentence)
+{
+  const auto message = [](const Indexed_triangle_mesh& mesh) {
+    const Mapped mapped = map(mesh, options_of(200, 100, 1e-2));
+    EXPECT_NE(mapped.report.error, SMP::OK);
+    return mapped.report.message;
+  };
+  const auto contains = [](const std::string& text, const std::string& words) {
+    return testing::AssertionResult(text.find(words) != std::string::npos) << text;
+  };
+  Indexed_triangle_mesh mesh = grid(20, 20);
+  const std::size_t last = mesh.triangles.size() - 1;
+  mesh.triangles[last][1] = mesh.triangles[last][0];
+  EXPECT_TRUE(contains(message(mesh), "has a vertex twice"));
+  mesh = grid(20, 20);
+  mesh.triangles[3][2] = 7000;
+  EXPECT_TRUE(contains(message(mesh), "names vertex 7000"));
+  mesh = grid(20, 20);
+  std::swap(mesh.triangles[last][0], mesh.triangles[last][1]);
+  EXPECT_TRUE(contains(message(mesh), "different orientation"));
+  mesh = grid(20, 20);
+  for(auto& p : mesh.points)
+    p = Point_3(1., 1., 1.);
+  EXPECT_TRUE(contains(message(mesh), "all vertices lie in one point"));
+  EXPECT_TRUE(contains(message(Indexed_triangle_mesh()), "no faces"));
+  EXPECT_TRUE(contains(message(bipyramid(8)), "closed"));
+  Options impossible = options_of(200, 100, 0.);
+  EXPECT_TRUE(contains(map(grid(9, 9), impossible).report.message, "tolerance must be positive"));
+}
+
+// Vertices without a face, and ranks without anything.
+TEST(Distributed_chart, takes_what_ranks_have)
+{
+  Indexed_triangle_mesh mesh = grid(30, 30);
+  const Mapped whole = map(mesh, options_of(200, 100, 1e-8));
+  mesh.points.push_back(Point_3(100., 0., 0.));
+  const Mapped with_one_more = map(mesh, options_of(200, 100, 1e-8));
+  ASSERT_EQ(with_one_more.report.error, SMP::OK) << with_one_more.report.message;
+  EXPECT_EQ(with_one_more.uv.back(), (std::array<double, 2>{0., 0.}));
+  Uv uv;
+  const SMP::Distributed_chart chart
+    = rank_in(MPI_COMM_WORLD) == 0 ? part_of(grid(30, 30), MPI_COMM_SELF) : SMP::Distributed_chart();
+  const Report report
+    = SMP::map_distributed_chart(MPI_COMM_WORLD, chart, uv, options_of(200, 100, 1e-8));
+  ASSERT_EQ(report.error, SMP::OK) << report.message;
+  EXPECT_LT(difference(all_of(uv, MPI_COMM_WORLD), whole.uv), 1e-6);
+}
+
+TEST(Distributed_chart, stops_when_it_is_told_to)
+{
+  for(int calls : {0, 2, 5}) {
+    Options options = options_of(200, 100, 1e-8);
+    options.solver.progress = [&calls](double) { return rank_in(MPI_COMM_WORLD) != 0 || calls-- > 0; };
+    const Mapped mapped = map(grid(40, 40), options);
+    EXPECT_EQ(mapped.report.message, "cancelled");
+    EXPECT_TRUE(mapped.report.solver.cancelled);
+  }
+}
+
+} // namespace distributed_chart_test
+
+int main(int argc, char** argv)
+{
+  MPI_Init(&argc, &argv);
+  testing::InitGoogleTest(&argc, argv);
+  if(distributed_chart_test::rank_in(MPI_COMM_WORLD) != 0) // what all say is said once
+    delete testing::UnitTest::GetInstance()->listeners().Release(
+      testing::UnitTest::GetInstance()->listeners().default_result_printer());
+  int failed = RUN_ALL_TESTS(), any = 0;
+  MPI_Allreduce(&failed, &any, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+  if(failed != 0)
+    std::fprintf(stderr, "rank %d has failed\n", distributed_chart_test::rank_in(MPI_COMM_WORLD));
+  PetscBool has_begun = PETSC_FALSE;
+  if(PetscInitialized(&has_begun) == 0 && has_begun)
+    PetscFinalize();
+  MPI_Finalize();
+  return any;
+}
