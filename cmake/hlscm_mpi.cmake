@@ -3,7 +3,8 @@
 
 # The target HLSCM_petsc: MPI, and PETSc with complex numbers.
 
-find_package(MPI REQUIRED COMPONENTS C)
+set(MPI_CXX_SKIP_MPICXX ON)
+find_package(MPI REQUIRED COMPONENTS CXX)
 find_package(PkgConfig REQUIRED)
 # Where Debian has it, whichever PETSc is the default
 file(GLOB petsc_folders /usr/lib/petscdir/petsc*/*-complex/lib/pkgconfig)
@@ -12,15 +13,16 @@ set(ENV{PKG_CONFIG_PATH} "$ENV{PKG_CONFIG_PATH}:${petsc_folders}")
 pkg_check_modules(HLSCM_PETSC REQUIRED IMPORTED_TARGET PETSc)
 
 add_library(HLSCM_petsc INTERFACE)
-target_link_libraries(HLSCM_petsc INTERFACE PkgConfig::HLSCM_PETSC MPI::MPI_C)
-target_compile_definitions(HLSCM_petsc INTERFACE OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
+target_link_libraries(HLSCM_petsc INTERFACE PkgConfig::HLSCM_PETSC MPI::MPI_CXX)
+
+# Open MPI may be told to run as root, and more ranks than there are processors.
+set(hlscm_mpi_environment OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+    OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_btl_vader_single_copy_mechanism=none)
 
 # hlscm_add_mpi_test(<name> <ranks> <label> <program> [<argument>...])
-#
-# Open MPI may be told to run as root, and more ranks than there are processors.
 function(hlscm_add_mpi_test name ranks label program)
   add_test(NAME ${name}
     COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} $<TARGET_FILE:${program}> ${ARGN})
-  set_tests_properties(${name} PROPERTIES LABELS ${label} TIMEOUT 1200 ENVIRONMENT
-    "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_rmaps_base_oversubscribe=1;OMPI_MCA_btl_vader_single_copy_mechanism=none")
+  set_tests_properties(${name} PROPERTIES LABELS ${label} TIMEOUT 1200
+                       ENVIRONMENT "${hlscm_mpi_environment}")
 endfunction()

@@ -117,7 +117,7 @@ TEST_F(Very_large_chart, is_that_in_memory)
         EXPECT_NEAR(mapped.uv[pin.vertex].x(), pin.u, 1e-12);
       }
       EXPECT_LT(difference(mapped.uv, expected.uv), 1e-6);
-      EXPECT_NEAR(report.solver.energy, expected.report.energy, 1e-8 * expected.report.energy + 2e-13);
+      EXPECT_NEAR(report.solver.energy, expected.report.energy, 1e-8 * expected.report.energy + 1e-12);
       EXPECT_EQ(report.flipped_faces, number_of_flips(mesh, mapped.uv));
       EXPECT_EQ(report.flipped_faces, number_of_flips(mesh, expected.uv));
       EXPECT_EQ(report.solver.borders, expected.report.borders);
@@ -295,6 +295,8 @@ TEST_F(Very_large_chart, refuses_bad_files)
 TEST_F(Very_large_chart, counts_faces_without_area)
 {
   Indexed_triangle_mesh mesh = grid(40, 40);
+  for(auto& p : mesh.points) // of a plane the energy would be that of these faces alone, by rounding
+    p = Point_3(p.x(), p.y(), 3. * std::sin(0.3 * p.x()) * std::cos(0.2 * p.y()));
   std::size_t expected = 0;
   for(std::size_t t = 0; t < mesh.triangles.size(); t += 211) { // one vertex onto another
     const auto v = mesh.triangles[t];

@@ -25,7 +25,7 @@ int main(int argc, char** argv)
   const std::uint32_t begin = n * rank / ranks, end = n * (rank + 1) / ranks;
   for(std::uint32_t i = begin; i < end; ++i)
     for(std::uint32_t j = 0; j < n; ++j) {
-      chart.points.push_back({0.1 * i, 0.1 * j, std::sin(0.3 * i) * std::cos(0.2 * j)});
+      chart.points.push_back({0.1 * i, 0.1 * j, std::sin(0.1 * i) * std::cos(0.06 * j)});
       const std::uint32_t v = n * i + j;
       if(i + 1 < n && j + 1 < n) { // the vertices of the next column may be another rank's
         chart.triangles.push_back({v, v + n, v + n + 1});

@@ -223,5 +223,5 @@ int main(int argc, char** argv)
     PetscFinalize();
   }
   MPI_Finalize();
-  return exit_code;
+  hlscm::Interruption::end_process(exit_code);
 }

@@ -18,6 +18,18 @@ const FLAGS = [
 const OF_DRIVERS = /GL Driver Message \(OpenGL, Performance/; // that software is slow
 const PATIENCE = 240000; // milliseconds for an answer, and for a condition to come true: machines are busy
 
+/** Removes a folder in which the helpers of a browser that has ended may still write for a while. */
+async function removeFolder(path) {
+  for (let tries = 0; tries < 100; ++tries) {
+    try {
+      rmSync(path, { recursive: true, force: true });
+      return;
+    } catch {
+      await new Promise((done) => setTimeout(done, 100));
+    }
+  }
+}
+
 /** One page in a browser of its own. */
 export class Browser {
   /** @param {string} program the browser */
@@ -130,7 +142,7 @@ export class Browser {
     const ended = new Promise((done) => this.process.once("exit", done));
     this.process.kill();
     await ended;
-    rmSync(this.profile, { recursive: true, force: true, maxRetries: 20, retryDelay: 100 });
+    await removeFolder(this.profile);
   }
 
   async #attach() {
