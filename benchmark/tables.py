@@ -420,6 +420,23 @@ def full_pages_peer():
     return table(["faces", "models", "charts: ours, xatlas", "texture used", "seconds"], lines)
 
 
+def ranks():
+    """One chart by several processes, out of core and in memory."""
+    lines = []
+    for row in read("ranks.csv"):
+        count = int(row["ranks"])
+        by = {"in memory": "in memory, one thread", "out of core": "out of core, `--memory 4G`, one thread",
+              "ranks": f"{count} rank" + ("s" if count > 1 else "")}[row["method"]]
+        sent = ""
+        if count > 1:
+            sent = f"{int(row['megabytes_sent'])} MB, {int(row['messages'])}"
+        lines.append([row["series"], f"{float(row['faces']) / 1e6:.0f}M", by, row["iterations"],
+                      f"{float(row['energy']):.5g}", number(row, "seconds", 1), number(row, "wall", 1),
+                      row["peak_memory_mb"] + " MB", sent])
+    return table(["series", "faces", "by", "iterations", "energy", "seconds", "with files",
+                  "most memory of a process", "sent, messages"], lines)
+
+
 def memory_of_commands():
     """Bytes a face of each command at a million faces."""
     rows = [row for row in read("memory.csv") if row["chart"] == "terrain_1000k"]
@@ -432,7 +449,7 @@ def memory_of_commands():
 TABLES = {table.__name__: table for table in (
     million_faces, ratios, scaling, growth, stages, stages_two_threads, atlases,
     atlases_beside_paper, atlases_short, live, levels, compile_time, reading, low_stretch, one_to_one,
-    equation_peers, signals, which_map, full_pages, full_pages_peer, memory_of_commands)}
+    equation_peers, signals, which_map, full_pages, full_pages_peer, ranks, memory_of_commands)}
 BEGIN, END = "<!-- table ", "<!-- end of table -->"
 
 

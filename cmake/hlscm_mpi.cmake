@@ -23,6 +23,6 @@ set(hlscm_mpi_environment OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIR
 function(hlscm_add_mpi_test name ranks label program)
   add_test(NAME ${name}
     COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} $<TARGET_FILE:${program}> ${ARGN})
-  set_tests_properties(${name} PROPERTIES LABELS ${label} TIMEOUT 1200
+  set_tests_properties(${name} PROPERTIES LABELS ${label} TIMEOUT 1200 PROCESSORS ${ranks}
                        ENVIRONMENT "${hlscm_mpi_environment}")
 endfunction()

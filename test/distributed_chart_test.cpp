@@ -1,8 +1,8 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Charts that are distributed over the ranks of MPI: their map is that of the chart in memory, however
-// many ranks there are; what is wrong on one of them is said by all. To be run by mpirun.
+// Charts that are distributed over the ranks of MPI: their map is that of the chart in memory,
+// however many ranks there are; what is wrong on one of them is said by all. To be run by mpirun.
 
 #include <CGAL/Surface_mesh_parameterization/conformal_map.h>
 #include <CGAL/Surface_mesh_parameterization/map_distributed_chart.h>
@@ -69,7 +69,8 @@ Uv all_of(const Uv& own, MPI_Comm comm)
   for(std::size_t r = 1; r < sizes.size(); ++r)
     places[r] = places[r - 1] + sizes[r - 1];
   Uv result(std::size_t(places.back() + sizes.back()) / sizeof(own[0]));
-  MPI_Allgatherv(own.data(), bytes, MPI_BYTE, result.data(), sizes.data(), places.data(), MPI_BYTE, comm);
+  MPI_Allgatherv(own.data(), bytes, MPI_BYTE, result.data(), sizes.data(), places.data(), MPI_BYTE,
+                 comm);
   return result;
 }
 
@@ -90,7 +91,8 @@ struct Mapped
   Uv uv; // of all vertices
 };
 
-Mapped map(const Indexed_triangle_mesh& mesh, const Options& options, MPI_Comm comm = MPI_COMM_WORLD)
+Mapped map(const Indexed_triangle_mesh& mesh, const Options& options,
+           MPI_Comm comm = MPI_COMM_WORLD)
 {
   Mapped result;
   Uv own;
@@ -159,7 +161,8 @@ TEST(Distributed_chart, is_that_in_memory)
       continue;
     for(const auto& [block, gathered] : {std::make_pair(n, n), std::make_pair(n / 4, n / 2),
                                          std::make_pair(n / 17, n / 8)}) {
-      SCOPED_TRACE(std::to_string(block) + " vertices a block, in memory " + std::to_string(gathered));
+      SCOPED_TRACE(std::to_string(block) + " vertices a block, in memory "
+                   + std::to_string(gathered));
       const Mapped found = map(mesh, options_of(block, gathered, 1e-11));
       const Report& report = found.report;
       ASSERT_EQ(report.error, SMP::OK) << report.message;
@@ -185,8 +188,8 @@ TEST(Distributed_chart, is_that_in_memory)
   }
 }
 
-// At the tolerances in use the energy is within them of the minimum, and the iterations are hardly more
-// than in memory.
+// At the tolerances in use the energy is within them of the minimum, and the iterations are hardly
+// more than in memory.
 TEST(Distributed_chart, needs_no_more_iterations)
 {
   std::vector<Named_mesh> all = curved_charts(1);
@@ -219,8 +222,9 @@ TEST(Distributed_chart, is_the_same_for_any_number_of_ranks)
   ASSERT_EQ(together.report.error, SMP::OK) << together.report.message;
   ASSERT_EQ(alone.report.solver.levels.size(), together.report.solver.levels.size());
   for(std::size_t l = 0; l < alone.report.solver.levels.size(); ++l) {
-    EXPECT_EQ(alone.report.solver.levels[l].vertices, together.report.solver.levels[l].vertices);
-    EXPECT_EQ(alone.report.solver.levels[l].iterations, together.report.solver.levels[l].iterations);
+    const auto &a = alone.report.solver.levels[l], &b = together.report.solver.levels[l];
+    EXPECT_EQ(a.vertices, b.vertices);
+    EXPECT_EQ(a.iterations, b.iterations);
   }
   EXPECT_EQ(alone.report.blocks, together.report.blocks);
   EXPECT_LT(difference(alone.uv, together.uv), 1e-7);
@@ -265,7 +269,8 @@ protected:
   std::string output;
 };
 
-// The blocks are the same, and so are the levels; what is written differs by the rounding of the cycle.
+// The blocks are the same, and so are the levels; what is written differs by the rounding of the
+// cycle.
 TEST_F(Distributed_file, is_written_as_out_of_core)
 {
   const Indexed_triangle_mesh mesh = shuffled(with_noise(irregular_grid(90, 70, 4), 0.2, 5), 8);
@@ -317,12 +322,11 @@ TEST_F(Distributed_file, says_that_it_cannot_be_written)
 {
   write(grid(20, 20));
   const auto fail = [](std::string_view) { throw std::string("full"); };
+  const Options options = options_of(200, 100, 1e-2);
   if(rank_in(MPI_COMM_WORLD) == 0)
-    EXPECT_THROW(SMP::map_distributed_chart(MPI_COMM_WORLD, input(), fail, options_of(200, 100, 1e-2)),
-                 std::string);
+    EXPECT_THROW(SMP::map_distributed_chart(MPI_COMM_WORLD, input(), fail, options), std::string);
   else
-    EXPECT_NE(SMP::map_distributed_chart(MPI_COMM_WORLD, input(), fail, options_of(200, 100, 1e-2)).error,
-              SMP::OK);
+    EXPECT_NE(SMP::map_distributed_chart(MPI_COMM_WORLD, input(), fail, options).error, SMP::OK);
 }
 
 // A face on one rank that is wrong, a surface that is no chart: one sentence, on all ranks.
@@ -366,8 +370,9 @@ TEST(Distributed_chart, takes_what_ranks_have)
   ASSERT_EQ(with_one_more.report.error, SMP::OK) << with_one_more.report.message;
   EXPECT_EQ(with_one_more.uv.back(), (std::array<double, 2>{0., 0.}));
   Uv uv;
-  const SMP::Distributed_chart chart
-    = rank_in(MPI_COMM_WORLD) == 0 ? part_of(grid(30, 30), MPI_COMM_SELF) : SMP::Distributed_chart();
+  SMP::Distributed_chart chart;
+  if(rank_in(MPI_COMM_WORLD) == 0)
+    chart = part_of(grid(30, 30), MPI_COMM_SELF);
   const Report report
     = SMP::map_distributed_chart(MPI_COMM_WORLD, chart, uv, options_of(200, 100, 1e-8));
   ASSERT_EQ(report.error, SMP::OK) << report.message;
@@ -378,7 +383,9 @@ TEST(Distributed_chart, stops_when_it_is_told_to)
 {
   for(int calls : {0, 2, 5}) {
     Options options = options_of(200, 100, 1e-8);
-    options.solver.progress = [&calls](double) { return rank_in(MPI_COMM_WORLD) != 0 || calls-- > 0; };
+    options.solver.progress = [&calls](double) {
+      return rank_in(MPI_COMM_WORLD) != 0 || calls-- > 0;
+    };
     const Mapped mapped = map(grid(40, 40), options);
     EXPECT_EQ(mapped.report.message, "cancelled");
     EXPECT_TRUE(mapped.report.solver.cancelled);

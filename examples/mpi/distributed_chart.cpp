@@ -35,8 +35,8 @@ int main(int argc, char** argv)
 
   SMP::Very_large_chart_options options;
   options.solver.tolerance = 1e-4;
-  options.solver.threads = 1;         // each rank has a processor of its own
-  options.gathered_vertices = 10000;  // only for such a small chart: levels above are shared
+  options.solver.threads = 1;        // each rank has a processor of its own
+  options.gathered_vertices = 10000; // only for such a small chart: levels above are shared
   options.block_vertices = 10000;
   std::vector<std::array<double, 2>> uv;
   const SMP::Distributed_chart_report report
@@ -45,9 +45,9 @@ int main(int argc, char** argv)
   if(rank == 0 && report.error != SMP::OK)
     std::cerr << report.message << '\n';
   else if(rank == 0)
-    std::cout << report.solver.vertices << " vertices on " << ranks << " ranks: "
-              << report.solver.iterations << " iterations, energy " << report.solver.energy << ", "
-              << report.flipped_faces << " flipped faces\n";
+    std::cout << report.solver.vertices << " vertices on " << ranks
+              << " ranks: " << report.solver.iterations << " iterations, energy "
+              << report.solver.energy << ", " << report.flipped_faces << " flipped faces\n";
   PetscFinalize();
   MPI_Finalize();
   return is_well ? 0 : 1;

@@ -1,8 +1,8 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// `mpirun -n 4 hlscm-mpi parameterize IN.ply -o OUT.ply`: the map of a chart by several processes, on
-// one machine or many that see the same files.
+// `mpirun -n 4 hlscm-mpi parameterize IN.ply -o OUT.ply`: the map of a chart by several processes,
+// on one machine or many that see the same files.
 
 #include "common/Interruption.h"
 #include "common/Program_error.h"
@@ -50,8 +50,10 @@ std::optional<int> parse(int argc, char** argv, bool is_first, Options& options)
       ->check(CLI::PositiveNumber);
   run->add_option("--max-iterations", options.library.solver.maximal_iterations,
                   "iterations on the finest level at most");
-  run->add_option("--memory", options.library.memory,
-                  "of each rank, such as 4G (default): coarse levels that fit are the first rank's")
+  run->add_option(
+         "--memory", options.library.memory,
+         "of the first rank, such as 4G (default): coarse levels of up to 300000 vertices that fit "
+         "are its own")
       ->transform(CLI::AsSizeValue(false))
       ->type_name("SIZE");
   run->add_flag("-q,--quiet", options.is_quiet, "print nothing but errors");
@@ -120,10 +122,10 @@ void print(const Report& report)
             << s.iterations << " iterations, energy " << s.energy << ", about "
             << s.energy_gap_estimate << " above the minimum, " << report.flipped_faces
             << " flipped faces\nseconds: " << s.seconds_total << " = sort " << report.seconds_sort
-            << " + decimate " << s.seconds_hierarchy << " + levels in memory " << s.seconds_operators
-            << " + solve " << s.seconds_solve << "\nof a rank: " << memory / 1048576
-            << " MB of memory at most; sent " << bytes / 1000000 << " MB in " << messages
-            << " messages\n";
+            << " + decimate " << s.seconds_hierarchy << " + levels in memory "
+            << s.seconds_operators << " + solve " << s.seconds_solve
+            << "\nof a rank: " << memory / 1048576 << " MB of memory at most; sent "
+            << bytes / 1000000 << " MB in " << messages << " messages\n";
 }
 
 void say_error(const std::string& sentence)
@@ -182,7 +184,8 @@ int run(Options& options, bool is_first)
       library);
   if(report.error != SMP::OK) {
     if(is_first) {
-      say_error(options.input + ": " + report.message);
+      const bool is_named = report.message.rfind(options.input, 0) == 0;
+      say_error(is_named ? report.message : options.input + ": " + report.message);
     }
     return 1;
   }

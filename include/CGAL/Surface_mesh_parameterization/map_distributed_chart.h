@@ -56,8 +56,8 @@ struct Distributed_chart_report
 
 namespace internal {
 
-// Calls `work(ranks, map)`, where `map(part)` returns the map of the vertices of a part, and reports what
-// came of it.
+// Calls `work(ranks, map)`, where `map(part)` returns the map of the vertices of a part, and
+// reports what came of it.
 template <class Work>
 Distributed_chart_report map_parts(MPI_Comm comm, const Very_large_chart_options& options,
                                    const Work& work)
@@ -99,20 +99,20 @@ Distributed_chart_report map_parts(MPI_Comm comm, const Very_large_chart_options
 \ingroup PkgHLSCMParameterizer
 
 Computes the least squares conformal map of a chart that is distributed over the ranks of MPI: that
-of `conformal_map()` with its two far border pins, to the same tolerance, moved into the unit square.
-All ranks decimate blocks of the surface and share the finer levels, on which PETSc iterates; rank 0
-has the coarser ones.
+of `conformal_map()` with its two far border pins, to the same tolerance, moved into the unit
+square. All ranks decimate blocks of the surface and share the finer levels, on which PETSc
+iterates; rank 0 has the coarser ones.
 
 \param comm the ranks, all of which call this
 \param chart what this rank has of a connected surface of genus 0 with one or more borders
 \param uv becomes where the vertices of this rank are; (0, 0) for vertices without a face
 \param options of these count: of `solver` what `Very_large_chart_options` says, `progress` that of
-       rank 0; `memory`, that of a rank, from which follows what rank 0 takes: levels of `memory` /
-       1300 vertices; `block_vertices` (0: 100000) and `gathered_vertices`
+       rank 0; `block_vertices` (0: 100000); `gathered_vertices`, up to which a level is rank 0's
+       (0: 300000, or `memory` / 1300 if that is less)
 
-Blocks do not depend on the number of ranks, and so the map depends on it by rounding alone. Bad data
-on any rank is an error on all of them, in one sentence. A rank that ends, or has no memory left in
-the iteration, ends all.
+Blocks do not depend on the number of ranks, and so the map depends on it by rounding alone. Bad
+data on any rank is an error on all of them, in one sentence. A rank that ends, or has no memory
+left in the iteration, ends all.
 
 PETSc, with complex numbers, is begun if it was not; who calls this ends it, before MPI.
 
@@ -131,8 +131,8 @@ map_distributed_chart(MPI_Comm comm, const Distributed_chart& chart,
 /*!
 \ingroup PkgHLSCMParameterizer
 
-The same for a file, as `map_very_large_chart()`: of the binary PLY file `input`, which all ranks see,
-each reads its part; `put` and `options.finish` are called on rank 0.
+The same for a file, as `map_very_large_chart()`: of the binary PLY file `input`, which all ranks
+see, each reads its part; `put` and `options.finish` are called on rank 0.
 */
 inline Distributed_chart_report
 map_distributed_chart(MPI_Comm comm, const std::string& input,

@@ -22,8 +22,8 @@ namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
 
-// The levels of a distributed chart, and those below them, which rank 0 has in memory. The same blocks
-// are decimated as out of core, each by the rank that has it.
+// The levels of a distributed chart, and those below them, which rank 0 has in memory. The same
+// blocks are decimated as out of core, each by the rank that has it.
 class Distributed_hierarchy
 {
 public:
@@ -60,14 +60,16 @@ public:
   }
 
 private:
-  // As `Streamed_hierarchy`; but small blocks, for there are ranks that wait for work.
+  // As `Streamed_hierarchy`; but small blocks, for there are ranks that wait for work, and not much
+  // for rank 0 alone.
   static constexpr std::size_t bytes_of_vertex = 650;
-  static constexpr std::size_t vertices_of_block = 100000;
+  static constexpr std::size_t vertices_of_block = 100000, vertices_on_first = 300000;
 
   std::size_t most_gathered() const
   {
     const std::size_t most = m_options.gathered_vertices;
-    return (std::max)(most > 0 ? most : m_options.memory / (2 * bytes_of_vertex), std::size_t(4));
+    const std::size_t fits = m_options.memory / (2 * bytes_of_vertex);
+    return (std::max)(most > 0 ? most : (std::min)(fits, vertices_on_first), std::size_t(4));
   }
   std::size_t block_size_for(std::size_t vertices) const
   {
@@ -83,10 +85,10 @@ private:
   Distributed_mesh sort_input(Mesh_part part);
   void normalize(Distributed_mesh& mesh) const;
   Pins choose_pins(const Distributed_mesh& mesh, const Conformal_row_collector& rows);
-  Mesh_part decimate(bool is_finest, Distributed_mesh& mesh, std::vector<Streamed_stencil>& stencils);
+  Mesh_part decimate(bool is_finest, Distributed_mesh& mesh,
+                     std::vector<Streamed_stencil>& stencils);
   void set_prolongation(const Distributed_mesh& fine, std::vector<Streamed_stencil>& stencils,
                         const Distributed_mesh& coarse);
-  void keep_triangles(const Distributed_mesh& mesh);
   void report_pins(const Distributed_mesh& mesh);
   void gather(bool is_finest, Distributed_mesh& mesh);
   void complete_report();
@@ -112,7 +114,7 @@ inline void Distributed_hierarchy::build(Mesh_part part)
   m_begin = mesh.begin;
   m_number = std::move(mesh.number);
   m_report.blocks = Blocked_execution::number_of_blocks(mesh.number_of_vertices(), mesh.block_size);
-  keep_triangles(mesh);
+  mesh.for_each_own_triangle([this](const auto& v) { m_triangles.push_back(v); });
   m_report.seconds_sort += watch.lap();
   std::size_t k = 0;
   for(; mesh.number_of_vertices() > most_gathered(); ++k) {
@@ -124,15 +126,15 @@ inline void Distributed_hierarchy::build(Mesh_part part)
       std::size_t(std::count(coarse.is_used.begin(), coarse.is_used.end(), true)));
     const Bbox_3 box = box_of(coarse.points, {});
     const double golden = 0.6180339887498949; // the cells of no two levels have faces in common
-    Distributed_mesh next = Mesh_sorter(m_ranks, std::move(coarse))
-                              .sort(Curve_cube(box, std::fmod(golden * double(k + 1), 1.)), vertices,
-                                    block_size_for(vertices));
+    const Curve_cube cube(box, std::fmod(golden * double(k + 1), 1.));
+    Distributed_mesh next
+      = Mesh_sorter(m_ranks, std::move(coarse)).sort(cube, vertices, block_size_for(vertices));
     set_prolongation(mesh, stencils, next);
     mesh = std::move(next);
     m_report.seconds_sort += watch.lap();
     if(10 * mesh.number_of_vertices() > 9 * m_levels.back().size)
-      refuse("the surface cannot be decimated to what one rank can hold, since too few vertices can "
-             "be removed; does it have very many components?", ERROR_NO_TOPOLOGICAL_DISC);
+      refuse("the surface cannot be decimated to what one rank can hold, since too few vertices "
+             "can be removed; does it have very many components?", ERROR_NO_TOPOLOGICAL_DISC);
   }
   tell(0.6);
   gather(k == 0, mesh);
@@ -145,12 +147,16 @@ inline void Distributed_hierarchy::build(Mesh_part part)
 inline Bbox_3 Distributed_hierarchy::box_of(const std::vector<Three_numbers>& points,
                                             const std::vector<bool>& is_used) const
 {
+  const auto point_box = [](const Three_numbers& p) {
+    return Bbox_3(p[0], p[1], p[2], p[0], p[1], p[2]);
+  };
   Bbox_3 box;
   for(std::size_t i = 0; i < points.size(); ++i)
     if(is_used.empty() || is_used[i])
-      box += Bbox_3(points[i][0], points[i][1], points[i][2], points[i][0], points[i][1], points[i][2]);
-  return Bbox_3(m_ranks.least(box.xmin()), m_ranks.least(box.ymin()), m_ranks.least(box.zmin()),
-                m_ranks.largest(box.xmax()), m_ranks.largest(box.ymax()), m_ranks.largest(box.zmax()));
+      box += point_box(points[i]);
+  return Bbox_3(m_ranks.least(box.xmin()), m_ranks.least(box.ymin()),
+                m_ranks.least(box.zmin()), m_ranks.largest(box.xmax()),
+                m_ranks.largest(box.ymax()), m_ranks.largest(box.zmax()));
 }
 
 inline Distributed_mesh Distributed_hierarchy::sort_input(Mesh_part part)
@@ -172,12 +178,9 @@ inline Distributed_mesh Distributed_hierarchy::sort_input(Mesh_part part)
 inline void Distributed_hierarchy::normalize(Distributed_mesh& mesh) const
 {
   double lengths = 0.;
-  for(std::size_t b = 0; b < mesh.number_of_blocks(); ++b)
-    for(std::size_t t = mesh.triangle_begin[b]; t < mesh.triangle_begin[b + 1]; ++t) {
-      const auto& v = mesh.triangles[t];
-      if((std::min)({v[0], v[1], v[2]}) >= mesh.first + b * mesh.block_size)
-        lengths += perimeter(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]));
-    }
+  mesh.for_each_own_triangle([&](const Indexed_mesh::Triangle_indices& v) {
+    lengths += perimeter(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]));
+  });
   const double sum = m_ranks.sum(lengths);
   if(!(sum > 0.))
     refuse("all vertices lie in one point");
@@ -186,16 +189,6 @@ inline void Distributed_hierarchy::normalize(Distributed_mesh& mesh) const
     for(Three_numbers& p : *points)
       for(double& x : p)
         x /= mean;
-}
-
-inline void Distributed_hierarchy::keep_triangles(const Distributed_mesh& mesh)
-{
-  for(std::size_t b = 0; b < mesh.number_of_blocks(); ++b)
-    for(std::size_t t = mesh.triangle_begin[b]; t < mesh.triangle_begin[b + 1]; ++t) {
-      const auto& v = mesh.triangles[t];
-      if((std::min)({v[0], v[1], v[2]}) >= mesh.first + b * mesh.block_size)
-        m_triangles.push_back(v);
-    }
 }
 
 // The border is found by rank 0.
@@ -234,6 +227,7 @@ inline Mesh_part Distributed_hierarchy::decimate(bool is_finest, Distributed_mes
   Conformal_row_collector rows;
   std::size_t mollified = 0;
   m_ranks.together([&] {
+    rows = Conformal_row_collector(mesh);
     for(std::size_t b = 0; b < mesh.number_of_blocks(); ++b) {
       const Mesh_block block = mesh.block(b);
       if(is_finest)

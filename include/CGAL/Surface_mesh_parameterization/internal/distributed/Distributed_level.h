@@ -24,6 +24,16 @@ namespace internal {
 class Conformal_row_collector
 {
 public:
+  Conformal_row_collector() {}
+  explicit Conformal_row_collector(const Distributed_mesh& mesh)
+  {
+    const std::size_t n = mesh.points.size(), border = n / 50; // more than that is rare
+    m_rows.begin.reserve(n + 1);
+    m_rows.column.reserve(mesh.number_of_own_corners() + n + border);
+    m_rows.value.reserve(m_rows.column.capacity());
+    m_inverse_diagonal.reserve(n);
+  }
+
   void add(const Mesh_block& block)
   {
     const auto& triangles = block.mesh.triangles;
@@ -66,8 +76,8 @@ private:
 
 // A level that all ranks share: what PETSc's cycle needs of it.
 //
-// With pins E(z) is a function of the others, E = energy_of_pins + 1/2 z^H H z - Re f^H z, where z, f
-// and the rows and columns of H but for its diagonal are 0 at pins.
+// With pins E(z) is a function of the others, E = energy_of_pins + 1/2 z^H H z - Re f^H z, where z,
+// f and the rows and columns of H but for its diagonal are 0 at pins.
 struct Distributed_level
 {
   Petsc_matrix matrix;           // H

@@ -42,14 +42,14 @@ struct Mesh_part
   Offsets begin;                                  // vertices of the ranks
   std::vector<Three_numbers> points;              // of the range
   std::vector<bool> is_used;                      // of the range: others are not in the sorted mesh
-  std::vector<Triangle_indices> triangles;        // in terms of the whole mesh, by ranks in its order
+  std::vector<Triangle_indices> triangles;        // of the whole mesh, by ranks in its order
   bool has_cotangents = false;                    // else they are those of the points
   std::vector<Three_numbers> cotangents;          // of the triangles
 };
 
 // What one rank has of a mesh whose vertices are sorted along a space-filling curve and cut into
-// blocks of equal size, as a `Streamed_mesh`: some of the blocks, one after the other. The mesh is the
-// same for any number of ranks.
+// blocks of equal size, as a `Streamed_mesh`: some of the blocks, one after the other. The mesh is
+// the same for any number of ranks.
 struct Distributed_mesh
 {
   typedef Indexed_mesh::Triangle_indices Triangle_indices;
@@ -59,11 +59,11 @@ struct Distributed_mesh
   std::size_t first = 0;                    // the first vertex of this one
   std::vector<Three_numbers> points;        // of its vertices
   std::vector<std::uint32_t> source;        // what these are in the mesh that this was made of
-  std::vector<std::uint32_t> number;        // of that mesh's vertices on this rank, what they are here
+  std::vector<std::uint32_t> number;        // what that mesh's vertices on this rank are here
   std::vector<std::uint32_t> ghosts;        // other vertices of its triangles, ascending
   std::vector<Three_numbers> ghost_points;
-  std::vector<Triangle_indices> triangles;  // all at its vertices, by blocks: first those of no earlier
-                                            // block, then the ghosts, as `Streamed_mesh`
+  std::vector<Triangle_indices> triangles;  // all at its vertices, by blocks: first those of no
+                                            // earlier block, then the ghosts, as `Streamed_mesh`
   std::vector<Three_numbers> cotangents;    // of these; empty: those of the points
   std::vector<std::size_t> triangle_begin;  // by blocks
 
@@ -71,8 +71,30 @@ struct Distributed_mesh
   std::size_t number_of_blocks() const { return triangle_begin.size() - 1; } // of this rank
   bool is_own(std::uint32_t v) const { return v - first < points.size(); }
 
-  // Whether a triangle of the rank is one of no earlier rank.
-  bool owns(const Triangle_indices& t) const { return (std::min)({t[0], t[1], t[2]}) >= first; }
+  // Calls `use(triangle)` for those that no other rank calls it for.
+  template <class Use>
+  void for_each_own_triangle(const Use& use) const
+  {
+    for(std::size_t b = 0; b < number_of_blocks(); ++b)
+      for(std::size_t t = triangle_begin[b]; t < triangle_begin[b + 1]; ++t) {
+        const Triangle_indices& v = triangles[t];
+        if((std::min)({v[0], v[1], v[2]}) >= first + b * block_size)
+          use(v);
+      }
+  }
+
+  // Corners of triangles at vertices of this rank.
+  std::size_t number_of_own_corners() const
+  {
+    std::size_t result = 0;
+    for(std::size_t b = 0; b < number_of_blocks(); ++b) {
+      const std::size_t from = first + b * block_size;
+      for(std::size_t t = triangle_begin[b]; t < triangle_begin[b + 1]; ++t)
+        for(const std::uint32_t v : triangles[t])
+          result += is_own(v) && v - from < block_size ? 1 : 0;
+    }
+    return result;
+  }
 
   const Three_numbers& point(std::uint32_t v) const
   {
@@ -90,14 +112,15 @@ struct Distributed_mesh
     if(!cotangents.empty())
       given.assign(cotangents.begin() + from, cotangents.begin() + to);
     const std::size_t first_of_block = first + b * block_size;
-    return Mesh_block(first_of_block, (std::min)(block_size, first + points.size() - first_of_block),
+    return Mesh_block(first_of_block,
+                      (std::min)(block_size, first + points.size() - first_of_block),
                       {triangles.begin() + from, triangles.begin() + to}, given,
                       [this](std::uint32_t v) -> const Three_numbers& { return point(v); });
   }
 };
 
-// Sorts a mesh: each vertex to the rank that has its place on the curve, each triangle to those of its
-// vertices.
+// Sorts a mesh: each vertex to the rank that has its place on the curve, each triangle to those of
+// its vertices.
 class Mesh_sorter
 {
 public:
@@ -171,8 +194,8 @@ private:
   Distributed_mesh m_mesh;
 };
 
-// Sorts the vertices of this rank, and finds by bisection which of them come before the place in the
-// order of all at which each rank begins: returns how many each rank gets.
+// Sorts the vertices of this rank, and finds by bisection which of them come before the place in
+// the order of all at which each rank begins: returns how many each rank gets.
 inline std::vector<std::size_t> Mesh_sorter::sort_by_key(std::vector<Sorted_vertex>& vertices) const
 {
   const auto precedes = [](const Sorted_vertex& v, std::uint64_t key) { return v.key < key; };
@@ -193,7 +216,8 @@ inline std::vector<std::size_t> Mesh_sorter::sort_by_key(std::vector<Sorted_vert
   }
   std::vector<std::size_t> counts(ranks);
   for(std::size_t r = 0; r < ranks; ++r)
-    counts[r] = (r + 1 < ranks ? number_before(low[r + 1]) : vertices.size()) - number_before(low[r]);
+    counts[r] = (r + 1 < ranks ? number_before(low[r + 1]) : vertices.size())
+              - number_before(low[r]);
   return counts;
 }
 
@@ -203,8 +227,8 @@ inline void Mesh_sorter::sort_vertices(const Curve_cube& cube)
   const std::size_t first = m_part.begin[m_ranks.rank()];
   for(std::size_t i = 0; i < m_part.points.size(); ++i)
     if(m_part.is_used[i])
-      vertices.push_back({std::uint64_t(cube.code(m_part.points[i])) << 32 | std::uint64_t(first + i),
-                          m_part.points[i]});
+      vertices.push_back({std::uint64_t(cube.code(m_part.points[i])) << 32
+                            | std::uint64_t(first + i), m_part.points[i]});
   m_part.points = std::vector<Three_numbers>();
   const std::vector<std::size_t> counts = sort_by_key(vertices);
   auto received = counts;
@@ -300,7 +324,8 @@ inline void Mesh_sorter::sort_triangles(std::size_t first, std::size_t last)
 
 inline void Mesh_sorter::fetch_ghosts()
 {
-  m_mesh.ghosts = vertices_outside(m_mesh.triangles, m_mesh.first, m_mesh.first + m_mesh.points.size());
+  m_mesh.ghosts
+    = vertices_outside(m_mesh.triangles, m_mesh.first, m_mesh.first + m_mesh.points.size());
   m_mesh.ghost_points = m_ranks.values_at<Three_numbers>(
     m_mesh.ghosts, m_mesh.begin, [this](std::size_t i) { return m_mesh.points[i]; });
 }

@@ -80,8 +80,8 @@ inline Mesh_part read_part(const Ranks& ranks, const Ply_records& ply)
   return checked_part(ranks, std::move(points), std::move(triangles));
 }
 
-// Writes the file with the map, whose parts rank 0 gets one after the other. What `put` throws on rank
-// 0 is thrown there, and on the others in one sentence.
+// Writes the file with the map, whose parts rank 0 gets one after the other. What `put` throws on
+// rank 0 is thrown there, and on the others in one sentence.
 inline void write_parts(const Ranks& ranks, const Ply_records& ply,
                         const std::vector<std::array<double, 2>>& own,
                         const std::function<void(std::string_view)>& put)
@@ -142,11 +142,12 @@ public:
     count_flips();
     HLSCM_report& report = m_report.solver;
     report.seconds_solve = watch.lap();
-    report.seconds_total = m_report.seconds_sort + report.seconds_hierarchy + report.seconds_operators
-                         + report.seconds_solve;
+    report.seconds_total = m_report.seconds_sort + report.seconds_hierarchy
+                         + report.seconds_operators + report.seconds_solve;
   }
 
-  std::size_t number_of_vertices() const { return m_map.size(); } // of the finest level on this rank
+  // Of the finest level, on this rank.
+  std::size_t number_of_vertices() const { return m_map.size(); }
 
   // Where the vertices of the input on this rank are; (0, 0) for those without a face.
   std::vector<std::array<double, 2>> uv()
@@ -281,8 +282,8 @@ inline void Distributed_run::map_distributed()
     double extent = 0.;
     if(l == finest)
       extent = longer_side(box_of(values_of(solver.with_pins(l, z))));
-    result = solver.minimize(l, z, l == finest ? energy_stop(m_options.solver, extent) : coarse_stop,
-                             observe);
+    result = solver.minimize(
+      l, z, l == finest ? energy_stop(m_options.solver, extent) : coarse_stop, observe);
     m_report.solver.levels[m_report.solver.levels.size() - 1 - finest + l].iterations
       = result.iterations;
     if(result.cancelled)

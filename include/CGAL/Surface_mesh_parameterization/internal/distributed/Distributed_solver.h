@@ -22,9 +22,9 @@ namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
 
-// The K-cycle over distributed levels, as PETSc's two-level cycles in one another: the coarse problem
-// of each is solved by flexible conjugate gradients preconditioned by the next, at the end by the
-// hierarchy in the memory of rank 0.
+// The K-cycle over distributed levels, as PETSc's two-level cycles in one another: the coarse
+// problem of each is solved by flexible conjugate gradients preconditioned by the next, at the end
+// by the hierarchy in the memory of rank 0.
 class Distributed_solver
 {
 public:
@@ -35,8 +35,8 @@ public:
   {
     const std::size_t n = hierarchy.size_of_gathered(), own = ranks.rank() == 0 ? n : 0;
     check(VecCreateMPI(ranks.comm(), PetscInt(own), PETSC_DETERMINE, m_gathered.put()));
-    check(MatCreateConstantDiagonal(ranks.comm(), PetscInt(own), PetscInt(own), PetscInt(n), PetscInt(n),
-                                    1., m_nothing.put()));
+    check(MatCreateConstantDiagonal(ranks.comm(), PetscInt(own), PetscInt(own), PetscInt(n),
+                                    PetscInt(n), 1., m_nothing.put()));
     if(!levels().empty())
       create_cycle();
   }
@@ -61,8 +61,8 @@ public:
     return energy(l, z, r);
   }
 
-  // What `internal::relax_flipped_faces()` does, on the finest level. `values(x)` returns those of a map
-  // at the corners of `triangles`.
+  // What `internal::relax_flipped_faces()` does, on the finest level. `values(x)` returns those of
+  // a map at the corners of `triangles`.
   template <class Values>
   void relax_flips(Vec z, const std::vector<Indexed_mesh::Triangle_indices>& triangles,
                    const Values& values);
@@ -118,8 +118,9 @@ inline PetscErrorCode Distributed_solver::smooth_diagonally(PC pc, Vec r, Vec z)
 {
   void* context = nullptr;
   const PetscErrorCode error = PCShellGetContext(pc, &context);
-  return error != 0 ? error
-                    : VecPointwiseMult(z, r, static_cast<Distributed_level*>(context)->inverse_diagonal);
+  if(error != 0)
+    return error;
+  return VecPointwiseMult(z, r, static_cast<Distributed_level*>(context)->inverse_diagonal);
 }
 
 inline PetscErrorCode Distributed_solver::solve_gathered(PC pc, Vec r, Vec z)
@@ -143,6 +144,7 @@ inline PetscErrorCode Distributed_solver::solve_gathered(PC pc, Vec r, Vec z)
 inline void Distributed_solver::create_cycle()
 {
   check(KSPCreate(m_ranks.comm(), m_cycle.put()));
+  check(KSPSetType(m_cycle, KSPPREONLY)); // no vectors for an iteration of its own
   set_cycle(m_cycle, number_of_levels());
   check(KSPSetUp(m_cycle));
 }
@@ -177,7 +179,8 @@ inline void Distributed_solver::set_cycle(KSP solver, std::size_t l)
     check(KSPFCGSetMmax(coarse, PetscInt(schedule.coarse_visits)));
     check(KSPFCGSetNprealloc(coarse, PetscInt(schedule.coarse_visits)));
     check(KSPSetNormType(coarse, KSP_NORM_UNPRECONDITIONED));
-    check(KSPSetTolerances(coarse, 0.25, PETSC_DEFAULT, PETSC_DEFAULT, PetscInt(schedule.coarse_visits)));
+    check(KSPSetTolerances(coarse, 0.25, PETSC_DEFAULT, PETSC_DEFAULT,
+                           PetscInt(schedule.coarse_visits)));
     set_cycle(coarse, l - 1);
     return;
   }
@@ -233,8 +236,8 @@ Distributed_solver::minimize(std::size_t l, Vec z, const Multigrid::Energy_stop&
 
 // The patch is solved by rank 0.
 template <class Values>
-void Distributed_solver::relax_flips(Vec z, const std::vector<Indexed_mesh::Triangle_indices>& triangles,
-                                     const Values& values)
+void Distributed_solver::relax_flips(
+  Vec z, const std::vector<Indexed_mesh::Triangle_indices>& triangles, const Values& values)
 {
   const std::size_t finest = number_of_levels();
   const auto is_too_large = [&](std::size_t n) {
@@ -254,8 +257,8 @@ void Distributed_solver::relax_flips(Vec z, const std::vector<Indexed_mesh::Tria
     if(is_too_large(corners.size()))
       return;
     Petsc_indices around;
-    check(ISCreateGeneral(PETSC_COMM_SELF, PetscInt(corners.size()), corners.data(), PETSC_COPY_VALUES,
-                          around.put()));
+    check(ISCreateGeneral(PETSC_COMM_SELF, PetscInt(corners.size()), corners.data(),
+                          PETSC_COPY_VALUES, around.put()));
     check(MatIncreaseOverlap(level(finest).matrix, 1, around.put(), rings));
     const PetscInt* vertices = nullptr;
     PetscInt count = 0;

@@ -24,8 +24,8 @@ namespace internal {
 // Where the parts of the ranks begin in a distributed array, and its size.
 typedef std::vector<std::size_t> Offsets;
 
-// The ranks of a communicator, and what they do together: all of them call the same functions in the
-// same order. Errors of MPI are left to its error handler, which ends all of them.
+// The ranks of a communicator, and what they do together: all of them call the same functions in
+// the same order. Errors of MPI are left to its error handler, which ends all of them.
 class Ranks
 {
 public:
@@ -70,7 +70,8 @@ public:
   {
     static_assert(std::is_trivially_copyable<T>::value, "bytes are sent");
     std::vector<T> result(size());
-    MPI_Allgather(&value, int(sizeof(T)), MPI_BYTE, result.data(), int(sizeof(T)), MPI_BYTE, m_comm);
+    const int bytes = int(sizeof(T));
+    MPI_Allgather(&value, bytes, MPI_BYTE, result.data(), bytes, MPI_BYTE, m_comm);
     return result;
   }
 
@@ -82,8 +83,8 @@ public:
     return result;
   }
 
-  // Sends the first counts[0] values to rank 0, the next counts[1] to rank 1 ...; returns what comes
-  // from rank 0, from rank 1 ..., and in `counts` how much of it.
+  // Sends the first counts[0] values to rank 0, the next counts[1] to rank 1 ...; returns what
+  // comes from rank 0, from rank 1 ..., and in `counts` how much of it.
   template <class T>
   std::vector<T> exchange(const std::vector<T>& values, std::vector<std::size_t>& counts)
   {
@@ -133,7 +134,8 @@ public:
     return exchange(answers, counts);
   }
 
-  // Does what each rank does alone. What one of them refuses ends the work of all, with its sentence.
+  // Does what each rank does alone. What one of them refuses ends the work of all, with its
+  // sentence.
   template <class Work>
   void together(const Work& work) const
   {
@@ -152,7 +154,8 @@ public:
       sentence = "rank " + std::to_string(rank()) + " has not enough memory, let more ranks work";
     }
     const std::vector<int> kinds = all(kind);
-    const auto failed = std::find_if(kinds.begin(), kinds.end(), [](int k) { return k != nothing; });
+    const auto failed
+      = std::find_if(kinds.begin(), kinds.end(), [](int k) { return k != nothing; });
     if(failed == kinds.end())
       return;
     const std::size_t first = std::size_t(failed - kinds.begin());

@@ -32,7 +32,8 @@ inline Multigrid::Energy_stop energy_stop(const HLSCM_options& options, double e
   return stop;
 }
 
-// Reports the iteration on the finest level; ends the run if it was in vain. `advice`: what to do, then.
+// Reports the iteration on the finest level; ends the run if it was in vain. `advice`: what to do,
+// then.
 inline void conclude_iteration(const Multigrid::Iteration_report& result, const std::string& advice,
                                HLSCM_report& report)
 {

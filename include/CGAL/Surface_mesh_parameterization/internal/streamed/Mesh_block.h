@@ -36,9 +36,9 @@ struct Mesh_block
 
   Mesh_block(const Streamed_mesh& whole, std::size_t block);
 
-  // Of all triangles at the vertices [first, first + own) of a mesh, those first that no earlier block
-  // has. `given`: their cotangents; if empty, they are those of the points. `point(v)` is asked for
-  // these vertices and the others of the triangles.
+  // Of all triangles at the vertices [first, first + own) of a mesh, those first that no earlier
+  // block has. `given`: their cotangents; if empty, they are those of the points. `point(v)` is
+  // asked for these vertices and the others of the triangles.
   template <class Point>
   Mesh_block(std::size_t first_vertex, std::size_t number_of_own, std::vector<Triangle_indices> triangles,
              const std::vector<Three_numbers>& given, const Point& point);

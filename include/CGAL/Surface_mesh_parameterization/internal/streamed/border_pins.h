@@ -15,9 +15,9 @@ namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
 
-// The border vertices of a mesh as a chart without faces: a vertex is followed by the one to which its
-// row has the imaginary part 1/2. `entries` are those of the border, by rows; `point(v)` is that of a
-// vertex; `source` of the chart are vertices of the mesh, ascending.
+// The border vertices of a mesh as a chart without faces: a vertex is followed by the one to which
+// its row has the imaginary part 1/2. `entries` are those of the border, by rows; `point(v)` is
+// that of a vertex; `source` of the chart are vertices of the mesh, ascending.
 template <class Point>
 Chart border_of(const std::vector<Border_entry>& entries, const Point& point)
 {

@@ -33,8 +33,8 @@ struct Streamed_stencil
   bool stays(std::uint32_t v) const { return source[0] == v && source[1] == v; }
 };
 
-// What the decimation of the blocks of a level leaves: the next coarser mesh and the way from it, in
-// terms of the vertices of the level.
+// What the decimation of the blocks of a level leaves: the next coarser mesh and the way from it,
+// in terms of the vertices of the level.
 struct Decimated_level
 {
   Mapped_array<Streamed_stencil> stencils;                 // of each vertex
@@ -160,8 +160,8 @@ private:
 };
 
 // Calls `put_stencil(v, stencil)` for all vertices of a block that stay or go, and
-// `put_triangle(triangle, cotangents)` for all that is left of its own triangles, in terms of the whole
-// mesh.
+// `put_triangle(triangle, cotangents)` for all that is left of its own triangles, in terms of the
+// whole mesh.
 template <class Put_stencil, class Put_triangle>
 void for_each_result(const Mesh_block& block, const Decimated_block& decimated,
                      const Put_stencil& put_stencil, const Put_triangle& put_triangle)

@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026  The HLSCM for CGAL authors.
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Maps terrains by several ranks of MPI, out of core and in memory: a row for each run.
+
+Usage: benchmark/ranks.py BIN > benchmark/results/ranks.csv
+
+BIN is the folder of hlscm and hlscm-mpi. Series:
+  large   one terrain of 23M faces: in memory with one thread, out of core in 4 GB, by 1 and 2 ranks
+  largest one of 50M faces by 2 ranks
+  weak    2M faces a rank
+  strong  8M faces; with more ranks than processors for the counts, not for the time
+Seconds are those of the clock from the read mesh to the map, those of reading and writing apart; memory
+is that of the rank that takes most, or of the process.
+"""
+
+import csv
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import time
+
+COLUMNS = ["series", "method", "ranks", "faces", "distributed_levels", "iterations", "energy", "flips",
+           "seconds", "seconds_sort", "seconds_decimate", "seconds_solve", "wall", "peak_memory_mb",
+           "least_vertices", "most_vertices", "megabytes_sent", "messages"]
+MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+       "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
+
+
+def terrain(folder, faces):
+    """A file with about so many faces, twice as long as wide."""
+    name = os.path.join(folder, f"terrain_{faces}.ply")
+    if not os.path.exists(name):
+        side = round(math.sqrt(faces / 4))
+        subprocess.run([sys.executable, os.path.join(os.path.dirname(__file__), "make_terrain.py"),
+                        str(2 * side), str(side), name], check=True)
+    return name
+
+
+def run(bin_dir, name, method, ranks):
+    out, report_name = name + ".out.ply", name + ".json"
+    options = ["parameterize", name, "-o", out, "--report", report_name, "--quiet"]
+    if method == "ranks":
+        command = ["mpirun", "-n", str(ranks), os.path.join(bin_dir, "hlscm-mpi")] + options
+    else:
+        command = [os.path.join(bin_dir, "hlscm")] + options + ["--threads", "1"]
+        if method == "out of core":
+            command += ["--memory", "4G"]
+    start = time.monotonic()
+    subprocess.run(command, check=True, env=dict(os.environ, **MPI))
+    wall = time.monotonic() - start
+    with open(report_name, encoding="utf-8") as file:
+        report = json.load(file)
+    os.remove(out)
+    seconds, parts = report["seconds"], report.get("ranks", [])
+    row = {"method": method, "ranks": ranks, "faces": report["faces"],
+           "distributed_levels": report.get("distributed_levels", report.get("levels_in_files", 0)),
+           "iterations": report["iterations"], "energy": report["energy"], "flips": report["flips"],
+           "seconds": round(seconds["total"], 2), "wall": round(wall, 2),
+           "seconds_sort": round(seconds.get("sort", 0), 2),
+           "seconds_decimate": round(seconds.get("decimate", seconds.get("hierarchy", 0)), 2),
+           "seconds_solve": round(seconds["solve"], 2),
+           "peak_memory_mb": round(max([part["peak_memory_mb"] for part in parts]
+                                       or [report["peak_memory_mb"]]))}
+    if parts:
+        row["least_vertices"] = min(part["vertices"] for part in parts)
+        row["most_vertices"] = max(part["vertices"] for part in parts)
+        row["megabytes_sent"] = round(sum(part["bytes_sent"] for part in parts) / 1e6)
+        row["messages"] = sum(part["messages"] for part in parts)
+    return row
+
+
+def main():
+    bin_dir = sys.argv[1]
+    writer = csv.DictWriter(sys.stdout, COLUMNS)
+    writer.writeheader()
+    million = 1000000
+    runs = [("weak", "ranks", n, 2 * n * million) for n in (1, 2, 4, 8)]
+    runs += [("strong", "ranks", n, 8 * million) for n in (1, 2, 4, 8)]
+    runs += [("large", "in memory", 1, 23 * million), ("large", "out of core", 1, 23 * million),
+             ("large", "ranks", 1, 23 * million), ("large", "ranks", 2, 23 * million),
+             ("largest", "ranks", 2, 50 * million)]
+    with tempfile.TemporaryDirectory() as folder:
+        for series, method, ranks, faces in runs:
+            writer.writerow(dict(run(bin_dir, terrain(folder, faces), method, ranks), series=series))
+            sys.stdout.flush()
+
+
+if __name__ == "__main__":
+    main()
