@@ -8,7 +8,7 @@ find_package(MPI REQUIRED COMPONENTS CXX)
 find_package(PkgConfig REQUIRED)
 # Where Debian has it, whichever PETSc is the default
 file(GLOB petsc_folders /usr/lib/petscdir/petsc*/*-complex/lib/pkgconfig)
-list(APPEND CMAKE_PREFIX_PATH ${petsc_folders})
+list(JOIN petsc_folders ":" petsc_folders)
 set(ENV{PKG_CONFIG_PATH} "$ENV{PKG_CONFIG_PATH}:${petsc_folders}")
 pkg_check_modules(HLSCM_PETSC REQUIRED IMPORTED_TARGET PETSc)
 
@@ -23,6 +23,6 @@ set(hlscm_mpi_environment OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIR
 function(hlscm_add_mpi_test name ranks label program)
   add_test(NAME ${name}
     COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} $<TARGET_FILE:${program}> ${ARGN})
-  set_tests_properties(${name} PROPERTIES LABELS ${label} TIMEOUT 1200 PROCESSORS ${ranks}
+  set_tests_properties(${name} PROPERTIES LABELS ${label} TIMEOUT 3600 PROCESSORS ${ranks}
                        ENVIRONMENT "${hlscm_mpi_environment}")
 endfunction()

@@ -392,6 +392,26 @@ TEST(Distributed_chart, stops_when_it_is_told_to)
   }
 }
 
+// What is thrown by the caller's function is thrown to the caller; the others end, too.
+TEST(Distributed_chart, passes_on_what_progress_throws)
+{
+  Options options = options_of(200, 100, 1e-8);
+  options.solver.progress = [](double part) -> bool {
+    if(part > 0.5)
+      throw std::string("enough");
+    return true;
+  };
+  Uv uv;
+  const SMP::Distributed_chart chart = part_of(grid(40, 40), MPI_COMM_WORLD);
+  const auto run = [&] {
+    return SMP::map_distributed_chart(MPI_COMM_WORLD, chart, uv, options).solver.cancelled;
+  };
+  if(rank_in(MPI_COMM_WORLD) == 0)
+    EXPECT_THROW(run(), std::string);
+  else
+    EXPECT_TRUE(run());
+}
+
 } // namespace distributed_chart_test
 
 int main(int argc, char** argv)

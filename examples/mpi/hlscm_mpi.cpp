@@ -183,7 +183,9 @@ int run(Options& options, bool is_first)
       MPI_COMM_WORLD, options.input, [&](std::string_view bytes) { outputs->map->put(bytes); },
       library);
   if(report.error != SMP::OK) {
-    if(is_first) {
+    if(is_first && report.solver.cancelled) {
+      hlscm::Interruption::say_cancelled();
+    } else if(is_first) {
       const bool is_named = report.message.rfind(options.input, 0) == 0;
       say_error(is_named ? report.message : options.input + ": " + report.message);
     }

@@ -8,9 +8,11 @@
 #include <CGAL/Surface_mesh_parameterization/Very_large_chart_options.h>
 #include <CGAL/Surface_mesh_parameterization/internal/distributed/Distributed_run.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <new>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -41,13 +43,13 @@ struct Rank_report
 {
   std::size_t vertices = 0;    ///< of the finest level on it
   std::size_t peak_memory = 0; ///< of its process, in bytes
-  std::size_t bytes_sent = 0;  ///< to other ranks
+  std::size_t bytes_sent = 0;  ///< to other ranks, but for sums and the like
   std::size_t messages = 0;    ///< in which they were sent
 };
 
 /// \ingroup PkgHLSCMParameterizer
-/// What `map_distributed_chart()` did: the same on all ranks. `levels_in_files` are those that all
-/// ranks share, and bytes of files are 0.
+/// What `map_distributed_chart()` did: the same on all ranks but for the seconds, which are those
+/// of the rank. `levels_in_files` are those that all ranks share; what is of files is 0.
 struct Distributed_chart_report
   : Very_large_chart_report
 {
@@ -62,7 +64,8 @@ template <class Work>
 Distributed_chart_report map_parts(MPI_Comm comm, const Very_large_chart_options& options,
                                    const Work& work)
 {
-  const Blocked_execution::Thread_scope threads(options.solver.threads);
+  const Blocked_execution::Stopwatch watch;
+  const Blocked_execution::Thread_scope threads((std::max)(options.solver.threads, 1u));
   Distributed_chart_report report;
   Ranks ranks(comm);
   try {
@@ -71,9 +74,15 @@ Distributed_chart_report map_parts(MPI_Comm comm, const Very_large_chart_options
       refuse("the tolerance must be positive");
     const std::size_t bytes = petsc_bytes(), messages = petsc_messages();
     work(ranks, [&](Mesh_part part) {
+      std::vector<std::array<double, 2>> uv;
+      report.seconds_sort = watch.seconds();
       Distributed_run run(ranks, options, report);
-      run.map(std::move(part));
-      auto uv = run.uv();
+      try {
+        run.map(std::move(part));
+        uv = run.uv();
+      } catch(const std::bad_alloc&) { // the others wait for what this rank should send
+        MPI_Abort(comm, 1);
+      }
       struct rusage usage;
       getrusage(RUSAGE_SELF, &usage);
       report.ranks = ranks.all(Rank_report{
@@ -107,14 +116,16 @@ iterates; rank 0 has the coarser ones.
 \param chart what this rank has of a connected surface of genus 0 with one or more borders
 \param uv becomes where the vertices of this rank are; (0, 0) for vertices without a face
 \param options of these count: of `solver` what `Very_large_chart_options` says, `progress` that of
-       rank 0; `block_vertices` (0: 100000); `gathered_vertices`, up to which a level is rank 0's
-       (0: 300000, or `memory` / 1300 if that is less)
+       rank 0, and 0 `threads` are one; `block_vertices` (0: 100000); `gathered_vertices`, up to
+       which a level is rank 0's (0: 300000, or `memory` / 1300 if that is less)
 
-Blocks do not depend on the number of ranks, and so the map depends on it by rounding alone. Bad
-data on any rank is an error on all of them, in one sentence. A rank that ends, or has no memory
-left in the iteration, ends all.
+Blocks do not depend on the number of ranks: levels are the same but for ties that rounding decides,
+and the map differs within the tolerance. Bad data on any rank is an error on all of them, in one
+sentence; what `progress` throws is thrown on rank 0, and ends the others as if it had said stop. A
+rank that ends, or has no memory left while others wait for it, ends all, as errors of PETSc do.
 
-PETSc, with complex numbers, is begun if it was not; who calls this ends it, before MPI.
+PETSc, with complex numbers, is begun on all ranks of MPI if it was not: if `comm` has not all of
+them, begin it before. Who calls this ends it, before MPI.
 
 Linear time but for the iterations, about 700 bytes for each vertex of a rank.
 */
@@ -142,12 +153,8 @@ map_distributed_chart(MPI_Comm comm, const std::string& input,
   return internal::map_parts(comm, options, [&](internal::Ranks& ranks, const auto& map) {
     std::optional<internal::Ply_records> ply;
     ranks.together([&] { ply.emplace(input); });
-    const std::uint64_t sample = ply->sample();
     const auto uv = map(internal::read_part(ranks, *ply));
-    ranks.together([&] {
-      if(internal::Ply_records(input).sample() != sample)
-        internal::refuse("the file was changed while it was mapped; begin again");
-    });
+    ranks.together([&] { ply->check_that_it_stayed(); });
     internal::write_parts(ranks, *ply, uv, put);
   });
 }

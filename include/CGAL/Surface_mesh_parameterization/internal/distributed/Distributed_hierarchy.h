@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -54,9 +55,9 @@ public:
   }
   bool goes_on(double part)
   {
-    const bool goes = m_ranks.rank() != 0 || !m_options.solver.progress
-                   || m_options.solver.progress(part);
-    return m_ranks.broadcast(goes);
+    return m_ranks.decided_by_first([&] {
+      return !m_options.solver.progress || m_options.solver.progress(part);
+    });
   }
 
 private:
@@ -69,14 +70,16 @@ private:
   {
     const std::size_t most = m_options.gathered_vertices;
     const std::size_t fits = m_options.memory / (2 * bytes_of_vertex);
-    return (std::max)(most > 0 ? most : (std::min)(fits, vertices_on_first), std::size_t(4));
+    return (std::clamp)(most > 0 ? most : (std::min)(fits, vertices_on_first), std::size_t(4),
+                        most_with_32_bits);
   }
   std::size_t block_size_for(std::size_t vertices) const
   {
     if(vertices <= most_gathered())
       return vertices;
-    const std::size_t most = m_options.block_vertices > 0
-      ? (std::max)(m_options.block_vertices, std::size_t(200)) : vertices_of_block;
+    const std::size_t given = m_options.block_vertices;
+    const std::size_t most = given > 0 ? (std::clamp)(given, std::size_t(200), most_with_32_bits)
+                                       : vertices_of_block;
     const std::size_t blocks = Blocked_execution::number_of_blocks(vertices, most);
     return (vertices + blocks - 1) / blocks;
   }
@@ -221,9 +224,8 @@ inline Pins Distributed_hierarchy::choose_pins(const Distributed_mesh& mesh,
 inline Mesh_part Distributed_hierarchy::decimate(bool is_finest, Distributed_mesh& mesh,
                                                  std::vector<Streamed_stencil>& stencils)
 {
-  const auto name = [&mesh](std::uint32_t v) { // where it matters
-    return mesh.is_own(v) ? mesh.source[v - mesh.first] : v;
-  };
+  const Known_entries<std::uint32_t> source(m_ranks, mesh.begin, mesh.source, mesh.ghosts);
+  const auto name = [&](std::uint32_t v) { return source[v]; }; // where it matters
   Conformal_row_collector rows;
   std::size_t mollified = 0;
   m_ranks.together([&] {
@@ -236,6 +238,9 @@ inline Mesh_part Distributed_hierarchy::decimate(bool is_finest, Distributed_mes
       rows.add(block);
       mollified += block.own_mollified;
     }
+    if(rows.rows().column.size() > std::size_t(PETSC_MAX_INT))
+      refuse("rank " + std::to_string(m_ranks.rank())
+             + " has too many vertices, let more ranks work");
   });
   if(is_finest) {
     m_report.solver.mollified_faces = m_ranks.sum(mollified);
@@ -281,27 +286,19 @@ inline void Distributed_hierarchy::set_prolongation(const Distributed_mesh& fine
                                                     std::vector<Streamed_stencil>& stencils,
                                                     const Distributed_mesh& coarse)
 {
-  const std::size_t first = fine.first, last = first + stencils.size();
-  std::vector<std::uint32_t> others;
+  std::vector<Indexed_mesh::Triangle_indices> sources;
   for(const Streamed_stencil& s : stencils)
-    for(const std::uint32_t v : s.source)
-      if(v < first || v >= last)
-        others.push_back(v);
-  std::sort(others.begin(), others.end());
-  others.erase(std::unique(others.begin(), others.end()), others.end());
-  const std::vector<std::uint32_t> numbers = m_ranks.values_at<std::uint32_t>(
-    others, fine.begin, [&coarse](std::size_t i) { return coarse.number[i]; });
-  const auto number = [&](std::uint32_t v) {
-    return v >= first && v < last
-      ? coarse.number[v - first]
-      : numbers[std::size_t(std::lower_bound(others.begin(), others.end(), v) - others.begin())];
-  };
+    if(!fine.is_own(s.source[0]) || !fine.is_own(s.source[1]) || !fine.is_own(s.source[2]))
+      sources.push_back(s.source);
+  const Known_entries<std::uint32_t> number(
+    m_ranks, fine.begin, coarse.number,
+    vertices_outside(sources, fine.first, fine.first + stencils.size()));
   Distributed_level& level = m_levels.back();
   Petsc_rows rows;
   for(std::uint32_t i = 0; i < stencils.size(); ++i) {
     std::array<std::pair<std::uint32_t, float>, 3> entries;
     for(int c = 0; c < 3; ++c)
-      entries[c] = {number(stencils[i].source[c]), stencils[i].weight[c]};
+      entries[c] = {number[stencils[i].source[c]], stencils[i].weight[c]};
     std::sort(entries.begin(), entries.end());
     const bool is_pin
       = std::find(level.own_pins.begin(), level.own_pins.end(), i) != level.own_pins.end();

@@ -69,7 +69,7 @@ struct Distributed_mesh
 
   std::size_t number_of_vertices() const { return begin.back(); }
   std::size_t number_of_blocks() const { return triangle_begin.size() - 1; } // of this rank
-  bool is_own(std::uint32_t v) const { return v - first < points.size(); }
+  bool is_own(std::uint32_t v) const { return v - first < source.size(); }
 
   // Calls `use(triangle)` for those that no other rank calls it for.
   template <class Use>
@@ -257,14 +257,11 @@ inline void Mesh_sorter::sort_vertices(const Curve_cube& cube)
 inline void Mesh_sorter::number_triangles()
 {
   const std::size_t first = m_part.begin[m_ranks.rank()], last = first + m_mesh.number.size();
-  const std::vector<std::uint32_t> others = vertices_outside(m_part.triangles, first, last);
-  const std::vector<std::uint32_t> numbers = m_ranks.values_at<std::uint32_t>(
-    others, m_part.begin, [this](std::size_t i) { return m_mesh.number[i]; });
+  const Known_entries<std::uint32_t> number(m_ranks, m_part.begin, m_mesh.number,
+                                            vertices_outside(m_part.triangles, first, last));
   for(Triangle_indices& t : m_part.triangles)
     for(std::uint32_t& v : t)
-      v = v >= first && v < last
-        ? m_mesh.number[v - first]
-        : numbers[std::size_t(std::lower_bound(others.begin(), others.end(), v) - others.begin())];
+      v = number[v];
 }
 
 inline void Mesh_sorter::send_triangles()

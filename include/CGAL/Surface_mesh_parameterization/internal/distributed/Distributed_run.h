@@ -110,9 +110,11 @@ inline void write_parts(const Ranks& ranks, const Ply_records& ply,
     while(rank + 1 < ranks.size())
       next_part();
   }
-  const bool is_written = ranks.broadcast(error == nullptr);
-  if(error != nullptr)
-    std::rethrow_exception(error);
+  const bool is_written = ranks.decided_by_first([&error] {
+    if(error != nullptr)
+      std::rethrow_exception(error);
+    return true;
+  });
   if(!is_written)
     throw Streaming_failure(Streaming_failure::RESUMABLE, "the output cannot be written");
 }
@@ -171,28 +173,18 @@ public:
 
 private:
   // The values of a map at the vertices of the kept triangles.
-  class Corner_values
+  struct Corner_values
   {
-  public:
-    Corner_values(const Distributed_run& run, std::vector<Complex> own)
-      : m_first(run.m_first), m_own(std::move(own)), m_of_ghosts(run.m_ghosts)
-      , m_ghosts(run.m_ranks.values_at<Complex>(run.m_ghosts, run.m_hierarchy.begin(),
-                                                [this](std::size_t i) { return m_own[i]; }))
+    const std::vector<Complex> own;
+    const Known_entries<Complex> all;
+
+    Corner_values(const Distributed_run& run, std::vector<Complex> own_values)
+      : own(std::move(own_values)), all(run.m_ranks, run.m_hierarchy.begin(), own, run.m_ghosts)
     {}
+    Corner_values(const Corner_values&) = delete;
+    Corner_values& operator=(const Corner_values&) = delete;
 
-    Complex operator[](std::uint32_t v) const
-    {
-      if(v - m_first < m_own.size())
-        return m_own[v - m_first];
-      return m_ghosts[std::size_t(std::lower_bound(m_of_ghosts.begin(), m_of_ghosts.end(), v)
-                                  - m_of_ghosts.begin())];
-    }
-
-  private:
-    std::size_t m_first;
-    std::vector<Complex> m_own;
-    const std::vector<std::uint32_t>& m_of_ghosts;
-    std::vector<Complex> m_ghosts;
+    const Complex& operator[](std::uint32_t v) const { return all[v]; }
   };
 
   // Vertices of triangles, wherever these are.
@@ -215,8 +207,8 @@ private:
   void find_ghosts()
   {
     const Offsets& begin = m_hierarchy.begin();
-    m_first = begin[m_ranks.rank()];
-    m_ghosts = vertices_outside(m_hierarchy.triangles(), m_first, begin[m_ranks.rank() + 1]);
+    m_ghosts = vertices_outside(m_hierarchy.triangles(), begin[m_ranks.rank()],
+                                begin[m_ranks.rank() + 1]);
   }
 
   void map_in_memory();
@@ -230,7 +222,6 @@ private:
   const Very_large_chart_options& m_options;
   Very_large_chart_report& m_report;
   Distributed_hierarchy m_hierarchy;
-  std::size_t m_first = 0;              // of the finest vertices, the first of this rank
   std::vector<std::uint32_t> m_ghosts;  // of the kept triangles, ascending
   std::vector<Complex> m_map;           // of the finest vertices of this rank
 };

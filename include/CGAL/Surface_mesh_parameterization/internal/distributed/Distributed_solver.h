@@ -145,6 +145,7 @@ inline void Distributed_solver::create_cycle()
 {
   check(KSPCreate(m_ranks.comm(), m_cycle.put()));
   check(KSPSetType(m_cycle, KSPPREONLY)); // no vectors for an iteration of its own
+  check(KSPSetOptionsPrefix(m_cycle, "hlscm_distributed_")); // options of the caller are not for it
   set_cycle(m_cycle, number_of_levels());
   check(KSPSetUp(m_cycle));
 }
@@ -181,6 +182,7 @@ inline void Distributed_solver::set_cycle(KSP solver, std::size_t l)
     check(KSPSetNormType(coarse, KSP_NORM_UNPRECONDITIONED));
     check(KSPSetTolerances(coarse, 0.25, PETSC_DEFAULT, PETSC_DEFAULT,
                            PetscInt(schedule.coarse_visits)));
+    check(KSPConvergedDefaultSetConvergedMaxits(coarse, PETSC_TRUE)); // else it visits once more
     set_cycle(coarse, l - 1);
     return;
   }

@@ -9,10 +9,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
+#include <exception>
 #include <new>
+#include <numeric>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <mpi.h>
@@ -25,15 +27,20 @@ namespace internal {
 typedef std::vector<std::size_t> Offsets;
 
 // The ranks of a communicator, and what they do together: all of them call the same functions in
-// the same order. Errors of MPI are left to its error handler, which ends all of them.
+// the same order. Their messages are their own, and errors of MPI end all of them.
 class Ranks
 {
 public:
-  explicit Ranks(MPI_Comm comm) : m_comm(comm)
+  explicit Ranks(MPI_Comm comm)
   {
-    MPI_Comm_rank(comm, &m_rank);
-    MPI_Comm_size(comm, &m_size);
+    MPI_Comm_dup(comm, &m_comm);
+    MPI_Comm_set_errhandler(m_comm, MPI_ERRORS_ARE_FATAL);
+    MPI_Comm_rank(m_comm, &m_rank);
+    MPI_Comm_size(m_comm, &m_size);
   }
+  Ranks(const Ranks&) = delete;
+  Ranks& operator=(const Ranks&) = delete;
+  ~Ranks() { MPI_Comm_free(&m_comm); }
 
   MPI_Comm comm() const { return m_comm; }
   std::size_t rank() const { return std::size_t(m_rank); }
@@ -90,14 +97,15 @@ public:
   {
     static_assert(std::is_trivially_copyable<T>::value, "bytes are sent");
     std::vector<int> sent(counts.begin(), counts.end()), received(size());
-    MPI_Alltoall(sent.data(), 1, MPI_INT, received.data(), 1, MPI_INT, m_comm);
+    // In brackets, since PETSc has macros of these names that count bytes, too.
+    (MPI_Alltoall)(sent.data(), 1, MPI_INT, received.data(), 1, MPI_INT, m_comm);
     const std::vector<int> from = places(sent), to = places(received);
     std::vector<T> result(std::size_t(to.back()) + std::size_t(received.back()));
     MPI_Datatype type;
     MPI_Type_contiguous(int(sizeof(T)), MPI_BYTE, &type);
     MPI_Type_commit(&type);
-    MPI_Alltoallv(values.data(), sent.data(), from.data(), type, result.data(), received.data(),
-                  to.data(), type, m_comm);
+    (MPI_Alltoallv)(values.data(), sent.data(), from.data(), type, result.data(), received.data(),
+                    to.data(), type, m_comm);
     MPI_Type_free(&type);
     for(std::size_t r = 0; r < size(); ++r)
       if(r != rank() && sent[r] > 0) {
@@ -134,6 +142,26 @@ public:
     return exchange(answers, counts);
   }
 
+  // What `decide()` returns on rank 0. What it throws is thrown there when the others know: they
+  // get `false`.
+  template <class Decide>
+  bool decided_by_first(const Decide& decide) const
+  {
+    bool result = false;
+    std::exception_ptr error;
+    if(rank() == 0) {
+      try {
+        result = decide();
+      } catch(...) {
+        error = std::current_exception();
+      }
+    }
+    result = broadcast(result);
+    if(error != nullptr)
+      std::rethrow_exception(error);
+    return result;
+  }
+
   // Does what each rank does alone. What one of them refuses ends the work of all, with its
   // sentence.
   template <class Work>
@@ -152,6 +180,10 @@ public:
       kind = Streaming_failure::RESUMABLE;
       error = ERROR_CANNOT_SOLVE_LINEAR_SYSTEM;
       sentence = "rank " + std::to_string(rank()) + " has not enough memory, let more ranks work";
+    } catch(const std::exception& failure) {
+      kind = Streaming_failure::RESUMABLE;
+      error = ERROR_CANNOT_SOLVE_LINEAR_SYSTEM;
+      sentence = "rank " + std::to_string(rank()) + " cannot go on: " + failure.what();
     }
     const std::vector<int> kinds = all(kind);
     const auto failed
@@ -179,9 +211,36 @@ private:
     return result;
   }
 
-  MPI_Comm m_comm;
+  MPI_Comm m_comm = MPI_COMM_NULL;
   int m_rank = 0, m_size = 1;
   std::size_t m_bytes = 0, m_messages = 0;
+};
+
+// Entries of a distributed array on one rank: its own, which are `local`, and others that it asks
+// for, ascending.
+template <class T>
+class Known_entries
+{
+public:
+  Known_entries(Ranks& ranks, const Offsets& begin, const std::vector<T>& local,
+                std::vector<std::uint32_t> others)
+    : m_first(begin[ranks.rank()]), m_local(local), m_others(std::move(others))
+    , m_values(ranks.values_at<T>(m_others, begin, [&local](std::size_t i) { return local[i]; }))
+  {}
+
+  const T& operator[](std::uint32_t i) const
+  {
+    if(i - m_first < m_local.size())
+      return m_local[i - m_first];
+    return m_values[std::size_t(std::lower_bound(m_others.begin(), m_others.end(), i)
+                                - m_others.begin())];
+  }
+
+private:
+  std::size_t m_first;
+  const std::vector<T>& m_local;
+  std::vector<std::uint32_t> m_others;
+  std::vector<T> m_values;
 };
 
 } // namespace internal

@@ -4,10 +4,8 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_DISTRIBUTED_PETSC_OBJECTS_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_DISTRIBUTED_PETSC_OBJECTS_H
 
-#include <CGAL/Surface_mesh_parameterization/internal/stored/Streaming_failure.h>
-
 #include <complex>
-#include <string>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -21,25 +19,23 @@ namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
 
-// PETSc's errors are of all ranks at once, or end them.
+// What PETSc cannot do, for want of memory above all, ends all ranks: the others wait for this one.
+// PETSc has said what it is.
 inline void check(PetscErrorCode error)
 {
-  if(error == 0)
-    return;
-  const char* text = nullptr;
-  PetscErrorMessage(error, &text, nullptr);
-  throw Streaming_failure(Streaming_failure::RESUMABLE,
-                          std::string("PETSc cannot go on: ") + (text == nullptr ? "?" : text),
-                          ERROR_CANNOT_SOLVE_LINEAR_SYSTEM);
+  if(error != 0)
+    MPI_Abort(MPI_COMM_WORLD, int(error));
 }
 
-// Begins PETSc if nobody did; it stays, since it can begin only once.
+// Begins PETSc if nobody did; it stays, since it can begin only once. It is to leave signals alone.
 inline void begin_petsc()
 {
   PetscBool has_begun = PETSC_FALSE;
   check(PetscInitialized(&has_begun));
-  if(!has_begun)
-    check(PetscInitializeNoArguments());
+  if(has_begun)
+    return;
+  check(PetscOptionsSetValue(nullptr, "-no_signal_handler", "1"));
+  check(PetscInitializeNoArguments());
 }
 
 // What PETSc has sent to other ranks so far.

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -27,17 +28,16 @@ inline void check_point(std::size_t v, const std::array<double, 3>& p)
            + " has a coordinate that is not a finite number; correct or remove it");
 }
 
-// Refuses a face of a mesh of so many vertices that is no triangle.
+// Refuses a face of a mesh of so many vertices that is no triangle. `remedy` is for wrong numbers.
 inline void check_triangle(std::size_t f, const std::array<std::uint32_t, 3>& triangle,
-                           std::size_t vertices)
+                           std::size_t vertices, const std::string& remedy = "")
 {
   if(triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0])
     refuse("face " + std::to_string(f) + " has a vertex twice; remove it", ERROR_NON_TRIANGULAR_MESH);
   for(const std::uint32_t v : triangle)
     if(v >= vertices)
       refuse("face " + std::to_string(f) + " names vertex " + std::to_string(std::int32_t(v))
-             + " but there are " + std::to_string(vertices) + " vertices, the file is damaged: export "
-             "it again");
+             + " but there are " + std::to_string(vertices) + " vertices" + remedy);
 }
 
 // A binary PLY file of triangles whose vertices, and whose faces, all take the same number of bytes,
@@ -50,7 +50,7 @@ public:
 
   // Reads the header, and refuses what is not such a file.
   explicit Ply_records(const std::string& path)
-    : m_file(Mapped_file::open(path, false))
+    : m_written(last_write_time(path)), m_file(Mapped_file::open(path, false))
   {
     read_header();
     if(m_vertices > m_file.bytes() || m_faces > m_file.bytes())
@@ -68,7 +68,16 @@ public:
   std::size_t number_of_vertices() const { return m_vertices; }
   std::size_t number_of_faces() const { return m_faces; }
   const std::string& path() const { return m_file.path(); }
-  std::size_t bytes() const { return m_file.bytes(); }
+
+  // Refuses a file that is no longer what was read.
+  void check_that_it_stayed() const
+  {
+    std::error_code error;
+    if(last_write_time(path()) != m_written
+       || std::filesystem::file_size(path(), error) != m_file.bytes())
+      refuse("the file was changed while it was mapped; begin again");
+  }
+
   std::uint64_t checksum() const { return checksum_of(m_file); }
   // Of some pages alone, the first among them.
   std::uint64_t sample() const
@@ -120,7 +129,7 @@ public:
       refuse("face " + std::to_string(f) + " is not a triangle; triangulate the mesh first",
              ERROR_NON_TRIANGULAR_MESH);
     const Triangle result = triangle(f);
-    check_triangle(f, result, m_vertices);
+    check_triangle(f, result, m_vertices, ", the file is damaged: export it again");
     return result;
   }
 
@@ -180,6 +189,13 @@ private:
   void read_format(std::istringstream& words);
   void read_property(std::istringstream& words, bool is_of_vertices);
 
+  static std::filesystem::file_time_type last_write_time(const std::string& path)
+  {
+    std::error_code ignored;
+    return std::filesystem::last_write_time(path, ignored);
+  }
+
+  std::filesystem::file_time_type m_written;
   Mapped_file m_file;
   std::size_t m_vertices = 0, m_faces = 0;
   std::size_t m_first_vertex = 0, m_first_face = 0; // their bytes

@@ -18,6 +18,9 @@ namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
 
+// Vertices of what is in memory: its corners have numbers of 32 bits.
+constexpr std::size_t most_with_32_bits = std::size_t(1) << 28;
+
 // A block of a streamed mesh in memory: its own vertices, all triangles at these, and the other
 // vertices of those triangles, the ghosts. A ghost whose triangles here are several fans is there
 // once for each of them: then this is a manifold if the whole mesh is one.
@@ -67,6 +70,10 @@ struct Mesh_block
   }
 
 private:
+  template <class Point>
+  void take(std::vector<Triangle_indices> triangles, const std::vector<Three_numbers>& given,
+            const Point& point);
+  void measure();
   void number_ghosts();
   void split_ghosts();
   void sort_triangles(const std::vector<Three_numbers>& given);
@@ -74,9 +81,18 @@ private:
 
 template <class Point>
 Mesh_block::Mesh_block(std::size_t first_vertex, std::size_t number_of_own,
-                       std::vector<Triangle_indices> triangles, const std::vector<Three_numbers>& given,
-                       const Point& point)
+                       std::vector<Triangle_indices> triangles,
+                       const std::vector<Three_numbers>& given, const Point& point)
   : first(first_vertex), own(number_of_own)
+{
+  take(std::move(triangles), given, point);
+  if(given.empty())
+    measure();
+}
+
+template <class Point>
+void Mesh_block::take(std::vector<Triangle_indices> triangles,
+                      const std::vector<Three_numbers>& given, const Point& point)
 {
   mesh.triangles = std::move(triangles);
   number_ghosts();
@@ -87,8 +103,11 @@ Mesh_block::Mesh_block(std::size_t first_vertex, std::size_t number_of_own,
     const Three_numbers& p = point(global(v));
     mesh.points.emplace_back(p[0], p[1], p[2]);
   }
-  if(!given.empty())
-    return;
+}
+
+// The cotangents are those of the points.
+inline void Mesh_block::measure()
+{
   cotangents = Half_cotangents(mesh);
   if(cotangents.mollified > 0)
     for(std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -110,17 +129,18 @@ std::vector<T> part_of_block(std::size_t block, const Mapped_array<T>& own, cons
 }
 
 inline Mesh_block::Mesh_block(const Streamed_mesh& whole, std::size_t block)
-  : Mesh_block(block * whole.block_size,
-               (std::min)(whole.block_size, whole.number_of_vertices() - block * whole.block_size),
-               part_of_block(block, whole.triangles, whole.triangle_begin, whole.ghosts,
-                             whole.ghost_begin),
-               part_of_block(block, whole.cotangents, whole.triangle_begin, whole.ghost_cotangents,
-                             whole.ghost_begin),
-               [&whole](std::uint32_t v) -> const Three_numbers& { return whole.points[v]; })
+  : first(block * whole.block_size)
+  , own((std::min)(whole.block_size, whole.number_of_vertices() - first))
 {
+  take(part_of_block(block, whole.triangles, whole.triangle_begin, whole.ghosts, whole.ghost_begin),
+       part_of_block(block, whole.cotangents, whole.triangle_begin, whole.ghost_cotangents,
+                     whole.ghost_begin),
+       [&whole](std::uint32_t v) -> const Three_numbers& { return whole.points[v]; });
   whole.points.release();
   whole.triangles.release(whole.triangle_begin[block], whole.triangle_begin[block + 1]);
-  if(!whole.cotangents.empty())
+  if(whole.cotangents.empty())
+    measure();
+  else
     whole.cotangents.release(whole.triangle_begin[block], whole.triangle_begin[block + 1]);
 }
 

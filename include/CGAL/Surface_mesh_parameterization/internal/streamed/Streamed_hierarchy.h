@@ -47,7 +47,6 @@ public:
   Streamed_hierarchy(const std::string& input, const Very_large_chart_options& options,
                      Very_large_chart_report& report)
     : m_options(options), m_report(report), m_input(input)
-    , m_written(last_write_time(input))
     , m_folder(options.work_folder, identity(), options.resumes), m_finished(m_folder)
   {
     m_report.solver.method = "hlscm";
@@ -57,16 +56,6 @@ public:
 
   // Builds all levels.
   void build();
-
-  // Refuses an input that is no longer what was mapped.
-  void check_input() const
-  {
-    const std::string& path = m_input.records().path();
-    std::error_code error;
-    if(last_write_time(path) != m_written
-       || std::filesystem::file_size(path, error) != m_input.records().bytes())
-      refuse("the file was changed while it was mapped; begin again");
-  }
 
   const Ply_records& input() const { return m_input.records(); }
   Work_folder& folder() { return m_folder; }
@@ -107,8 +96,6 @@ private:
   static constexpr std::size_t bytes_of_vertex = 650;
   // Of smaller blocks nearly all vertices are at others, and stay.
   static constexpr std::size_t least_in_block = 200;
-  // Corners of what is in memory have numbers of 32 bits.
-  static constexpr std::size_t most_with_32_bits = std::size_t(1) << 28;
 
   std::size_t most_gathered() const
   {
@@ -129,11 +116,6 @@ private:
     return (vertices + blocks - 1) / blocks;
   }
 
-  static std::filesystem::file_time_type last_write_time(const std::string& path)
-  {
-    std::error_code ignored;
-    return std::filesystem::last_write_time(path, ignored);
-  }
   std::string identity() const;
   Streamed_mesh sort_input();
   Streamed_mesh sort_coarse(std::size_t k, const Streamed_mesh& fine, Decimated_level& level);
@@ -147,7 +129,6 @@ private:
   Very_large_chart_report& m_report;
   bool m_is_cancelled = false;
   Ply_chart m_input;
-  std::filesystem::file_time_type m_written;
   Work_folder m_folder;
   Finished_levels m_finished;
   Run_state m_state;    // of the level that is being worked on

@@ -91,7 +91,7 @@ public:
   void write(const std::function<void(std::string_view)>& put)
   {
     Blocked_execution::Stopwatch watch;
-    m_hierarchy.check_input();
+    m_hierarchy.input().check_that_it_stayed();
     const auto& rank = m_hierarchy.rank();
     write_mapped_ply(m_hierarchy.input(), [&](std::size_t v) -> std::array<double, 2> {
       return rank[v] == Indexed_mesh::no_vertex ? std::array<double, 2>{0., 0.} : uv(rank[v]);
