@@ -127,7 +127,7 @@ rank that ends, or has no memory left while others wait for it, ends all, as err
 PETSc, with complex numbers, is begun on all ranks of MPI if it was not: if `comm` has not all of
 them, begin it before. Who calls this ends it, before MPI.
 
-Linear time but for the iterations, about 700 bytes for each vertex of a rank.
+Linear time but for the iterations, about 800 bytes for each vertex of a rank.
 */
 inline Distributed_chart_report
 map_distributed_chart(MPI_Comm comm, const Distributed_chart& chart,
