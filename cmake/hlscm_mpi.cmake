@@ -15,9 +15,10 @@ pkg_check_modules(HLSCM_PETSC REQUIRED IMPORTED_TARGET PETSc)
 add_library(HLSCM_petsc INTERFACE)
 target_link_libraries(HLSCM_petsc INTERFACE PkgConfig::HLSCM_PETSC MPI::MPI_CXX)
 
-# Open MPI may be told to run as root, and more ranks than there are processors.
-set(hlscm_mpi_environment OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-    OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_btl_vader_single_copy_mechanism=none)
+# Open MPI may be told to run as root, more ranks than there are processors, and on this machine only,
+# for which it needs no ssh.
+set(hlscm_mpi_environment OMPI_MCA_plm=isolated OMPI_ALLOW_RUN_AS_ROOT=1
+    OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_btl_vader_single_copy_mechanism=none)
 
 # hlscm_add_mpi_test(<name> <ranks> <label> <program> [<argument>...])
 function(hlscm_add_mpi_test name ranks label program)

@@ -27,7 +27,7 @@ for option in "$@"; do
     --doc) packages+=(doxygen) ;;
     --bench) packages+=(python3-matplotlib valgrind libopenblas0-pthread draco) ;;
     --coverage) packages+=(gcovr) ;;
-    --mpi) packages+=(libpetsc-complex-dev openmpi-bin) ;;
+    --mpi) packages+=(libpetsc-complex-dev openmpi-bin openssh-client) ;;
     --python)
       packages+=(pybind11-dev python3-dev python3-mypy python3-numpy python3-pip python3-scipy
                  python3-setuptools python3-wheel)
