@@ -63,7 +63,6 @@ public:
 private:
   // As `Streamed_hierarchy`; but small blocks, for there are ranks that wait for work, and not much
   // for rank 0 alone.
-  static constexpr std::size_t bytes_of_vertex = 650;
   static constexpr std::size_t vertices_of_block = 100000, vertices_on_first = 300000;
 
   std::size_t most_gathered() const
@@ -78,10 +77,9 @@ private:
     if(vertices <= most_gathered())
       return vertices;
     const std::size_t given = m_options.block_vertices;
-    const std::size_t most = given > 0 ? (std::clamp)(given, std::size_t(200), most_with_32_bits)
-                                       : vertices_of_block;
-    const std::size_t blocks = Blocked_execution::number_of_blocks(vertices, most);
-    return (vertices + blocks - 1) / blocks;
+    return size_of_blocks(vertices, given > 0
+                                      ? (std::clamp)(given, least_in_block, most_with_32_bits)
+                                      : vertices_of_block);
   }
 
   Bbox_3 box_of(const std::vector<Three_numbers>& points, const std::vector<bool>& is_used) const;
@@ -128,8 +126,7 @@ inline void Distributed_hierarchy::build(Mesh_part part)
     const std::size_t vertices = m_ranks.sum(
       std::size_t(std::count(coarse.is_used.begin(), coarse.is_used.end(), true)));
     const Bbox_3 box = box_of(coarse.points, {});
-    const double golden = 0.6180339887498949; // the cells of no two levels have faces in common
-    const Curve_cube cube(box, std::fmod(golden * double(k + 1), 1.));
+    const Curve_cube cube(box, Curve_cube::part_of_level(k + 1));
     Distributed_mesh next
       = Mesh_sorter(m_ranks, std::move(coarse)).sort(cube, vertices, block_size_for(vertices));
     set_prolongation(mesh, stencils, next);

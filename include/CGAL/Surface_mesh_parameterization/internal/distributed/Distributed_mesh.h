@@ -151,12 +151,6 @@ private:
     Three_numbers point;
   };
 
-  struct Sent_triangle
-  {
-    Triangle_indices vertices;
-    Three_numbers cotangents;
-  };
-
   std::size_t first_block(std::size_t rank, std::size_t blocks) const
   {
     return Blocked_execution::number_of_blocks(rank * blocks, m_ranks.size());
@@ -283,10 +277,8 @@ inline void Mesh_sorter::send_triangles()
   if(m_part.has_cotangents)
     send(m_part.cotangents, m_mesh.cotangents);
   m_part.cotangents = std::vector<Three_numbers>();
-  std::vector<Triangle_indices> triangles;
-  send(m_part.triangles, triangles);
+  send(m_part.triangles, m_mesh.triangles);
   m_part.triangles = std::vector<Triangle_indices>();
-  m_mesh.triangles.swap(triangles);
 }
 
 // By blocks; a triangle comes to each block in which it has a vertex.

@@ -20,6 +20,17 @@ namespace internal {
 
 // Vertices of what is in memory: its corners have numbers of 32 bits.
 constexpr std::size_t most_with_32_bits = std::size_t(1) << 28;
+// Levels in memory need so many bytes a vertex of the finest of them, blocks 500.
+constexpr std::size_t bytes_of_vertex = 650;
+// Of smaller blocks nearly all vertices are at others, and stay.
+constexpr std::size_t least_in_block = 200;
+
+// The size of blocks of equal size, with at most so many vertices.
+inline std::size_t size_of_blocks(std::size_t vertices, std::size_t most)
+{
+  const std::size_t blocks = Blocked_execution::number_of_blocks(vertices, most);
+  return (vertices + blocks - 1) / blocks;
+}
 
 // A block of a streamed mesh in memory: its own vertices, all triangles at these, and the other
 // vertices of those triangles, the ghosts. A ghost whose triangles here are several fans is there

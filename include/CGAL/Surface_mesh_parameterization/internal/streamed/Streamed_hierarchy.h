@@ -91,12 +91,8 @@ private:
       throw Streaming_failure(Streaming_failure::CANCELLED, "cancelled");
   }
 
-  // Levels in memory need so many bytes a vertex of the finest of them, blocks 500. They are not there
-  // at the same time, but vectors of the levels in files are.
-  static constexpr std::size_t bytes_of_vertex = 650;
-  // Of smaller blocks nearly all vertices are at others, and stay.
-  static constexpr std::size_t least_in_block = 200;
-
+  // Levels in memory and blocks are not there at the same time, but vectors of the levels in files
+  // are.
   std::size_t most_gathered() const
   {
     const std::size_t most = m_options.gathered_vertices;
@@ -110,10 +106,7 @@ private:
   }
   std::size_t block_size_for(std::size_t vertices) const
   {
-    if(vertices <= most_gathered())
-      return vertices;
-    const std::size_t blocks = Blocked_execution::number_of_blocks(vertices, most_in_block());
-    return (vertices + blocks - 1) / blocks;
+    return vertices <= most_gathered() ? vertices : size_of_blocks(vertices, most_in_block());
   }
 
   std::string identity() const;
@@ -294,10 +287,9 @@ inline Streamed_mesh Streamed_hierarchy::sort_coarse(std::size_t k, const Stream
     }
     source.release_vertices(first, last);
   }
-  const double golden = 0.6180339887498949; // the cells of no two levels have faces in common
   const std::string prefix = m_finished.mesh_name(k) + "_";
   Streamed_mesh_builder<Coarse_source> builder(m_folder, prefix, source);
-  Streamed_mesh mesh = builder.build(Curve_cube(box, std::fmod(golden * double(k), 1.)), count,
+  Streamed_mesh mesh = builder.build(Curve_cube(box, Curve_cube::part_of_level(k)), count,
                                      block_size_for(count));
   Streamed_level& level = m_levels.back();
   level.stencils

@@ -112,6 +112,9 @@ struct Curve_cube
   Three_numbers corner = {0., 0., 0.};
   double cells_per_length = 0.;
 
+  // The part for level k: the cells of no two levels have faces in common.
+  static double part_of_level(std::size_t k) { return std::fmod(0.6180339887498949 * double(k), 1.); }
+
   // Around a box; moved by a part of its side, with a side twice as long.
   Curve_cube(const Bbox_3& box, double part)
   {
