@@ -4,11 +4,11 @@
 #ifndef CGAL_MULTIGRID_BLOCK_VALUES_H
 #define CGAL_MULTIGRID_BLOCK_VALUES_H
 
+#include <CGAL/Multigrid/diagonalize.h>
 #include <CGAL/Multigrid/vector_operations.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 
 #include <cmath>
 #include <cstddef>
@@ -85,9 +85,19 @@ private:
   template <class Function>
   static Double with_eigenvalues(const Double& d, const Function& f)
   {
-    const Eigen::SelfAdjointEigenSolver<Double> solver(d);
-    const Eigen::Matrix<double, N, 1> values = solver.eigenvalues().unaryExpr(f);
-    return solver.eigenvectors() * values.asDiagonal() * solver.eigenvectors().transpose();
+    Small_matrix<double, N> a = {};
+    for(int i = 0; i < N; ++i)
+      for(int j = 0; j <= i; ++j)
+        a[i][j] = a[j][i] = d(i, j);
+    const Small_matrix<double, N> v = diagonalize(N, a);
+    Double result = Double::Zero();
+    for(int k = 0; k < N; ++k) {
+      const double value = f(a[k][k]);
+      for(int i = 0; i < N; ++i)
+        for(int j = 0; j < N; ++j)
+          result(i, j) += v[i][k] * value * v[j][k];
+    }
+    return result;
   }
   /// \endcond
 };
