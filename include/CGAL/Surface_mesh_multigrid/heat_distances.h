@@ -24,7 +24,7 @@ heat flows for a moment, its gradients point to the source, and the distance is 
 gradients have these directions and the length 1.
 
 Heat falls by a factor e over the length that it reaches. Gradients count where it is above rounding;
-farther away they are those of heat that reaches twice as far.
+farther away they are those of heat that reaches four times as far.
 
 \param solver the solver of `mesh`, of real numbers; its matrix and tolerance become others
 \param mesh the surface
@@ -50,7 +50,7 @@ Surface_multigrid_report heat_distances(Solver& solver,
   solver.options().tolerance = 1e-13;
   std::size_t iterations = 0;
   bool is_everywhere = false;
-  for(int i = 2; i < 12 && !is_everywhere; ++i) {
+  for(int i = 2; i < 12 && !is_everywhere; i += 2) {
     const double reach = std::ldexp(solver.hierarchy()->mean_edge(), i);
     report = solver.set_element(Laplace_element{reach * reach, 1.});
     if(!report.is_ok())
