@@ -6,7 +6,7 @@
 // medians of runs in turn, one thread. The times of multigrid_of_4 are those of one of four
 // right-hand sides that are solved for at once.
 //
-// Usage: equations [--repeat N] [--vertices N] [--surface NAME] [--no-peers]
+// Usage: equations [--repeat N] [--vertices N] [--surface NAME] [--problem NAME] [--no-peers]
 
 #include "machine.h"
 #include "timing.h"
@@ -246,10 +246,10 @@ void print(const std::string& name, std::size_t vertices, const std::string& pro
   }
 }
 
-void run(const std::string& name, const Arrays& mesh, int repetitions, bool has_peers)
+void run_poisson(const std::string& name, const Problem& p, int repetitions, bool has_peers)
 {
-  const Problem p = problem_on(mesh);
-  std::map<std::string, Row> rows, heat;
+  const Arrays& mesh = p.mesh;
+  std::map<std::string, Row> rows;
   const Matrix a = has_peers ? matrix_of(p, Surface_hierarchy(mesh)) : Matrix();
   for(int i = 0; i < repetitions; ++i) {
     run_multigrid(p, rows["multigrid"], rows["multigrid_of_4"]);
@@ -262,14 +262,17 @@ void run(const std::string& name, const Arrays& mesh, int repetitions, bool has_
 #endif
   }
   print(name, p.b.size(), p.element.mass > 0. ? "screened" : "poisson", rows);
-  if(p.element.mass == 0.)
-    return;
+}
+
+void run_heat(const std::string& name, const Arrays& mesh, int repetitions, bool has_peers)
+{
+  std::map<std::string, Row> heat;
   for(int i = 0; i < (has_peers ? 1 : repetitions); ++i) { // CGAL's takes minutes
     const auto ours = our_heat_distances(mesh, heat["multigrid"]);
     if(has_peers)
       heat["multigrid"].quality = mean_difference(ours, cgal_heat_distances(mesh, heat["cgal"]));
   }
-  print(name, p.b.size(), "heat", heat);
+  print(name, mesh.points.size(), "heat", heat);
 }
 
 } // namespace
@@ -277,14 +280,17 @@ void run(const std::string& name, const Arrays& mesh, int repetitions, bool has_
 int main(int argc, char** argv)
 {
   int repetitions = 3, vertices = 100000;
-  std::string only;
+  std::string only, problem;
   bool has_no_peers = false;
   CLI::App app{"Solves equations on surfaces; a CSV file on stdout."};
   app.add_option("--vertices", vertices, "of each surface")->capture_default_str();
   app.add_option("--repeat", repetitions, "runs of each method")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  app.add_option("--surface", only, "one of hills, graded, slivers, torus; all without");
+  app.add_option("--surface", only, "one of them; all without")
+      ->check(CLI::IsMember({"hills", "graded", "slivers", "torus"}));
+  app.add_option("--problem", problem, "poisson (screened on closed surfaces) or heat; both without")
+      ->check(CLI::IsMember({"poisson", "heat"}));
   app.add_flag("--no-peers", has_no_peers, "the multigrid solver only");
   CLI11_PARSE(app, argc, argv);
   const int n = int(std::lround(std::sqrt(double(vertices))));
@@ -292,8 +298,13 @@ int main(int argc, char** argv)
     std::cout << "# " << machine::description() << "\nsurface,vertices,problem,method,setup,matrix,solve,"
               << "in_all,renewed,iterations,quality,bytes_a_vertex\n";
     const auto run_one = [&](const std::string& name, double jitter, double grading, bool is_closed) {
-      if(only.empty() || only == name)
-        run(name, surface(n, jitter, grading, is_closed), repetitions, !has_no_peers);
+      if(!only.empty() && only != name)
+        return;
+      const Problem p = problem_on(surface(n, jitter, grading, is_closed));
+      if(problem != "heat")
+        run_poisson(name, p, repetitions, !has_no_peers);
+      if(problem != "poisson" && is_closed)
+        run_heat(name, p.mesh, repetitions, !has_no_peers);
     };
     run_one("hills", 0.25, 1., false);
     run_one("graded", 0.25, 30., false);

@@ -83,10 +83,14 @@ public:
   /// at the same time.
   template <class Prepare>
   Sparse_rows(std::size_t n, const Prepare& prepare)
-    : m_diagonal(n), m_begin(n), m_length(n), m_blocks(Blocked_execution::number_of_blocks(n, block_size))
+    : m_diagonal(n), m_begin(n), m_length(n)
   {
+    while((n >> m_shift) >= most_blocks)
+      ++m_shift;
+    const std::size_t block_size = std::size_t(1) << m_shift;
+    m_blocks.resize(Blocked_execution::number_of_blocks(n, block_size));
     Blocked_execution::blocked_for(n, block_size, [&](std::size_t begin, std::size_t end) {
-      Block& block = m_blocks[begin / block_size];
+      Block& block = m_blocks[begin >> m_shift];
       auto fill = prepare();
       block.columns.reserve(expected_length * (end - begin));
       block.values.reserve(expected_length * (end - begin));
@@ -124,12 +128,12 @@ public:
   /// Returns the columns of the entries of row `i`.
   const std::uint32_t* columns(std::uint32_t i) const 
   {
-    return m_blocks[i / block_size].columns.data() + m_begin[i];
+    return m_blocks[i >> m_shift].columns.data() + m_begin[i];
   }
   /// Returns the entries of row `i`.
   const Double* values(std::uint32_t i) const 
   {
-    return m_blocks[i / block_size].values.data() + m_begin[i];
+    return m_blocks[i >> m_shift].values.data() + m_begin[i];
   }
 
   /// Makes rows `i` for which `is_zero(i)` rows of zeros. Their columns are kept.
@@ -173,13 +177,17 @@ public:
   }
 
 private:
-  static constexpr std::size_t block_size = 8192, expected_length = 8;
+  // What prepares a block may take time in the number of all rows.
+  static constexpr std::size_t most_blocks = 64, expected_length = 8;
+
 
   struct Block // of rows, as they were filled
   {
     std::vector<std::uint32_t> columns;
     std::vector<Double> values;
   };
+
+  std::uint32_t m_shift = 13; // blocks have 2 to this many rows
 
   std::vector<Diagonal> m_diagonal;
   std::vector<std::uint32_t> m_begin, m_length; // of each row in its block

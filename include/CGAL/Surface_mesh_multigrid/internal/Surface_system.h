@@ -149,11 +149,11 @@ std::string Surface_system<Value>::rows_error(const Surface_hierarchy& surface, 
     double size = double(Diagonal_traits::squared_norm(rows.diagonal()[i]));
     for(std::uint32_t k = 0; k < rows.length(i); ++k)
       size += double(Multigrid::Value_traits<Double>::squared_norm(rows.values(i)[k]));
-    const std::string vertex = std::to_string(surface.source()[i]);
+    const auto vertex = [&] { return std::to_string(surface.source()[i]); };
     if(!std::isfinite(size))
-      return "the row of vertex " + vertex + " has an entry that is not a finite number";
+      return "the row of vertex " + vertex() + " has an entry that is not a finite number";
     if(!m_is_fixed[i] && !Diagonal_traits::is_positive(rows.diagonal()[i]))
-      return "the diagonal entry of vertex " + vertex
+      return "the diagonal entry of vertex " + vertex()
            + " is not positive: the matrix is not positive definite";
   }
   return {};
@@ -195,15 +195,16 @@ void Surface_system<Value>::find_patches(const Surface_hierarchy& surface, const
   Multigrid::for_each_index(rows.size(), [&](std::size_t i) {
     diagonal[i] = std::sqrt(double(Diagonals::squared_norm(rows.diagonal()[i])));
   });
-  const auto strength = [&](std::uint32_t i, std::uint32_t k) { // of entry k of row i
-    const double size = double(Entries::squared_norm(rows.values(i)[k]));
-    const double scale = diagonal[i] * diagonal[rows.columns(i)[k]];
-    return size > 0. && scale > 0. ? size / scale : 0.;
+  const auto scale = [&](std::uint32_t i, std::uint32_t k) { // of entry k of row i
+    return diagonal[i] * diagonal[rows.columns(i)[k]];
+  };
+  const auto size = [&](std::uint32_t i, std::uint32_t k) {
+    return double(Entries::squared_norm(rows.values(i)[k]));
   };
   std::vector<unsigned char> is_strong(rows.size(), 0); // one of the three is as large as the mean
   Multigrid::for_each_index(rows.size(), [&](std::size_t i) {
     for(std::uint32_t k = 0; k < rows.length(i) && !is_strong[i]; ++k)
-      is_strong[i] = strength(i, k) > enough / 3.;
+      is_strong[i] = size(i, k) > enough / 3. * scale(i, k) && scale(i, k) > 0.;
   });
   for(const auto& t : surface.triangles()) {
     if(is_strong[t[0]] + is_strong[t[1]] + is_strong[t[2]] < 2)
@@ -211,8 +212,8 @@ void Surface_system<Value>::find_patches(const Surface_hierarchy& surface, const
     double sum = 0.;
     for(int j = 0; j < 3; ++j)
       for(std::uint32_t k = 0; k < rows.length(t[j]); ++k)
-        if(rows.columns(t[j])[k] == t[(j + 1) % 3])
-          sum += strength(t[j], k);
+        if(rows.columns(t[j])[k] == t[(j + 1) % 3] && scale(t[j], k) > 0.)
+          sum += size(t[j], k) / scale(t[j], k);
     if(sum > enough)
       m_patches.add(m_matrix, t);
   }
