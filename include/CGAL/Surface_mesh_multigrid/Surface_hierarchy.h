@@ -110,14 +110,15 @@ private:
 \ingroup PkgHLSCMSurfaceMultigrid
 
 The class `Surface_hierarchy` has the levels of a surface for multigrid, from coarse to fine: it is
-decimated by halfedge collapses, and values of a coarse level go to the next finer one by linear
-interpolation in the nearest triangle. It can be shared by any number of solvers.
+decimated by halfedge collapses, no two of neighbours in one pass (`Collapse_order::SPREAD`), and
+values of a coarse level go to the next finer one by linear interpolation in the nearest triangle.
+It can be shared by any number of solvers.
 
 The surface is an oriented triangulated manifold, with or without borders, of any number of
 components; all vertices have faces. Otherwise `is_ok()` is `false`, and `error` says which vertex or
 face is to blame; see `surface_of_soup()` for a remedy.
 
-Expected linear time; about 130 bytes a vertex, and 250 while it is built.
+Expected linear time; about 120 bytes a vertex, and 250 while it is built.
 */
 class Surface_hierarchy
   : public Indexed_mesh::Mesh_outcome

@@ -18,14 +18,15 @@ namespace Surface_mesh_multigrid {
 /*!
 \ingroup PkgHLSCMSurfaceMultigrid
 
-Returns the sum of the element matrices of all faces as a matrix of Eigen, for products of matrices and
-other solvers; `Surface_multigrid_solver::set_element()` needs none. Row i is vertex i of the mesh.
+Returns the sum of the element matrices of all faces as a matrix of Eigen, for products of matrices
+and other solvers; `Surface_multigrid_solver::set_element()` needs none. Row i is vertex i of the mesh.
 
 \param surface the surface; its levels do not matter
 \param element a model of `SurfaceElement` with entries `double`
 */
 template <class Element>
-Eigen::SparseMatrix<double> assemble_matrix(const Surface_hierarchy& surface, const Element& element)
+Eigen::SparseMatrix<double> assemble_matrix(const Surface_hierarchy& surface,
+                                            const Element& element)
 {
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(9 * surface.triangles().size());

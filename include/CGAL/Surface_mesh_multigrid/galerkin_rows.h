@@ -101,9 +101,9 @@ public:
 private:
   static constexpr std::uint32_t none = std::uint32_t(-1);
 
-  // Adds w times an entry of column j of the fine matrix times row j of P; `count` columns are listed,
-  // and the new number of them is returned: a member would be stored and loaded each time, because
-  // the compiler cannot know that it is none of the columns.
+  // Adds w times an entry of column j of the fine matrix times row j of P; `count` columns are
+  // listed, and the new number of them is returned: a member would be stored and loaded each time,
+  // because the compiler cannot know that it is none of the columns.
   template <class Entry>
   std::uint32_t add(std::uint32_t I, double w, std::uint32_t j, const Entry& entry,
                     std::uint32_t count)

@@ -24,8 +24,8 @@ heat flows for a moment, its gradients point to the source, and the distance is 
 gradients have these directions and the length 1.
 
 Heat falls by a factor e over the length that it reaches. Gradients count where it is above a ten
-millionth of that at the source, a thousand times above the tolerance; farther away they are those of
-heat that reaches four times as far.
+millionth of that at the source, a thousand times above the tolerance; farther away they are those
+of heat that reaches four times as far.
 
 \param solver the solver of `mesh`, of real numbers; its matrix and tolerance become others
 \param mesh the surface

@@ -75,8 +75,8 @@ public:
   /// Collapses until a stop predicate says so or nothing more can be collapsed;
   /// `options.target_vertices` does not count.
   ///
-  /// The order is not `SPREAD`. In the strict order the predicate is asked for each collapse, as in `edge_collapse()`. In the
-  /// batched order it is asked for the cheapest collapse of each pass, and for numbers and costs
+  /// The order is not `SPREAD`. In the strict order the predicate is asked for each collapse, as in
+  /// `edge_collapse()`. In the batched order it is asked for the cheapest collapse of each pass, and for numbers and costs
   /// that the pass would reach; it must not change its mind when costs rise and numbers fall.
   ///
   /// \param options all but where to stop

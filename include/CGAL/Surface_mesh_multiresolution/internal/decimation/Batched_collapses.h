@@ -164,8 +164,8 @@ float nth_cost(const std::vector<Vertex_index>& members, const std::vector<float
 // waits for the next pass, whose blocks are shifted by half their size. Blocks do not depend on the
 // number of threads.
 //
-// In the spread order a pass takes any vertex none of whose neighbours has gone in it: only the stars
-// of those that go are measured.
+// In the spread order a pass takes any vertex none of whose neighbours has gone in it: only the
+// stars of those that go are measured.
 template <class Surface, class Stop>
 class Batched_collapses
 {
