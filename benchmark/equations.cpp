@@ -6,7 +6,7 @@
 // medians of runs in turn, one thread. The times of multigrid_of_4 are those of one of four
 // right-hand sides that are solved for at once.
 //
-// Usage: equations [--repeat N] [--vertices N] [--no-peers]
+// Usage: equations [--repeat N] [--vertices N] [--surface NAME] [--problem NAME] [--no-peers]
 
 #include "machine.h"
 #include "timing.h"
@@ -14,6 +14,7 @@
 #include <CGAL/Heat_method_3/Surface_mesh_geodesic_distances_3.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/Surface_mesh_multigrid/assemble_matrix.h>
 #include <CGAL/Surface_mesh_multigrid/heat_distances.h>
 
 #include <CLI/CLI.hpp>
@@ -116,23 +117,13 @@ Problem problem_on(Arrays mesh)
 // The matrix of the free unknowns, with ones for the others.
 Matrix matrix_of(const Problem& p, const Surface_hierarchy& surface)
 {
-  std::vector<Eigen::Triplet<double>> entries;
-  for(std::size_t t = 0; t < surface.triangles().size(); ++t) {
-    const Surface_triangle triangle = surface.triangle(t);
-    Element_matrix<double> e;
-    p.element(triangle, e);
-    for(int j = 0; j < 3; ++j) {
-      const auto v = triangle.vertices[j], next = triangle.vertices[(j + 1) % 3],
-                 last = triangle.vertices[(j + 2) % 3];
-      entries.emplace_back(v, v, p.is_fixed[v] ? 1. : e.diagonal[j]);
-      if(!p.is_fixed[next] && !p.is_fixed[last]) {
-        entries.emplace_back(next, last, e.beside[j]);
-        entries.emplace_back(last, next, e.beside[j]);
-      }
-    }
-  }
-  Matrix result(surface.number_of_vertices(), surface.number_of_vertices());
-  result.setFromTriplets(entries.begin(), entries.end());
+  Matrix result = assemble_matrix(surface, p.element);
+  result.prune([&p](Eigen::Index i, Eigen::Index j, double) {
+    return i == j || (!p.is_fixed[i] && !p.is_fixed[j]);
+  });
+  for(Eigen::Index i = 0; i < result.rows(); ++i)
+    if(p.is_fixed[i])
+      result.coeffRef(i, i) = 1.;
   return result;
 }
 
@@ -255,11 +246,11 @@ void print(const std::string& name, std::size_t vertices, const std::string& pro
   }
 }
 
-void run(const std::string& name, const Arrays& mesh, int repetitions, bool has_peers)
+void run_poisson(const std::string& name, const Problem& p, int repetitions, bool has_peers)
 {
-  const Problem p = problem_on(mesh);
-  std::map<std::string, Row> rows, heat;
-  const Matrix a = matrix_of(p, Surface_hierarchy(mesh));
+  const Arrays& mesh = p.mesh;
+  std::map<std::string, Row> rows;
+  const Matrix a = has_peers ? matrix_of(p, Surface_hierarchy(mesh)) : Matrix();
   for(int i = 0; i < repetitions; ++i) {
     run_multigrid(p, rows["multigrid"], rows["multigrid_of_4"]);
     if(!has_peers)
@@ -271,14 +262,17 @@ void run(const std::string& name, const Arrays& mesh, int repetitions, bool has_
 #endif
   }
   print(name, p.b.size(), p.element.mass > 0. ? "screened" : "poisson", rows);
-  if(p.element.mass == 0.)
-    return;
+}
+
+void run_heat(const std::string& name, const Arrays& mesh, int repetitions, bool has_peers)
+{
+  std::map<std::string, Row> heat;
   for(int i = 0; i < (has_peers ? 1 : repetitions); ++i) { // CGAL's takes minutes
     const auto ours = our_heat_distances(mesh, heat["multigrid"]);
     if(has_peers)
       heat["multigrid"].quality = mean_difference(ours, cgal_heat_distances(mesh, heat["cgal"]));
   }
-  print(name, p.b.size(), "heat", heat);
+  print(name, mesh.points.size(), "heat", heat);
 }
 
 } // namespace
@@ -286,22 +280,36 @@ void run(const std::string& name, const Arrays& mesh, int repetitions, bool has_
 int main(int argc, char** argv)
 {
   int repetitions = 3, vertices = 100000;
+  std::string only, problem;
   bool has_no_peers = false;
   CLI::App app{"Solves equations on surfaces; a CSV file on stdout."};
   app.add_option("--vertices", vertices, "of each surface")->capture_default_str();
   app.add_option("--repeat", repetitions, "runs of each method")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  app.add_option("--surface", only, "one of them; all without")
+      ->check(CLI::IsMember({"hills", "graded", "slivers", "torus"}));
+  app.add_option("--problem", problem, "poisson (screened on closed surfaces) or heat; both without")
+      ->check(CLI::IsMember({"poisson", "heat"}));
   app.add_flag("--no-peers", has_no_peers, "the multigrid solver only");
   CLI11_PARSE(app, argc, argv);
   const int n = int(std::lround(std::sqrt(double(vertices))));
   try {
     std::cout << "# " << machine::description() << "\nsurface,vertices,problem,method,setup,matrix,solve,"
               << "in_all,renewed,iterations,quality,bytes_a_vertex\n";
-    run("hills", surface(n, 0.25, 1., false), repetitions, !has_no_peers);
-    run("graded", surface(n, 0.25, 30., false), repetitions, !has_no_peers);
-    run("slivers", surface(n, 0.49, 1., false), repetitions, !has_no_peers);
-    run("torus", surface(n, 0.1, 1., true), repetitions, !has_no_peers);
+    const auto run_one = [&](const std::string& name, double jitter, double grading, bool is_closed) {
+      if(!only.empty() && only != name)
+        return;
+      const Problem p = problem_on(surface(n, jitter, grading, is_closed));
+      if(problem != "heat")
+        run_poisson(name, p, repetitions, !has_no_peers);
+      if(problem != "poisson" && is_closed)
+        run_heat(name, p.mesh, repetitions, !has_no_peers);
+    };
+    run_one("hills", 0.25, 1., false);
+    run_one("graded", 0.25, 30., false);
+    run_one("slivers", 0.49, 1., false);
+    run_one("torus", 0.1, 1., true);
   } catch(const std::exception& error) {
     std::cerr << "equations: " << error.what() << '\n';
     return 1;

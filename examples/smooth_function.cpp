@@ -8,6 +8,7 @@
 #include "surface_pictures.h"
 
 #include <CGAL/Surface_mesh_multigrid/Surface_multigrid_solver.h>
+#include <CGAL/Surface_mesh_multigrid/assemble_matrix.h>
 
 #include <cstdlib>
 #include <iostream>
@@ -16,27 +17,6 @@
 using namespace CGAL::Surface_mesh_multigrid;
 
 typedef Eigen::SparseMatrix<double> Matrix;
-
-// The cotangent Laplacian or, without stiffness, the lumped mass.
-Matrix matrix_of(const Surface_hierarchy& surface, const Laplace_element& element)
-{
-  std::vector<Eigen::Triplet<double>> entries;
-  for(std::size_t t = 0; t < surface.triangles().size(); ++t) {
-    const Surface_triangle triangle = surface.triangle(t);
-    Element_matrix<double> e;
-    element(triangle, e);
-    for(int j = 0; j < 3; ++j) {
-      const auto v = triangle.vertices[j], next = triangle.vertices[(j + 1) % 3],
-                 last = triangle.vertices[(j + 2) % 3];
-      entries.emplace_back(v, v, e.diagonal[j]);
-      entries.emplace_back(next, last, e.beside[j]);
-      entries.emplace_back(last, next, e.beside[j]);
-    }
-  }
-  Matrix result(surface.number_of_vertices(), surface.number_of_vertices());
-  result.setFromTriplets(entries.begin(), entries.end());
-  return result;
-}
 
 int main(int argc, char* argv[])
 {
@@ -49,7 +29,8 @@ int main(int argc, char* argv[])
     std::cerr << solver.hierarchy()->error << "\n";
     return EXIT_FAILURE;
   }
-  const Matrix K = matrix_of(*solver.hierarchy(), {1., 0.}), M = matrix_of(*solver.hierarchy(), {0., 1.});
+  const Matrix K = assemble_matrix(*solver.hierarchy(), Laplace_element{1., 0.}),
+               M = assemble_matrix(*solver.hierarchy(), Laplace_element{0., 1.});
   std::vector<bool> is_fixed(n, false);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
   const std::size_t given = 12;

@@ -114,6 +114,44 @@ TEST(Flat_collapse_engine, blocks_and_threads)
   }
 }
 
+// The spread order: no two neighbours go in one pass, any number of threads makes the same collapses,
+// and the target is reached.
+TEST(Flat_collapse_engine, spread_order_takes_no_two_neighbours)
+{
+  Indexed_triangle_mesh mesh
+    = with_holes(with_hills(irregular_grid(280, 280, seed), 20., seed), 300, seed);
+  CGAL::Indexed_mesh::normalize(mesh);
+  CGAL::Indexed_mesh::sort_spatially(mesh);
+  const std::size_t n = mesh.points.size(), target = 5000;
+  const auto is_locked = random_locks(n, 0.001, seed);
+  Progressive_mesh pm;
+  for(const unsigned int threads : {1, 2, 3}) {
+    const CGAL::Blocked_execution::Thread_scope scope(threads);
+    SMM::Flat_collapse_engine<> engine(mesh, Vertex_rings(mesh), is_locked);
+    const Progressive_mesh next = engine.run(flat_options(SMM::Collapse_order::SPREAD, target));
+    EXPECT_TRUE(threads == 1 || is_equal(next.collapses, pm.collapses)) << threads << " threads";
+    pm = next;
+  }
+  EXPECT_EQ(n - pm.collapses.size(), target);
+  EXPECT_EQ(error_in_collapses(pm, is_locked), "");
+  EXPECT_EQ(error_in_levels(pm, 1), "");
+  Vertex_rings rings(mesh);
+  std::vector<std::size_t> touched(n, 0); // the last pass, from 1, in which a neighbour went
+  std::size_t i = 0, pass = 0;
+  for(const std::size_t end : pm.batch_ends) {
+    ++pass;
+    EXPECT_GT(end - i, pass < 4 ? (n - i) / 8 : 0u) << "pass " << pass << seed_text;
+    for(; i < end; ++i) {
+      const auto [removed, kept] = pm.collapses[i];
+      ASSERT_NE(touched[removed], pass) << removed << seed_text;
+      for(std::uint32_t k = 0; k < rings.degree(removed); ++k)
+        touched[rings.ring(removed)[k]] = pass;
+      rings.collapse(removed, position_in_ring(rings, removed, kept));
+    }
+  }
+  EXPECT_EQ(i, pm.collapses.size());
+}
+
 TEST(Flat_collapse_engine, result_does_not_depend_on_size_and_place)
 {
   // A power of two, so that the scaled mesh is exactly similar

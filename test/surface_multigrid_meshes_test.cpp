@@ -5,6 +5,8 @@
 
 #include <support/surface_equations.h>
 
+#include <CGAL/Surface_mesh_multigrid/assemble_matrix.h>
+
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 
 #include <CGAL/boost/graph/graph_traits_PolyMesh_ArrayKernelT.h>
@@ -27,6 +29,57 @@
 namespace surface_multigrid_meshes_test {
 
 using namespace surface_equations;
+
+//
+// Triangles and matrices
+//
+
+// Angles by their definition, areas by Heron's formula, also of needles and far from the origin.
+TEST(Surface_triangle, has_cotangents_and_area)
+{
+  for(const double height : {1., 0.1, 1e-4, 1e-7}) {
+    typedef Indexed_triangle_mesh::Point_3 Point;
+    const Point p(100., 0., 0.), q(103., 0., 0.), r(101., 0.6 * height, 0.8 * height);
+    const Surface_triangle t(0, {0, 1, 2}, {p, q, r}, 0.01);
+    EXPECT_NEAR(t.area(), 1.5 * height, 1e-12 * height);
+    EXPECT_NEAR(t.cotangent(0) * height, 1., 1e-9);
+    EXPECT_NEAR(t.cotangent(1) * height, 2., 1e-9);
+    EXPECT_NEAR(t.cotangent(2) * height, (height * height - 2.) / 3., 1e-9);
+    for(int j = 0; j < 3; ++j)
+      EXPECT_NEAR(t.shape().cotangent(j) * height, t.cotangent(j) * height, 1e-9);
+  }
+}
+
+// Without area it has that of the longer edges: cotangents of a triangle, whose products sum to 1.
+TEST(Surface_triangle, without_area_is_mollified)
+{
+  typedef Indexed_triangle_mesh::Point_3 Point;
+  const Surface_triangle t(0, {0, 1, 2}, {Point(0., 0., 0.), Point(3., 0., 0.), Point(1., 0., 0.)}, 2.);
+  EXPECT_TRUE(t.shape().is_mollified());
+  EXPECT_NEAR(t.area() / (4. * t.shape().area()), 1., 1e-12);
+  const double a = t.cotangent(0), b = t.cotangent(1), c = t.cotangent(2);
+  EXPECT_GT(a, 0.);
+  EXPECT_NEAR((a * b + b * c + c * a) / (a * b), 0., 1e-5);
+}
+
+// The matrix of Eigen and the element itself give one solution.
+TEST(Assemble_matrix, is_that_of_the_element)
+{
+  const auto mesh = sphere(3);
+  const auto hierarchy = std::make_shared<const Surface_hierarchy>(mesh);
+  const Laplace_element element{1., 2.};
+  const auto matrix = assemble_matrix(*hierarchy, element);
+  std::vector<double> b(mesh.points.size(), 1.), x(b.size(), 0.);
+  b[7] = 3.;
+  Surface_multigrid_solver<> solver(hierarchy);
+  solver.options().tolerance = 1e-10;
+  ASSERT_TRUE(solver.set_element(element).is_ok());
+  ASSERT_TRUE(solver.solve(b, x).is_ok());
+  const Eigen::VectorXd f = Eigen::VectorXd::Map(b.data(), b.size()),
+                        u = Eigen::VectorXd::Map(x.data(), x.size());
+  EXPECT_LT((f - matrix * u).norm(), 2e-10 * f.norm());
+  EXPECT_NEAR(matrix.sum(), 2. * 4. * CGAL_PI, 0.5); // mass times the area of the sphere
+}
 
 //
 // Meshes of CGAL

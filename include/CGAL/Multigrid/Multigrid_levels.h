@@ -120,6 +120,15 @@ public:
     return m_coarsest.is_factorized();
   }
 
+  /// Returns the bytes that the levels take: matrices, smoothers, and the vectors of cycles so far.
+  std::size_t memory() const
+  {
+    std::size_t result = 0;
+    for(const Level& level : m_levels)
+      result += memory(level);
+    return result;
+  }
+
   /// Prints the levels as a table: the rows, nonzeros and memory (matrices and the vectors of
   /// cycles so far) of each, the ratio of its rows to those of the next coarser one, and the sums
   /// of all levels divided by the finest one's (the operator complexity). The finest level comes

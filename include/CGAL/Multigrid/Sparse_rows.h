@@ -6,7 +6,6 @@
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Blocked_execution/memory.h>
-#include <CGAL/Blocked_execution/sort_and_select.h>
 #include <CGAL/Multigrid/Matrix_builder.h>
 
 #include <algorithm>
@@ -53,6 +52,14 @@ public:
       m_columns.push_back(column);
       m_values.push_back(value);
     }
+    /// Appends `count` entries of columns that the row does not have; their values are to be set
+    /// from what is returned on.
+    Double* append(const std::uint32_t* columns, std::uint32_t count)
+    {
+      m_columns.insert(m_columns.end(), columns, columns + count);
+      m_values.resize(m_columns.size());
+      return m_values.data() + (m_columns.size() - count);
+    }
     /// Adds to the entry of a column, which need not be there. Linear in the number of entries.
     void add(std::uint32_t column, const Double& value)
     {
@@ -75,30 +82,26 @@ public:
   /// rows, whose result, a function object, fills them; blocks are filled in any order and possibly
   /// at the same time.
   template <class Prepare>
-  Sparse_rows(std::size_t n, const Prepare& prepare) : m_diagonal(n)
+  Sparse_rows(std::size_t n, const Prepare& prepare)
+    : m_diagonal(n), m_begin(n), m_length(n)
   {
-    const std::size_t blocks = Blocked_execution::number_of_blocks(n, block_size);
-    std::vector<std::vector<std::uint32_t>> columns(blocks), lengths(blocks);
-    std::vector<std::vector<Double>> values(blocks);
+    while((n >> m_shift) >= most_blocks)
+      ++m_shift;
+    const std::size_t block_size = std::size_t(1) << m_shift;
+    m_blocks.resize(Blocked_execution::number_of_blocks(n, block_size));
     Blocked_execution::blocked_for(n, block_size, [&](std::size_t begin, std::size_t end) {
-      const std::size_t b = begin / block_size;
+      Block& block = m_blocks[begin >> m_shift];
       auto fill = prepare();
-      columns[b].reserve(expected_length * (end - begin));
-      values[b].reserve(expected_length * (end - begin));
+      block.columns.reserve(expected_length * (end - begin));
+      block.values.reserve(expected_length * (end - begin));
       for(std::size_t i = begin; i < end; ++i) {
-        Row row(columns[b], values[b]);
+        m_begin[i] = std::uint32_t(block.columns.size());
+        Row row(block.columns, block.values);
         fill(std::uint32_t(i), row);
         m_diagonal[i] = row.diagonal;
-        lengths[b].push_back(row.length());
+        m_length[i] = row.length();
       }
     });
-    m_length = Blocked_execution::joined(lengths);
-    m_column = Blocked_execution::joined(columns);
-    columns.clear();
-    m_value = Blocked_execution::joined(values);
-    m_begin.resize(n + 1, 0);
-    for(std::size_t i = 0; i < n; ++i)
-      m_begin[i + 1] = m_begin[i] + m_length[i];
   }
 
   /// Constructs the rows of a matrix. Linear time.
@@ -123,9 +126,15 @@ public:
   /// Returns the number of entries beside the diagonal in row `i`.
   std::uint32_t length(std::uint32_t i) const { return m_length[i]; }
   /// Returns the columns of the entries of row `i`.
-  const std::uint32_t* columns(std::uint32_t i) const { return m_column.data() + m_begin[i]; }
+  const std::uint32_t* columns(std::uint32_t i) const 
+  {
+    return m_blocks[i >> m_shift].columns.data() + m_begin[i];
+  }
   /// Returns the entries of row `i`.
-  const Double* values(std::uint32_t i) const { return m_value.data() + m_begin[i]; }
+  const Double* values(std::uint32_t i) const 
+  {
+    return m_blocks[i >> m_shift].values.data() + m_begin[i];
+  }
 
   /// Makes rows `i` for which `is_zero(i)` rows of zeros. Their columns are kept.
   template <class Is_zero>
@@ -168,11 +177,21 @@ public:
   }
 
 private:
-  static constexpr std::size_t block_size = 8192, expected_length = 16;
+  // What prepares a block may take time in the number of all rows.
+  static constexpr std::size_t most_blocks = 64, expected_length = 8;
+
+
+  struct Block // of rows, as they were filled
+  {
+    std::vector<std::uint32_t> columns;
+    std::vector<Double> values;
+  };
+
+  std::uint32_t m_shift = 13; // blocks have 2 to this many rows
 
   std::vector<Diagonal> m_diagonal;
-  std::vector<std::uint32_t> m_begin, m_length, m_column;
-  std::vector<Double> m_value;
+  std::vector<std::uint32_t> m_begin, m_length; // of each row in its block
+  std::vector<Block> m_blocks;
 };
 
 } // namespace Multigrid

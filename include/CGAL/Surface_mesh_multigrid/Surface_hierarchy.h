@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -36,7 +37,7 @@ namespace Surface_mesh_multigrid {
 /// The options of `Surface_hierarchy`.
 struct Surface_hierarchy_options
 {
-  double ratio = 3.;                ///< vertices of a level to those of the next coarser one, > 1
+  double ratio = 3.5;               ///< vertices of a level to those of the next coarser one, > 1
   std::size_t coarsest_size = 2000; ///< vertices that the coarsest level should have
   /// For each vertex whether all levels shall have it; empty for none. It is not needed for given
   /// values: coarse levels know of those.
@@ -64,41 +65,60 @@ public:
   Surface_triangle(std::uint32_t index, const std::array<Vertex_index, 3>& vertices,
                    const std::array<Point_3, 3>& points, double unit)
     : index(index), vertices(vertices), points(points), m_unit(unit)
-    , m_shape(Point_3(0., 0., 0.), in_units(1), in_units(2))
-  {}
+  {
+    const double scale = 1. / unit;
+    const Space_vector u = (points[1] - points[0]) * scale, v = (points[2] - points[0]) * scale,
+                       normal = cross_product(u, v);
+    m_products = {u * v, u * (u - v), v * (v - u)};
+    m_twice_area = std::sqrt(normal * normal);
+    const double longest = (std::max)({u * u, v * v, m_products[1] + m_products[2]});
+    if(!(m_twice_area > 1e-9 * longest))
+      mollify();
+  }
 
   /// Returns the area; of a triangle that has none a small one (see `Flat_triangle`).
-  double area() const { return m_shape.area() * m_unit * m_unit; }
+  double area() const { return 0.5 * m_twice_area * m_unit * m_unit; }
   /// Returns the cotangent at corner `j`.
-  double cotangent(int j) const { return m_shape.cotangent(j); }
+  double cotangent(int j) const { return m_products[j] / m_twice_area; }
   /// Returns the triangle in its plane, lengths in units of the mean edge.
-  const Flat_triangle& shape() const { return m_shape; }
+  Flat_triangle shape() const
+  {
+    const double scale = 1. / m_unit;
+    const Point_3 origin(0., 0., 0.);
+    return Flat_triangle(origin, origin + (points[1] - points[0]) * scale,
+                         origin + (points[2] - points[0]) * scale);
+  }
   /// Returns the mean edge length of the mesh.
   double unit() const { return m_unit; }
 
 private:
-  Point_3 in_units(int j) const
+  typedef Simple_cartesian<double>::Vector_3 Space_vector;
+
+  void mollify()
   {
-    return Point_3((points[j].x() - points[0].x()) / m_unit, (points[j].y() - points[0].y()) / m_unit,
-                   (points[j].z() - points[0].z()) / m_unit);
+    const Flat_triangle flat = shape();
+    m_twice_area = 2. * flat.area();
+    for(int j = 0; j < 3; ++j)
+      m_products[j] = flat.cotangent(j) * m_twice_area;
   }
 
-  double m_unit;
-  Flat_triangle m_shape;
+  double m_unit, m_twice_area;
+  std::array<double, 3> m_products; // at each corner, of the two edges that leave it
 };
 
 /*!
 \ingroup PkgHLSCMSurfaceMultigrid
 
 The class `Surface_hierarchy` has the levels of a surface for multigrid, from coarse to fine: it is
-decimated by halfedge collapses, and values of a coarse level go to the next finer one by linear
-interpolation in the nearest triangle. It can be shared by any number of solvers.
+decimated by halfedge collapses, no two of neighbours in one pass (`Collapse_order::SPREAD`), and
+values of a coarse level go to the next finer one by linear interpolation in the nearest triangle.
+It can be shared by any number of solvers.
 
 The surface is an oriented triangulated manifold, with or without borders, of any number of
 components; all vertices have faces. Otherwise `is_ok()` is `false`, and `error` says which vertex or
 face is to blame; see `surface_of_soup()` for a remedy.
 
-Expected linear time; about 130 bytes a vertex, and 250 while it is built.
+Expected linear time; about 120 bytes a vertex, and 250 while it is built.
 */
 class Surface_hierarchy
   : public Indexed_mesh::Mesh_outcome
@@ -246,12 +266,14 @@ CGAL_HLSCM_INLINE void Surface_hierarchy::build_levels(Indexed_mesh::Prepared_me
   bool goes_on = true;
   SMM::Flat_collapse_options decimation;
   decimation.target_vertices = (std::max)(options.coarsest_size, std::size_t(3));
+  decimation.order = SMM::Collapse_order::SPREAD;
   if(options.progress)
     decimation.progress = [&](double part) { return goes_on = options.progress(part); };
   SMM::Progressive_mesh pm;
   { // the engine's memory is not needed beside the levels
-    SMM::Flat_collapse_engine<> engine(prepared.mesh, std::move(prepared.rings),
-                                       prepared.flags(options.is_locked));
+    typedef Surface_mesh_simplification::Triangle_shape_cost<> Cost;
+    SMM::Flat_collapse_engine<Cost> engine(prepared.mesh, std::move(prepared.rings),
+                                           prepared.flags(options.is_locked), Cost());
     pm = engine.run(decimation);
   }
   if(!goes_on) {

@@ -296,7 +296,8 @@ Surface_multigrid_report Surface_multigrid_solver<Value, Tag>::solve(const B& b,
   });
   const double norm_of_b = std::sqrt(Multigrid::squared_norm(f));
   report.unsolvable_part = norm_of_b > 0. ? m_system.remove_mean(f) / norm_of_b : 0.;
-  const double norm = m_system.norm_of_residual(f, given);
+  const double norm = Multigrid::squared_norm(given) > 0. ? m_system.norm_of_residual(f, given)
+                                                          : std::sqrt(Multigrid::squared_norm(f));
   constexpr double rounding = 1e-15;
   if(norm > rounding * norm_of_b)
     iterate(f, norm, u, report);

@@ -74,24 +74,26 @@ public:
   void operator()(std::uint32_t I, typename Rows::Row& row)
   {
     m_seen[I] = I; // the diagonal is not listed
-    m_count = 0;
+    std::uint32_t count = 0;
     m_prolongation.for_each_fine_vertex(I, [&](std::uint32_t i, float w) {
       if(m_transfer.is_fixed(i))
         return;
-      const std::uint32_t length = m_fine.length(i);
-      if(m_column.size() < m_count + 3 * (length + 1))
-        m_column.resize(2 * (m_count + 3 * (length + 1)));
-      add(I, w, i, m_fine.diagonal()[i]);
+      const std::uint32_t length = m_fine.length(i), *columns = m_fine.columns(i);
+      const Double* values = m_fine.values(i);
+      if(m_column.size() < count + 3 * (length + 1))
+        m_column.resize(2 * (count + 3 * (length + 1)));
+      count = add(I, w, i, m_fine.diagonal()[i], count);
       for(std::uint32_t k = 0; k < length; ++k)
-        add(I, w, m_fine.columns(i)[k], m_fine.values(i)[k]);
+        count = add(I, w, columns[k], values[k], count);
     });
     if constexpr(Multigrid::Value_traits<Double>::is_complex)
       row.diagonal = std::real(m_sum[I]);
     else
       row.diagonal = m_sum[I];
     m_sum[I] = Multigrid::Value_traits<Double>::zero();
-    for(std::uint32_t k = 0; k < m_count; ++k) {
-      row.append(m_column[k], m_sum[m_column[k]]);
+    Double* value = row.append(m_column.data(), count);
+    for(std::uint32_t k = 0; k < count; ++k) {
+      value[k] = m_sum[m_column[k]];
       m_sum[m_column[k]] = Multigrid::Value_traits<Double>::zero();
     }
   }
@@ -99,18 +101,24 @@ public:
 private:
   static constexpr std::uint32_t none = std::uint32_t(-1);
 
-  // Adds w times an entry of column j of the fine matrix times row j of P.
+  // Adds w times an entry of column j of the fine matrix times row j of P; `count` columns are
+  // listed, and the new number of them is returned: a member would be stored and loaded each time,
+  // because the compiler cannot know that it is none of the columns.
   template <class Entry>
-  void add(std::uint32_t I, double w, std::uint32_t j, const Entry& entry)
+  std::uint32_t add(std::uint32_t I, double w, std::uint32_t j, const Entry& entry,
+                    std::uint32_t count)
   {
     const Transfer_rows::Row& r = m_transfer[j];
+    Double* const sum = m_sum.data();
+    std::uint32_t *const seen = m_seen.data(), *const column = m_column.data();
     for(int c = 0; c < 3; ++c) {
       const std::uint32_t J = r.source[c];
-      m_sum[J] += (w * double(r.weight[c])) * entry;
-      m_column[m_count] = J;
-      m_count += m_seen[J] != I ? 1 : 0;
-      m_seen[J] = I;
+      sum[J] += (w * double(r.weight[c])) * entry;
+      column[count] = J;
+      count += seen[J] != I ? 1 : 0;
+      seen[J] = I;
     }
+    return count;
   }
 
   const Rows& m_fine;
@@ -119,7 +127,6 @@ private:
   std::vector<Double> m_sum;         // by column
   std::vector<std::uint32_t> m_seen; // by column, the row in which it was met last
   std::vector<std::uint32_t> m_column;
-  std::uint32_t m_count = 0;
 };
 
 } // namespace internal

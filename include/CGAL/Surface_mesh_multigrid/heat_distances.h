@@ -23,8 +23,9 @@ Finds distances on a surface from a vertex by the heat method (Crane, Weischedel
 heat flows for a moment, its gradients point to the source, and the distance is the function whose
 gradients have these directions and the length 1.
 
-Heat falls by a factor e over the length that it reaches. Gradients count where it is above rounding;
-farther away they are those of heat that reaches twice as far.
+Heat falls by a factor e over the length that it reaches. Gradients count where it is above a ten
+millionth of that at the source, a thousand times above the tolerance; farther away they are those
+of heat that reaches four times as far.
 
 \param solver the solver of `mesh`, of real numbers; its matrix and tolerance become others
 \param mesh the surface
@@ -47,10 +48,11 @@ Surface_multigrid_report heat_distances(Solver& solver,
   std::vector<double> b(n, 0.), heat(n, 0.);
   std::vector<Surface_vector> directions(mesh.triangles.size(), Surface_vector(0., 0., 0.));
   b[source] = 1.;
-  solver.options().tolerance = 1e-13;
+  constexpr double above_rounding = 1e-7; // of solutions, and far above their errors
+  solver.options().tolerance = 1e-3 * above_rounding;
   std::size_t iterations = 0;
   bool is_everywhere = false;
-  for(int i = 2; i < 12 && !is_everywhere; ++i) {
+  for(int i = 2; i < 12 && !is_everywhere; i += 2) {
     const double reach = std::ldexp(solver.hierarchy()->mean_edge(), i);
     report = solver.set_element(Laplace_element{reach * reach, 1.});
     if(!report.is_ok())
@@ -60,7 +62,7 @@ Surface_multigrid_report heat_distances(Solver& solver,
     is_everywhere = true;
     for(std::size_t t = 0; t < directions.size(); ++t) {
       const auto& v = mesh.triangles[t];
-      if((std::min)({heat[v[0]], heat[v[1]], heat[v[2]]}) < 1e-10 * heat[source])
+      if((std::min)({heat[v[0]], heat[v[1]], heat[v[2]]}) < above_rounding * heat[source])
         is_everywhere = false;
       else if(directions[t].squared_length() == 0. && gradients[t].squared_length() > 0.)
         directions[t] = -gradients[t] / std::sqrt(gradients[t].squared_length());

@@ -22,18 +22,26 @@ typedef Simple_cartesian<double>::Vector_3 Surface_vector;
 
 namespace internal {
 
-// The gradients of the hat functions at the corners of a triangle; 0 if it has no area.
-inline std::array<Surface_vector, 3> hat_gradients(const Indexed_mesh::Indexed_triangle_mesh& mesh,
-                                                   std::size_t t)
+// The gradients of the hat functions at the corners of a triangle, 0 if it has no area, and this.
+struct Hat_gradients
+{
+  std::array<Surface_vector, 3> at;
+  double area;
+};
+
+inline Hat_gradients hat_gradients(const Indexed_mesh::Indexed_triangle_mesh& mesh, std::size_t t)
 {
   const auto& v = mesh.triangles[t];
   const auto &p = mesh.points[v[0]], &q = mesh.points[v[1]], &r = mesh.points[v[2]];
   const Surface_vector normal = cross_product(q - p, r - p);
   const double square = normal.squared_length();
-  if(!(square > 0.))
-    return {Surface_vector(0., 0., 0.), Surface_vector(0., 0., 0.), Surface_vector(0., 0., 0.)};
-  return {cross_product(normal, r - q) / square, cross_product(normal, p - r) / square,
-          cross_product(normal, q - p) / square};
+  if(!(square > 0.)) {
+    const Surface_vector zero(0., 0., 0.);
+    return {{zero, zero, zero}, 0.};
+  }
+  return {{cross_product(normal, r - q) / square, cross_product(normal, p - r) / square,
+           cross_product(normal, q - p) / square},
+          0.5 * std::sqrt(square)};
 }
 
 } // namespace internal
@@ -48,7 +56,7 @@ std::vector<Surface_vector> surface_gradients(const Indexed_mesh::Indexed_triang
   std::vector<Surface_vector> result;
   result.reserve(mesh.triangles.size());
   for(std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto g = internal::hat_gradients(mesh, t);
+    const auto g = internal::hat_gradients(mesh, t).at;
     const auto& v = mesh.triangles[t];
     // Differences first: a constant must not cost digits.
     result.push_back((u[v[1]] - u[v[0]]) * g[1] + (u[v[2]] - u[v[0]]) * g[2]);
@@ -65,13 +73,10 @@ inline std::vector<double> weak_divergences(const Indexed_mesh::Indexed_triangle
 {
   std::vector<double> result(mesh.points.size(), 0.);
   for(std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto g = internal::hat_gradients(mesh, t);
+    const auto hats = internal::hat_gradients(mesh, t);
     const auto& v = mesh.triangles[t];
-    const Surface_vector normal = cross_product(mesh.points[v[1]] - mesh.points[v[0]],
-                                                mesh.points[v[2]] - mesh.points[v[0]]);
-    const double area = 0.5 * std::sqrt(normal.squared_length());
     for(int c = 0; c < 3; ++c)
-      result[v[c]] += area * (g[c] * field[t]);
+      result[v[c]] += hats.area * (hats.at[c] * field[t]);
   }
   return result;
 }

@@ -75,8 +75,8 @@ public:
   /// Collapses until a stop predicate says so or nothing more can be collapsed;
   /// `options.target_vertices` does not count.
   ///
-  /// In the strict order the predicate is asked for each collapse, as in `edge_collapse()`. In the
-  /// batched order it is asked for the cheapest collapse of each pass, and for numbers and costs
+  /// The order is not `SPREAD`. In the strict order the predicate is asked for each collapse, as in
+  /// `edge_collapse()`. In the batched order it is asked for the cheapest collapse of each pass, and for numbers and costs
   /// that the pass would reach; it must not change its mind when costs rise and numbers fall.
   ///
   /// \param options all but where to stop
@@ -132,6 +132,7 @@ Progressive_mesh Flat_collapse_engine<Cost, Filter, Layer>::
 run(const Flat_collapse_options& options, const StopPredicate& stop,
     const Indexed_triangle_mesh& shown, double unit)
 {
+  CGAL_precondition(options.order != Collapse_order::SPREAD);
   return run_until(options, internal::Stop_by_predicate<StopPredicate>(
                               stop, shown, m_surface.rings, unit));
 }

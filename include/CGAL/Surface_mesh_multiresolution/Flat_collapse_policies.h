@@ -23,6 +23,10 @@ namespace Surface_mesh_multiresolution {
 enum class Collapse_order
 {
   BATCHED, ///< passes over the cheapest part in memory order: as good for a hierarchy, faster
+  /// Passes in memory order over all vertices, each into its cheapest neighbour; no two neighbours
+  /// go in one pass. Costs of different vertices are not compared: the least work, for levels that
+  /// need not be close to the surface. Only for a number of vertices, not for a stop predicate.
+  SPREAD,
   STRICT   ///< always the cheapest collapse of all (Ray and Lévy 2003, algorithm 2)
 };
 

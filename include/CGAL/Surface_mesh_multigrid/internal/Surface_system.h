@@ -78,12 +78,11 @@ public:
     return std::sqrt(Multigrid::squared_norm(r));
   }
 
-  std::size_t memory() const
+  std::size_t memory() const // the finest level shares its pattern
   {
-    std::size_t result = m_matrix.memory();
-    for(const auto& h : m_matrices)
-      result += h.memory();
-    return result + m_patches.memory();
+    return has_matrix() ? m_matrix.memory() - m_matrix.pattern().memory() + m_levels->memory()
+                            + m_patches.memory()
+                        : 0;
   }
 
 private:
@@ -101,6 +100,7 @@ private:
   std::vector<bool> m_is_fixed;
   std::vector<bool> m_has_kernel;                  // components on which constants are
   const std::vector<std::uint32_t>* m_component = nullptr;
+  std::vector<std::size_t> m_size_of_component;
   Multigrid::Self_adjoint_matrix<Value> m_matrix;  // rows of fixed unknowns are zero
   Multigrid::Patch_corrections<Value> m_patches;
   Vector m_residual, m_correction;                 // of cycles between patches
@@ -149,11 +149,11 @@ std::string Surface_system<Value>::rows_error(const Surface_hierarchy& surface, 
     double size = double(Diagonal_traits::squared_norm(rows.diagonal()[i]));
     for(std::uint32_t k = 0; k < rows.length(i); ++k)
       size += double(Multigrid::Value_traits<Double>::squared_norm(rows.values(i)[k]));
-    const std::string vertex = std::to_string(surface.source()[i]);
+    const auto vertex = [&] { return std::to_string(surface.source()[i]); };
     if(!std::isfinite(size))
-      return "the row of vertex " + vertex + " has an entry that is not a finite number";
+      return "the row of vertex " + vertex() + " has an entry that is not a finite number";
     if(!m_is_fixed[i] && !Diagonal_traits::is_positive(rows.diagonal()[i]))
-      return "the diagonal entry of vertex " + vertex
+      return "the diagonal entry of vertex " + vertex()
            + " is not positive: the matrix is not positive definite";
   }
   return {};
@@ -165,6 +165,9 @@ void Surface_system<Value>::find_kernel(const Surface_hierarchy& surface, const 
 {
   constexpr double rounding = 1e-22; // of squares
   m_has_kernel.assign(surface.number_of_components(), true);
+  m_size_of_component.assign(surface.number_of_components(), 0);
+  for(const std::uint32_t c : surface.component())
+    ++m_size_of_component[c];
   for(std::uint32_t i = 0; i < rows.size(); ++i) {
     Double sum = Multigrid::Value_traits<Double>::zero();
     sum += rows.diagonal()[i];
@@ -192,15 +195,16 @@ void Surface_system<Value>::find_patches(const Surface_hierarchy& surface, const
   Multigrid::for_each_index(rows.size(), [&](std::size_t i) {
     diagonal[i] = std::sqrt(double(Diagonals::squared_norm(rows.diagonal()[i])));
   });
-  const auto strength = [&](std::uint32_t i, std::uint32_t k) { // of entry k of row i
-    const double size = double(Entries::squared_norm(rows.values(i)[k]));
-    const double scale = diagonal[i] * diagonal[rows.columns(i)[k]];
-    return size > 0. && scale > 0. ? size / scale : 0.;
+  const auto scale = [&](std::uint32_t i, std::uint32_t k) { // of entry k of row i
+    return diagonal[i] * diagonal[rows.columns(i)[k]];
+  };
+  const auto size = [&](std::uint32_t i, std::uint32_t k) {
+    return double(Entries::squared_norm(rows.values(i)[k]));
   };
   std::vector<unsigned char> is_strong(rows.size(), 0); // one of the three is as large as the mean
   Multigrid::for_each_index(rows.size(), [&](std::size_t i) {
     for(std::uint32_t k = 0; k < rows.length(i) && !is_strong[i]; ++k)
-      is_strong[i] = strength(i, k) > enough / 3.;
+      is_strong[i] = size(i, k) > enough / 3. * scale(i, k) && scale(i, k) > 0.;
   });
   for(const auto& t : surface.triangles()) {
     if(is_strong[t[0]] + is_strong[t[1]] + is_strong[t[2]] < 2)
@@ -208,8 +212,8 @@ void Surface_system<Value>::find_patches(const Surface_hierarchy& surface, const
     double sum = 0.;
     for(int j = 0; j < 3; ++j)
       for(std::uint32_t k = 0; k < rows.length(t[j]); ++k)
-        if(rows.columns(t[j])[k] == t[(j + 1) % 3])
-          sum += strength(t[j], k);
+        if(rows.columns(t[j])[k] == t[(j + 1) % 3] && scale(t[j], k) > 0.)
+          sum += size(t[j], k) / scale(t[j], k);
     if(sum > enough)
       m_patches.add(m_matrix, t);
   }
@@ -251,20 +255,27 @@ double Surface_system<Value>::remove_mean(Vector& f) const
   if(!has_kernel())
     return 0.;
   const std::vector<std::uint32_t>& component = *m_component;
-  std::vector<Vector_value> sum(m_has_kernel.size(), Vector_traits::zero());
-  std::vector<std::size_t> number(sum.size(), 0);
-  for(std::size_t i = 0; i < f.size(); ++i) {
-    sum[component[i]] += f[i];
-    ++number[component[i]];
-  }
+  const std::vector<Vector_value> zeros(m_has_kernel.size(), Vector_traits::zero());
+  // Sums of blocks that are not smaller than the number of sums
+  const std::size_t block = (std::max)(std::size_t(16384), zeros.size());
+  std::vector<std::vector<Vector_value>> part(Blocked_execution::number_of_blocks(f.size(), block));
+  Blocked_execution::blocked_for(f.size(), block, [&](std::size_t begin, std::size_t end) {
+    std::vector<Vector_value>& sum = part[begin / block];
+    sum = zeros;
+    for(std::size_t i = begin; i < end; ++i)
+      sum[component[i]] += f[i];
+  });
+  std::vector<Vector_value> mean = zeros;
   double removed = 0.;
-  for(std::size_t c = 0; c < sum.size(); ++c) {
-    sum[c] = sum[c] * (typename Traits::Real(m_has_kernel[c] ? 1. : 0.)
-                       / typename Traits::Real(number[c]));
-    removed += double(number[c]) * double(Vector_traits::squared_norm(sum[c]));
+  for(std::size_t c = 0; c < mean.size(); ++c) {
+    for(const std::vector<Vector_value>& sum : part)
+      mean[c] += sum[c];
+    const double number = double(m_size_of_component[c]);
+    mean[c] = mean[c] * (typename Traits::Real(m_has_kernel[c] ? 1. : 0.)
+                         / typename Traits::Real(number));
+    removed += number * double(Vector_traits::squared_norm(mean[c]));
   }
-  for(std::size_t i = 0; i < f.size(); ++i)
-    f[i] -= sum[component[i]];
+  Multigrid::for_each_index(f.size(), [&](std::size_t i) { f[i] -= mean[component[i]]; });
   return std::sqrt(removed);
 }
 

@@ -163,6 +163,9 @@ float nth_cost(const std::vector<Vertex_index>& members, const std::vector<float
 // Passes go over blocks of equal numbers of living vertices; a vertex whose ring leaves its block
 // waits for the next pass, whose blocks are shifted by half their size. Blocks do not depend on the
 // number of threads.
+//
+// In the spread order a pass takes any vertex none of whose neighbours has gone in it: only the
+// stars of those that go are measured.
 template <class Surface, class Stop>
 class Batched_collapses
 {
@@ -196,6 +199,11 @@ private:
   float pass_threshold(std::size_t wanted) const;
   std::vector<Block> cut_into_blocks(std::size_t wanted, bool is_shifted) const;
   void run_block(float threshold, Block& block);
+  bool is_candidate(Vertex_index v, float threshold) const
+  {
+    return is_spread() ? !m_surface.state[v].is_stale : m_surface.best_cost[v] <= threshold;
+  }
+  bool is_spread() const { return m_options.order == Collapse_order::SPREAD; }
   void run_pass(float threshold, std::size_t wanted, Progressive_mesh& pm);
   void remove_dead();
 
@@ -268,12 +276,16 @@ void Batched_collapses<Surface, Stop>::run_block(float threshold, Block& block)
   for(std::size_t i = block.begin; i < block.end && block.collapses.size() < block.wanted; ++i) {
     const Vertex_index v = m_alive[i];
     m_surface.prefetch(m_alive, i, block.end);
-    if(!(m_surface.best_cost[v] <= threshold))
+    if(!is_candidate(v, threshold))
       continue;
     const Vertex_index* r = m_surface.rings.ring(v);
-    if(std::all_of(r, r + m_surface.rings.degree(v), [&block](Vertex_index w) {
+    if(!std::all_of(r, r + m_surface.rings.degree(v), [&block](Vertex_index w) {
          return block.low <= w && w < block.high;
        }))
+      continue;
+    if(is_spread())
+      worker.collapse_into_best(v, block.collapses);
+    else
       worker.try_collapse(v, threshold, block.collapses);
   }
 }
@@ -324,19 +336,23 @@ Decimation_end Batched_collapses<Surface, Stop>::run(Progressive_mesh& pm)
   bool is_exhausted = false;
   int empty_passes = 0;
   while(!is_exhausted && !m_stop.is_over(pm) && !m_progress.is_cancelled()) {
-    evaluate_stale(pm);
+    if(is_spread())
+      for(const Vertex_index v : m_alive)
+        m_surface.state[v].is_stale = 0;
+    else
+      evaluate_stale(pm);
     const std::size_t wanted = m_stop.wanted(m_surface, m_alive, pm);
     if(wanted == 0)
       break;
     if constexpr(Stop::asks_for_costs)
       m_progress.expect(pm.collapses.size() + wanted);
-    const float threshold = pass_threshold(wanted);
+    const float threshold = is_spread() ? 0.f : pass_threshold(wanted);
     if(threshold == no_cost) {
       is_exhausted = true;
       break;
     }
     const std::size_t before = m_alive.size();
-    run_pass(m_stop.limit(m_surface, m_alive, threshold), wanted, pm);
+    run_pass(is_spread() ? 0.f : m_stop.limit(m_surface, m_alive, threshold), wanted, pm);
     remove_dead();
     const std::size_t done = before - m_alive.size();
     empty_passes = done == 0 ? empty_passes + 1 : 0;

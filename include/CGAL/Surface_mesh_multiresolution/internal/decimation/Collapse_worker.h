@@ -145,6 +145,9 @@ public:
   // v gets the best target that it allows, and stays for now.
   bool try_collapse(Vertex_index v, float limit, Collapses& collapses);
 
+  // Collapses v into the best target that the policies and topology allow, if there is one.
+  bool collapse_into_best(Vertex_index v, Collapses& collapses);
+
 private:
   typedef typename Surface::Layer Layer;
   typedef typename Surface::Vertex_star Vertex_star;
@@ -179,6 +182,7 @@ private:
   float cost_of_profile() const;
   float cost_of(Vertex_index v, std::uint32_t k);
   Target best_target(Vertex_index v, bool check_topology);
+  void collapse(Vertex_index v, std::uint32_t k, Collapses& collapses);
 
   Surface& m_surface;
   Vertex_index m_low, m_high;
@@ -296,11 +300,8 @@ void Collapse_worker<Surface>::evaluate(Vertex_index v, bool check_topology)
 template <class Surface>
 bool Collapse_worker<Surface>::try_collapse(Vertex_index v, float limit, Collapses& collapses)
 {
-  Vertex_rings& rings = m_surface.rings;
-  const Vertex_index* r = rings.ring(v);
-  const std::uint32_t d = rings.degree(v);
   const std::uint32_t k = position(v, m_surface.best_target[v]);
-  if(k == d || !load_star(v))
+  if(k == m_surface.rings.degree(v) || !load_star(v))
     return false;
   if(!(cost_of(v, k) <= limit))
     return false;
@@ -308,6 +309,32 @@ bool Collapse_worker<Surface>::try_collapse(Vertex_index v, float limit, Collaps
     evaluate(v, true);
     return false;
   }
+  collapse(v, k, collapses);
+  return true;
+}
+
+template <class Surface>
+bool Collapse_worker<Surface>::collapse_into_best(Vertex_index v, Collapses& collapses)
+{
+  ++m_evaluations;
+  if(!load_star(v))
+    return false;
+  const Target target = best_target(v, true);
+  if(target.cost == no_cost)
+    return false;
+  const std::uint32_t k = position(v, target.vertex);
+  set_profile(v, k);
+  collapse(v, k, collapses);
+  return true;
+}
+
+// Makes the collapse that the profile describes, of v into its ring vertex k.
+template <class Surface>
+void Collapse_worker<Surface>::collapse(Vertex_index v, std::uint32_t k, Collapses& collapses)
+{
+  Vertex_rings& rings = m_surface.rings;
+  const Vertex_index* r = rings.ring(v);
+  const std::uint32_t d = rings.degree(v);
   if constexpr(Surface::needs_update)
     m_surface.cost.update_before_collapse(m_profile, m_profile.placement());
   collapses.push_back({v, r[k]});
@@ -317,7 +344,6 @@ bool Collapse_worker<Surface>::try_collapse(Vertex_index v, float limit, Collaps
   m_surface.state[v].is_gone = 1;
   for(std::uint32_t i = 0; i < d; ++i)
     m_surface.state[r[i]].is_stale = 1;
-  return true;
 }
 
 } // namespace internal
