@@ -198,8 +198,9 @@ private:
   }
 
   static constexpr std::size_t coarsest_size = 40;
-  // If borders must not meet: Tutte's map shrinks a long tube by a factor for each vertex along it, and
-  // triangles of such different sizes, one in the other, never get loose any more. A few have room.
+  // If borders must not meet: Tutte's map shrinks a long tube by a factor for each vertex along it,
+  // and triangles of such different sizes, one in the other, never get loose any more. A few have
+  // room.
   static constexpr std::size_t coarsest_size_between_borders = 10;
   static constexpr double ratio = 3.;
 

@@ -19,9 +19,10 @@ namespace CGAL {
 namespace Surface_mesh_texturing {
 namespace internal {
 
-// Adapts the map of a chart to a metric of the triangles of the whole mesh: it becomes one with little
-// stretch in that metric. That is first looked for from nothing; if it is not one-to-one, or is no better
-// than the chart scaled to its area in the metric, as where the surface is a long tube, then from there.
+// Adapts the map of a chart to a metric of the triangles of the whole mesh: it becomes one with
+// little stretch in that metric. That is first looked for from nothing; if it is not one-to-one, or
+// is no better than the chart scaled to its area in the metric, as where the surface is a long tube,
+// then from there.
 inline void adapt_chart(const std::vector<Indexed_mesh::Space_tensor>& metric, Mapped_chart& map)
 {
   namespace SMP = Surface_mesh_parameterization;
