@@ -370,6 +370,23 @@ def which_map():
                   "normal map: mean error", "normal map: 95 %"], lines)
 
 
+def light_models():
+    """Normals of baked light models without and with the signal."""
+    models = {}
+    for row in read("light_models.csv"):
+        faces = 1000 * round(int(row["light_faces"]) / 1000)
+        models.setdefault((row["model"], row["size"], faces), {})[row["signal"]] = row
+    lines = []
+    for (model, size, _), rows in models.items():
+        if len(rows) < 2:
+            continue
+        line = [model, size]
+        for angle in ("mean_angle", "angle_95"):
+            line += [f"{float(rows[kind][angle]):.2f}" for kind in ("none", "normals")]
+        lines.append(line)
+    return table(["model", "texture", "mean", "with the signal", "95 %", "with the signal"], lines)
+
+
 def one_to_one():
     """Low-stretch maps that may overlap beside those that may not."""
     lines = []
@@ -449,7 +466,8 @@ def memory_of_commands():
 TABLES = {table.__name__: table for table in (
     million_faces, ratios, scaling, growth, stages, stages_two_threads, atlases,
     atlases_beside_paper, atlases_short, live, levels, compile_time, reading, low_stretch, one_to_one,
-    equation_peers, signals, which_map, full_pages, full_pages_peer, ranks, memory_of_commands)}
+    equation_peers, signals, light_models, which_map, full_pages, full_pages_peer, ranks,
+    memory_of_commands)}
 BEGIN, END = "<!-- table ", "<!-- end of table -->"
 
 

@@ -97,6 +97,21 @@ TEST(One_to_one_stretch, costs_little)
   }
 }
 
+// The circles of a tube of length L and radius 1 may become those of a ring, of radii from 1 to 1 + c L: its
+// energy is at most c^2 + 1 / c^2 + (1 + c L + c^2 L^2 / 3) + 1. No minimum is above that of the best c,
+// c^2 = 1 / r. From nested triangles as small as Tutte's map makes them the energy once fell no further
+// than 1e7.
+TEST(One_to_one_stretch, one_end_of_a_long_tube_surrounds_the_other)
+{
+  for(const double length : {10., 30., 60.}) {
+    const Indexed_triangle_mesh tube = cylinder(16, Vertex_index(length / 0.3));
+    const Low_stretch_map map = low_stretch_map(tube, one_to_one());
+    EXPECT_EQ(error_in_one_to_one_map(tube, map), "") << length;
+    const double r = std::sqrt(1. + length * length / 3.);
+    EXPECT_LT(map.report.energy, 2. + 2. * r + length / std::sqrt(r)) << length;
+  }
+}
+
 TEST(One_to_one_stretch, can_be_ended_at_any_moment)
 {
   const Indexed_triangle_mesh mesh = overlapping_charts()[1].mesh;

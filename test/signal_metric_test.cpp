@@ -590,6 +590,49 @@ TEST(Signal_metric, charts_of_an_atlas_are_adapted)
   EXPECT_NE(SMT::build_texture_atlas(mesh, options).error.find("tensors"), std::string::npos);
 }
 
+// A chart with two borders, one far in the other, which no map from nothing finds: the adapted one is
+// one-to-one, and no worse than the chart was.
+TEST(Signal_metric, adapted_charts_are_not_worse)
+{
+  namespace SMT = CGAL::Surface_mesh_texturing;
+  const std::size_t around = 24, rows = 200;
+  const Indexed_triangle_mesh tube = cylinder(around, rows);
+  Tensors metric;
+  for(const auto& t : tube.triangles)
+    metric.push_back(Space_tensor::identity(t[0] < around * rows / 2 ? 4. : 1.));
+  SMT::internal::Mapped_chart chart;
+  chart.chart.mesh = tube;
+  const CGAL::Indexed_mesh::Triangle_adjacency adjacency(tube.triangles);
+  for(std::uint32_t t = 0; t < tube.triangles.size(); ++t) {
+    chart.chart.triangles.push_back(t);
+    for(std::uint32_t c = 0; c < 3; ++c)
+      if(adjacency.opposite(t, c) == CGAL::Indexed_mesh::no_halfedge)
+        chart.chart.border.push_back(3 * t + c);
+  }
+  for(std::size_t v = 0; v < tube.points.size(); ++v) {
+    const double r = 1. + 0.2 * double(rows - v / around);
+    chart.uv.emplace_back(r * tube.points[v].x(), r * tube.points[v].y());
+  }
+  const auto energy_of = [&](const Uv& uv) {
+    double sum = 0.;
+    for(std::size_t t = 0; t < tube.triangles.size(); ++t) {
+      const auto& v = tube.triangles[t];
+      const auto r = Reference_triangle<double>::of_points(tube.points[v[0]], tube.points[v[1]],
+                                                           tube.points[v[2]], metric[t]);
+      const auto p = [&](int c) { return Plane_vector<double>{uv[v[c]].x(), uv[v[c]].y()}; };
+      const Plane_jacobian<double> j(r, {p(0), p(1), p(2)});
+      sum += j.determinant() > 0. ? r.area() * Symmetric_dirichlet_energy().value(j.squared_norm(),
+                                                                                  j.determinant())
+                                  : infinity;
+    }
+    return sum;
+  };
+  const double before = energy_of(chart.uv);
+  SMT::internal::adapt_chart(metric, chart);
+  EXPECT_LT(energy_of(chart.uv), 0.9 * before);
+  EXPECT_TRUE(is_simple_border(chart.chart.border_edges(), chart.uv));
+}
+
 // --- Bad input
 
 TEST(Signal_metric, says_what_is_wrong)

@@ -64,7 +64,9 @@ public:
              Border_rule rule, const std::function<bool(double)>& progress)
   {
     namespace SMM = Surface_mesh_multiresolution;
-    const std::size_t coarsest = coarsest_size + m_task.held.size();
+    const bool is_between_borders = m_task.borders.size() > 1;
+    const std::size_t coarsest
+      = (is_between_borders ? coarsest_size_between_borders : coarsest_size) + m_task.held.size();
     m_collapses = collapse_to_few(mesh, std::move(rings), m_is_fixed, coarsest, rule, progress, m_rings);
     m_tensors = Vertex_tensors(mesh, m_task.metric);
     m_tensors.collapse(m_collapses.collapses);
@@ -196,6 +198,10 @@ private:
   }
 
   static constexpr std::size_t coarsest_size = 40;
+  // If borders must not meet: Tutte's map shrinks a long tube by a factor for each vertex along it,
+  // and triangles of such different sizes, one in the other, never get loose any more. A few have
+  // room.
+  static constexpr std::size_t coarsest_size_between_borders = 10;
   static constexpr double ratio = 3.;
 
   Stretch_task m_task;
