@@ -114,6 +114,21 @@ TEST(Page_filling, parts_keep_the_map_of_their_chart)
     }
 }
 
+// A small part of a rectangle, laid along the rest, makes a square of both.
+TEST(Page_filling, rectangles_become_squares)
+{
+  for(const std::size_t length : {56u, 64u, 72u}) {
+    const Indexed_triangle_mesh mesh = with_noise(grid(length, 40), 0.02, seed);
+    const auto whole = SMT::build_texture_atlas(mesh, with_price(infinity));
+    const auto filled = SMT::build_texture_atlas(mesh, with_price(0.02));
+    ASSERT_EQ(whole.error + filled.error, "") << length << seed_text;
+    EXPECT_EQ(error_in_atlas(mesh, filled.atlas), "") << length << seed_text;
+    EXPECT_EQ(whole.report.charts.size(), 1u) << length << seed_text;
+    EXPECT_LE(filled.report.page_cuts, 3u) << length << seed_text;
+    EXPECT_GT(filled.report.utilisation, whole.report.utilisation + 0.1) << length << seed_text;
+  }
+}
+
 TEST(Page_filling, cheaper_seams_give_no_fewer_cuts_and_a_limit_of_charts_holds)
 {
   for(const Named_mesh& shape : bad_shapes()) {

@@ -35,6 +35,21 @@ TEST(Raster_packer_test, fills_a_page_with_squares)
   EXPECT_GT(result.utilisation, 0.9);
 }
 
+// The box around a square on a corner has the diagonal of a page long before the square does.
+TEST(Raster_packer_test, fills_a_page_with_a_square_however_it_is_turned)
+{
+  const Packing_options options = small_page(256, 256);
+  for(const double angle : {0., 0.3, 0.25 * CGAL_PI}) {
+    Charts charts(1, rectangle_chart(1., 1.));
+    for(Point_2& p : charts[0].uv)
+      p = Point_2(std::cos(angle) * p.x() - std::sin(angle) * p.y(),
+                  std::sin(angle) * p.x() + std::cos(angle) * p.y());
+    const Packing_result result = pack_charts(charts, options);
+    EXPECT_EQ(packing_error(charts, options, result), "");
+    EXPECT_GT(result.utilisation, 0.9) << angle;
+  }
+}
+
 TEST(Raster_packer_test, puts_a_chart_into_the_hole_of_another)
 {
   const Charts charts = {ring_chart(0.8, 1.), fan_chart(40, [](double) { return 0.7; })};

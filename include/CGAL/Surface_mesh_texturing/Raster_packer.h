@@ -36,6 +36,7 @@ Transactions in Operational Research 16, 2009). All places are looked at on a ra
 cells a chart, some on a raster four times as fine, and only what does not overlap on that of texels
 is taken.
 
+If the number of directions is free, these are 8 for the orders, and 48 for a chart alone.
 For more than 1000 charts the density is found to 2 %, and they have 4 directions if their number is
 free.
 

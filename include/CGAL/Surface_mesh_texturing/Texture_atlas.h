@@ -41,7 +41,8 @@ struct Texture_atlas_options
   /// The part of its convex hull in the plane that a chart fills at least, as far as charts can be
   /// told apart: less means fewer charts, and more of the texture left empty.
   double least_fill = 0.75;
-  /// Triangles of the level on which the charts are found.
+  /// Triangles of the level on which the charts are found, at most; `Chart_growth_segmenter` takes
+  /// fewer of small meshes.
   std::size_t coarse_faces = 4000;
   /// Meshes of more than four times as many triangles are made coarser to about so many first; the
   /// charts are found, mapped and, where need be, cut again there, since few of them then have to

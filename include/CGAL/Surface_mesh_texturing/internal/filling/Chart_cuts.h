@@ -35,7 +35,6 @@ inline Chart_outline polygon_outline(const std::vector<Vector_2d>& polygon, doub
     }
   Chart_outline result;
   result.centre = {0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])};
-  result.diameter = distance(low, high) / unit;
   std::vector<Vector_2d> points;
   for(const Vector_2d& p : polygon)
     points.push_back({(p[0] - result.centre[0]) / unit, (p[1] - result.centre[1]) / unit});
@@ -47,6 +46,7 @@ inline Chart_outline polygon_outline(const std::vector<Vector_2d>& polygon, doub
   }
   result.area = std::abs(result.area);
   result.angle = aligning_angle(points);
+  result.diameter = largest_extent(points);
   return result;
 }
 
@@ -283,7 +283,12 @@ inline std::vector<Chart_cut> Chart_cut_finder::find()
       return is_allowed ? -c.along : never;
     };
   };
+  // The part to be cut from a rectangle for a square: it lies along the rest then
+  constexpr double near = 0.04;
+  const double aspect = finder.aspect(), part = 0.5 * (aspect - 1.) / aspect;
   take(of_hulls);
+  if(part > near && part < 0.38)
+    take(crossing(part - near, part + near));
   take(crossing(0.38, 0.5));
   take(crossing(0.25, 0.4));
   take(of_hulls);

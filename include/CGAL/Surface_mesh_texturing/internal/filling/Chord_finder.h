@@ -44,6 +44,23 @@ public:
 
   double area() const { return m_sums.back(); }
 
+  // The long side of the rectangle around the polygon to the short one.
+  double aspect() const
+  {
+    Vector_2d low = {0., 0.}, high = {0., 0.};
+    for(const Vector_2d& p : m_polygon) {
+      const double x = p[0] - m_polygon[0][0], y = p[1] - m_polygon[0][1];
+      const Vector_2d q = {x * m_direction[0] + y * m_direction[1],
+                           y * m_direction[0] - x * m_direction[1]};
+      for(int c = 0; c < 2; ++c) {
+        low[c] = (std::min)(low[c], q[c]);
+        high[c] = (std::max)(high[c], q[c]);
+      }
+    }
+    const double w = high[0] - low[0], h = high[1] - low[1];
+    return (std::min)(w, h) > 0. ? (std::max)(w, h) / (std::min)(w, h) : 1.;
+  }
+
   std::vector<Chord> find() const
   {
     const std::size_t n = m_polygon.size();

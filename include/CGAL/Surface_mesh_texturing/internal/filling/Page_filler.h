@@ -54,6 +54,7 @@ private:
   };
 
   bool cut_once(const Terms& terms);
+  bool cut_twice(const Terms& terms);
   std::vector<Candidate> candidates();
   void estimate(const Terms& terms, std::vector<Candidate>& candidates) const;
   std::vector<Mapped_chart> parts_of(const Chart_cut& cut, const Mapped_chart& whole) const;
@@ -64,13 +65,13 @@ private:
 
   std::vector<Mapped_chart>& m_charts;
   const Chart_mapping& m_mapping;
-  double m_unit; // of the outlines
-  double m_side; // of a page, in texels
+  double m_unit, m_side; // of the outlines; of a page, in texels
   std::vector<Packable> m_shapes;
   std::vector<std::vector<Chart_cut>> m_cuts; // of each chart
   std::vector<bool> m_has_cuts;
   Packing_estimate m_estimate;
-  int m_level = 0; // of the packing so far
+  int m_level = 0;      // of the packing so far
+  double m_paid = 0.;   // for seams, in parts of the pages
 };
 
 // The largest extent of a chart.
@@ -131,11 +132,44 @@ inline Page_filler::Page_filler(std::vector<Mapped_chart>& charts, const Packing
 inline std::size_t Page_filler::run(const Terms& terms)
 {
   std::size_t cuts = 0;
-  while(cuts < terms.most_cuts && used() < terms.enough
-        && (terms.most_charts == 0 || m_charts.size() < terms.most_charts) && m_mapping.has_time()
-        && cut_once(terms))
-    ++cuts;
+  const auto may_cut = [&](std::size_t more) {
+    return cuts + more <= terms.most_cuts && used() < terms.enough
+        && (terms.most_charts == 0 || m_charts.size() + more <= terms.most_charts)
+        && m_mapping.has_time();
+  };
+  constexpr double poor = 0.7;
+  while(may_cut(1))
+    if(cut_once(terms))
+      ++cuts;
+    else if(terms.least_gain > 0. && used() < poor && may_cut(2) && cut_twice(terms))
+      cuts += 2;
+    else
+      break;
   return cuts;
+}
+
+// Makes two cuts that gain enough together where one alone does not; else the charts are as before.
+inline bool Page_filler::cut_twice(const Terms& terms)
+{
+  constexpr double most_lost = 0.04; // by the first one, of the pages
+  const std::vector<Mapped_chart> charts = m_charts;
+  const std::vector<Packable> shapes = m_shapes;
+  const double paid = m_paid, before = used();
+  const int level = m_level;
+  Terms first = terms, second = terms;
+  first.least_gain = -most_lost;
+  if(cut_once(first)) {
+    second.least_gain = 2. * terms.least_gain + before - used() + m_paid - paid;
+    if(cut_once(second))
+      return true;
+  }
+  m_charts = charts;
+  m_shapes = shapes;
+  m_cuts.assign(charts.size(), {});
+  m_has_cuts.assign(charts.size(), false);
+  m_paid = paid;
+  m_level = level;
+  return false;
 }
 
 // The cuts of the charts with the largest diameters.
@@ -345,6 +379,7 @@ inline bool Page_filler::apply(const Terms& terms, const Candidate& candidate)
   const int level = m_estimate.highest_level(shapes, least);
   if(level < least)
     return false;
+  m_paid += terms.seam_price * in_sides(cut.length);
   m_level = level;
   m_shapes = std::move(shapes);
   m_charts[candidate.chart] = std::move(parts[0]);

@@ -38,7 +38,7 @@ struct Chart_outline
   Vector_2d centre = {0., 0.};                  // of the bounding box, in the chart's plane
   double angle = 0.;    // of the rotation that aligns the smallest rectangle, long side along x
   double area = 0.;     // of all triangles, in common units
-  double diameter = 0.; // of the bounding box, in common units
+  double diameter = 0.; // about, and not more, in common units: however the chart is turned
 };
 
 // The bounding box (lower left, upper right) of the vertices of the triangles.
@@ -127,6 +127,25 @@ inline std::vector<Vector_2d> convex_hull(std::vector<Vector_2d> points)
   return hull;
 }
 
+// The largest extent of the points in some directions: not more than their diameter, and not less
+// than 0.995 times that.
+inline double largest_extent(const std::vector<Vector_2d>& points)
+{
+  constexpr int directions = 16;
+  double result = 0.;
+  for(int i = 0; i < directions && !points.empty(); ++i) {
+    const double angle = CGAL_PI * i / directions, c = std::cos(angle), s = std::sin(angle);
+    const auto along = [c, s](const Vector_2d& p) { return c * p[0] + s * p[1]; };
+    double low = along(points[0]), high = low;
+    for(const Vector_2d& p : points) {
+      low = (std::min)(low, along(p));
+      high = (std::max)(high, along(p));
+    }
+    result = (std::max)(result, high - low);
+  }
+  return result;
+}
+
 // The sides of a hull whose directions are tried: all, but for very many the longest ones.
 inline std::vector<std::size_t> tried_sides(const std::vector<Vector_2d>& hull)
 {
@@ -191,7 +210,6 @@ inline Chart_outline chart_outline(const Chart_shape& chart, double unit)
     for(std::size_t v = 0; v < points.size(); ++v)
       points[v][c] = (chart.uv[v][c] - result.centre[c]) / unit;
   }
-  result.diameter = std::hypot(box[1][0] - box[0][0], box[1][1] - box[0][1]) / unit;
   std::vector<double> areas;
   double sum = 0.;
   for(const auto& t : chart.triangles) {
@@ -210,6 +228,7 @@ inline Chart_outline chart_outline(const Chart_shape& chart, double unit)
       corners.push_back(e.to);
     }
   result.angle = aligning_angle(corners);
+  result.diameter = largest_extent(corners);
   return result;
 }
 

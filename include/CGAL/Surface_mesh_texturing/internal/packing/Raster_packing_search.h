@@ -40,7 +40,7 @@ public:
   Raster_packing_search(const std::vector<Chart_outline>& outlines, double unit,
                         const Packing_options& options)
     : m_outlines(outlines), m_unit(unit), m_options(options), m_exact(exact_raster(options)),
-      m_rotations(options.rotations > 0 ? options.rotations : is_dust() ? 4 : 8),
+      m_rotations(options.rotations > 0 ? options.rotations : free_rotations()),
       m_coarse(coarser_raster(m_exact, coarse_cells())),
       m_ladder(outlines, m_exact, (std::max)(std::size_t(1), options.max_pages)),
       m_longest_edges(longest_edges(outlines))
@@ -102,6 +102,9 @@ private:
 
   Packing_result packing_result(const Raster_packing& packing, const Chart_rasters& charts,
                                 double density) const;
+
+  // The directions if their number is free: a chart alone is turned to where it is the smallest.
+  int free_rotations() const { return is_dust() ? 4 : m_outlines.size() == 1 ? 48 : 8; }
 
   // So many charts are mostly single triangles: a little more density is not worth minutes.
   bool is_dust() const { return m_outlines.size() > 1000; }
