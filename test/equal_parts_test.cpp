@@ -191,18 +191,16 @@ TEST(Equal_parts, without_any_the_atlas_is_what_it_was)
 
 // --- Mirrored halves
 
-// A plane with hills, its mirror image at its side, turned and moved: nothing else of it is symmetric.
-// Edges of triangles across the plane are moved off it by `gap`, and bridged.
+// A plane with hills, and its mirror image at its side: nothing else of it is symmetric.
 Indexed_triangle_mesh symmetric_hills(std::uint64_t s)
 {
   const Indexed_triangle_mesh half = with_hills(irregular_grid(9, 14, seed + s), 1.5, seed + s + 1);
   Indexed_triangle_mesh mesh = half;
-  const double left = 0.;
   std::vector<Vertex_index> image(half.points.size());
   for(Vertex_index v = 0; v < half.points.size(); ++v) {
     const Point_3& p = half.points[v];
     image[v] = v;
-    if(p.x() > left) {
+    if(p.x() > 0.) {
       image[v] = Vertex_index(mesh.points.size());
       mesh.points.emplace_back(-p.x(), p.y(), p.z());
     }
@@ -243,12 +241,18 @@ TEST(Mirror_halves, of_copies_are_copies)
   EXPECT_EQ(error_in_parts(mesh, parts, 1e-9), "") << seed_text;
 }
 
-// Where triangles lie across the plane, they are mirrored to themselves, and are in one half only.
-TEST(Mirror_halves, may_have_triangles_between_them)
+// A sphere that is bent so that only one plane is left, across which triangles lie.
+Indexed_triangle_mesh bent_sphere()
 {
   Indexed_triangle_mesh mesh = sphere(3);
-  for(Point_3& p : mesh.points) // so that only one plane is left
+  for(Point_3& p : mesh.points)
     p = Point_3((1. + 0.3 * p.y() + 0.2 * p.z()) * p.x(), p.y() + 0.3 * p.z() * p.z(), p.z());
+  return mesh;
+}
+
+TEST(Mirror_halves, may_have_triangles_between_them)
+{
+  const Indexed_triangle_mesh mesh = bent_sphere();
   const SMT::Equal_parts parts = SMT::find_equal_parts(mesh, 1e-4, SMT::Mirror_halves::APART);
   EXPECT_EQ(parts.halved_components, 1u);
   EXPECT_EQ(error_in_parts(mesh, parts, 1e-9), "");
@@ -271,7 +275,8 @@ std::array<double, 3> sides_in_texels(const SMT::Texture_atlas& atlas, const SMT
 {
   std::array<double, 3> result;
   for(int c = 0; c < 3; ++c) {
-    const auto d = atlas.mesh.uv[atlas.mesh.wedges[t][(c + 1) % 3]] - atlas.mesh.uv[atlas.mesh.wedges[t][c]];
+    const auto& w = atlas.mesh.wedges[t];
+    const auto d = atlas.mesh.uv[w[(c + 1) % 3]] - atlas.mesh.uv[w[c]];
     const int a = parts.corner[t][c], b = parts.corner[t][(c + 1) % 3];
     result[(a + 1) % 3 == b ? a : b]
       = std::hypot(d.x() * double(atlas.width), d.y() * double(atlas.height));
@@ -285,10 +290,8 @@ TEST(Mirror_halves, have_charts_that_are_mirror_images)
   SMT::Texture_atlas_options options;
   options.packing.width = options.packing.height = 256;
   options.coarse_faces = 500;
-  Indexed_triangle_mesh bent = torus(40, 20); // with one plane left
-  for(Point_3& p : bent.points)
-    p = Point_3(p.x() + 0.2 * p.y() * p.y() + 0.1 * p.z(), (1. + 0.1 * p.x() + 0.2 * p.z()) * p.y(), p.z());
-  for(const Indexed_triangle_mesh& mesh : {symmetric_hills(3), copy_of(bent, random, false)}) {
+  for(const Indexed_triangle_mesh& mesh :
+      {symmetric_hills(3), copy_of(symmetric_hills(4), random, false), bent_sphere()}) {
     const SMT::Equal_parts parts = SMT::find_equal_parts(mesh, 1e-4, SMT::Mirror_halves::APART);
     ASSERT_EQ(parts.halved_components, 1u) << seed_text;
     const SMT::Texture_atlas_result half = SMT::build_texture_atlas(parts.representatives, options);
@@ -297,7 +300,8 @@ TEST(Mirror_halves, have_charts_that_are_mirror_images)
     ASSERT_EQ(all.error, "");
     EXPECT_EQ(error_in_atlas(mesh, all.atlas), "") << seed_text; // no flip, no overlap, disks
     const std::size_t charts = all.atlas.charts.number_of_charts;
-    if(2 * parts.representatives.triangles.size() == mesh.triangles.size()) {
+    const bool are_all_in_pairs = 2 * parts.representatives.triangles.size() == mesh.triangles.size();
+    if(are_all_in_pairs) {
       EXPECT_EQ(charts, 2 * half.atlas.charts.number_of_charts);
       EXPECT_EQ(SMT::number_of_charts_with_equals(parts, all.atlas.charts), charts) << seed_text;
     }
@@ -311,13 +315,15 @@ TEST(Mirror_halves, have_charts_that_are_mirror_images)
         EXPECT_NEAR(sides_in_texels(all.atlas, parts, t)[c], of_model[parts.stand_in[t]][c], 1e-6);
     // On each other: twice the texels
     const SMT::Texture_atlas_result stacked = SMT::stacked_atlas(mesh, parts, half);
-    EXPECT_EQ(stacked.atlas.mesh.uv.size(), 2 * half.atlas.mesh.uv.size());
-    EXPECT_EQ(SMT::number_of_charts_with_equals(parts, stacked.atlas.charts),
-              stacked.atlas.charts.number_of_charts);
+    if(are_all_in_pairs) {
+      EXPECT_EQ(stacked.atlas.mesh.uv.size(), 2 * half.atlas.mesh.uv.size());
+      EXPECT_EQ(SMT::number_of_charts_with_equals(parts, stacked.atlas.charts), charts);
+    }
     EXPECT_GT(stacked.report.texels_per_unit, 1.2 * all.report.texels_per_unit);
     // The number of threads does not matter
-    options.threads = 3;
-    const auto of_three = SMT::unstacked_atlas<CGAL::Parallel_tag>(mesh, parts, half, options);
+    SMT::Texture_atlas_options threads = options;
+    threads.threads = 3;
+    const auto of_three = SMT::unstacked_atlas<CGAL::Parallel_tag>(mesh, parts, half, threads);
     EXPECT_TRUE(of_three.atlas.mesh.uv == all.atlas.mesh.uv);
   }
 }

@@ -47,7 +47,8 @@ struct Equal_parts
   std::vector<Triangle_index> stand_in;
   /// For each corner of a triangle of the surface the corner of its stand-in.
   std::vector<std::array<std::uint8_t, 3>> corner;
-  std::vector<std::uint32_t> part; ///< for each triangle of the surface its component, or half of one
+  /// For each triangle of the surface its component, or half of one.
+  std::vector<std::uint32_t> part;
   std::size_t number_of_parts = 0; ///< components of the surface; halves count as two
   std::size_t copies = 0;          ///< of these, those that have a stand-in
   std::size_t mirrored_copies = 0; ///< of these, those that are mirrored
@@ -131,8 +132,8 @@ inline void fill_representatives(const Indexed_triangle_mesh& mesh, Equal_parts&
   }
 }
 
-// Makes parts of the halves that are mirror images of others, `half`, and of the copies of these; the
-// copies stand for what their models stand for then.
+// Makes parts of the halves that are mirror images of others, `half`, and of the copies of these;
+// what stood for a triangle of such a half then has the stand-in of that.
 inline void part_halves(const std::vector<Triangle_match>& half, std::vector<Triangle_match>& match,
                         Equal_parts& result)
 {

@@ -19,7 +19,8 @@ namespace internal {
 
 // The texture of a stacked atlas in texels, with no mirrored triangles: those of mirrored parts are
 // moved to the other side of the origin.
-inline Textured_triangle_mesh upright_texture(const Equal_parts& parts, const Texture_atlas& stacked)
+inline Textured_triangle_mesh upright_texture(const Equal_parts& parts,
+                                              const Texture_atlas& stacked)
 {
   Textured_triangle_mesh result = stacked.mesh;
   std::vector<std::uint8_t> is_done(result.uv.size(), 0);
@@ -80,7 +81,7 @@ Texture_atlas_result unstacked_atlas(const Indexed_triangle_mesh& mesh, const Eq
   report.seconds_pack += first.seconds_pack;
   report.seconds_total += first.seconds_total;
   report.unwanted_seams
-    = internal::number_of_seams_on(mesh.triangles, result.atlas.charts, options.no_seams);
+    = number_of_seams_on(mesh.triangles, result.atlas.charts, options.no_seams);
   return result;
 }
 

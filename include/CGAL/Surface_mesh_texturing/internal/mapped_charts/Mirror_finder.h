@@ -22,10 +22,10 @@ namespace CGAL {
 namespace Surface_mesh_texturing {
 namespace internal {
 
-// Finds a plane that mirrors a component of a surface onto itself, vertices onto vertices and triangles
-// onto triangles. Tried are the planes through the centre of its area across the axes of space and its
-// principal axes, which is where they are, unless a surface has many. Expected linear time, much
-// less where the first vertices have no mirror image.
+// Finds a plane that mirrors a component of a surface onto itself, vertices onto vertices and
+// triangles onto triangles. Tried are the planes through the centre of its area across the axes of
+// space and its principal axes, which is where they are, unless a surface has many. Expected linear
+// time, much less where the first vertices have no mirror image.
 class Mirror_finder
 {
 public:
@@ -37,8 +37,8 @@ public:
     : m_mesh(mesh), m_part(part), m_allowed(tolerance * part.radius)
   {}
 
-  // For each triangle of one half, whose mirror image is the other half, the one that it is mirrored to;
-  // triangles that are mirrored to themselves are in none. Of the planes that do it is the one
+  // For each triangle of one half, whose mirror image is the other half, the one that it is mirrored
+  // to; triangles that are mirrored to themselves are in none. Of the planes that do, it is the one
   // with the shortest cut. Nothing if there is none.
   std::vector<std::pair<Index, Triangle_match>> half()
   {
@@ -97,7 +97,7 @@ private:
         m_edges.emplace(directed(v, m_mesh.triangles[t][(c + 1) % 3]), 3 * t + Index(c));
         if(m_images.emplace(v, no_vertex).second) {
           m_vertices.push_back(v);
-          m_cells.emplace(cell(point(v), {0., 0., 0.}), v);
+          m_cells.emplace(cell(point(v), Vector::Zero()), v);
         }
       }
     return true;
@@ -140,7 +140,8 @@ private:
     double nearest = m_allowed;
     std::array<std::uint64_t, 8> seen;
     for(int corner = 0; corner < 8; ++corner) {
-      seen[corner] = cell(p, Vector(corner & 1 ? 1. : -1., corner & 2 ? 1. : -1., corner & 4 ? 1. : -1.));
+      const auto side = [corner](int axis) { return (corner >> axis & 1) != 0 ? 1. : -1.; };
+      seen[corner] = cell(p, Vector(side(0), side(1), side(2)));
       if(std::find(seen.begin(), seen.begin() + corner, seen[corner]) != seen.begin() + corner)
         continue;
       const auto [begin, end] = m_cells.equal_range(seen[corner]);

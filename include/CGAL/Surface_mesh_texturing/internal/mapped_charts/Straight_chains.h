@@ -114,8 +114,8 @@ private:
 
   const Point_2& point(std::size_t i) const { return m_uv[m_loop[i % m_loop.size()]]; }
 
-  // Of the edge from a vertex of the loop to the next one: the axis along which it runs, 0 for +x, 1
-  // for +y, 2 for -x, 3 for -y.
+  // Of the edge from a vertex of the loop to the next one: the axis along which it runs, 0 for +x,
+  // 1 for +y, 2 for -x, 3 for -y.
   int direction(std::size_t i) const
   {
     const auto d = point(i + 1) - point(i);
@@ -205,8 +205,8 @@ struct Fixed_coordinate
   std::vector<double> place;
 };
 
-// What chains give to the vertices, for both coordinates. A chain that meets a longer one with the same
-// coordinate, as at the tip of a spike, is left out.
+// What chains give to the vertices, for both coordinates. A chain that meets a longer one with the
+// same coordinate, as at the tip of a spike, is left out.
 inline std::array<Fixed_coordinate, 2> fixed_coordinates(const std::vector<Straight_chain>& chains,
                                                          std::size_t vertices)
 {

@@ -105,8 +105,8 @@ inline void align_charts(std::vector<Mapped_chart>& maps)
   });
 }
 
-// Turns maps that are turned by quarters on their pages, so that their places do not turn them any more:
-// what is parallel to the axes then stays so exactly.
+// Turns maps that are turned by quarters on their pages, so that their places do not turn them any
+// more: what is parallel to the axes then stays so exactly.
 inline void turn_by_quarters(std::vector<Mapped_chart>& maps,
                              std::vector<Chart_placement>& placements)
 {

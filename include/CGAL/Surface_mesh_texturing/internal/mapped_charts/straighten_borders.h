@@ -20,8 +20,8 @@ namespace internal {
 
 // The cotangents of the angles of triangles in the plane, none smaller than a hundredth: as weights
 // of the opposite edges they make a positive definite matrix.
-inline std::vector<std::array<double, 3>> edge_weights(const std::vector<Triangle_indices>& triangles,
-                                                       const std::vector<Point_2>& uv)
+inline std::vector<std::array<double, 3>>
+edge_weights(const std::vector<Triangle_indices>& triangles, const std::vector<Point_2>& uv)
 {
   constexpr double least = 0.01, most = 100.;
   std::vector<std::array<double, 3>> result;
@@ -37,8 +37,8 @@ inline std::vector<std::array<double, 3>> edge_weights(const std::vector<Triangl
 }
 
 // Moves one coordinate of some vertices to where they have to be, and the others along: how far is
-// the harmonic function of the plane. Returns whether that could be solved. Complexity: that of a sparse
-// Cholesky factorization.
+// the harmonic function of the plane. Returns whether that could be solved. Complexity: that of a
+// sparse Cholesky factorization.
 inline bool move_coordinate(const std::vector<Triangle_indices>& triangles,
                             const std::vector<std::array<double, 3>>& weights,
                             const Fixed_coordinate& fixed, std::vector<double>& coordinate)
@@ -105,9 +105,9 @@ inline std::vector<Point_2> with_straight_chains(const Mapped_chart& map,
   return result;
 }
 
-// Lets a chart that is turned along the axes have straight borders, if its map stays one-to-one, by exact
-// predicates, and within the bound, or not beyond what it was. Its area in the plane is kept. What is
-// nearly straight becomes straight; if that is too much, only what is still more so.
+// Lets a chart that is turned along the axes have straight borders, if its map stays one-to-one, by
+// exact predicates, and within the bound, or not beyond what it was. Its area in the plane is kept.
+// What is nearly straight becomes straight; if that is too much, only what is still more so.
 inline void straighten_border(const Chart_mapping& mapping, Mapped_chart& map)
 {
   namespace SMP = Surface_mesh_parameterization;
