@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <cstddef>
 #include <cstdint>
 #include <set>
@@ -195,6 +196,89 @@ inline std::vector<Straight_chain> straight_chains(const std::vector<Border_edge
   std::stable_sort(result.begin(), result.end(), [](const auto& a, const auto& b) {
     return a.length > b.length;
   });
+  return result;
+}
+
+// The corners of a loop, in their order: where it turns to the left by much, as seen from a little
+// way before and behind. None if it turns to the right by much somewhere, as no quad does.
+inline std::vector<std::size_t> corners_of_quad(const std::vector<Vertex_index>& loop,
+                                                const std::vector<Point_2>& uv)
+{
+  constexpr double part = 0.03, least_turn = 50. * CGAL_PI / 180.; // of the length of the loop
+  const std::size_t n = loop.size();
+  std::vector<double> place(1, 0.); // along the loop
+  for(std::size_t i = 0; i < n; ++i)
+    place.push_back(place.back()
+                    + std::sqrt(squared_distance(uv[loop[i]], uv[loop[(i + 1) % n]])));
+  const double length = place.back(), way = part * length;
+  const auto distance = [&](std::size_t i, std::size_t j) {
+    const double d = std::abs(place[i] - place[j]);
+    return (std::min)(d, length - d);
+  };
+  std::vector<std::pair<double, std::size_t>> turns; // negative, so that the sharpest come first
+  for(std::size_t i = 0; i < n; ++i) {
+    std::size_t before = (i + n - 1) % n, behind = (i + 1) % n;
+    while(before != i && distance(before, i) < way)
+      before = (before + n - 1) % n;
+    while(behind != i && distance(behind, i) < way)
+      behind = (behind + 1) % n;
+    const auto p = uv[loop[i]] - uv[loop[before]], q = uv[loop[behind]] - uv[loop[i]];
+    const double turn = std::atan2(p.x() * q.y() - p.y() * q.x(), p * q);
+    if(turn < -least_turn)
+      return {};
+    if(turn > least_turn)
+      turns.push_back({-turn, i});
+  }
+  std::sort(turns.begin(), turns.end());
+  std::vector<std::size_t> corners;
+  for(const auto& turn : turns)
+    if(std::none_of(corners.begin(), corners.end(), [&](std::size_t corner) {
+         return distance(corner, turn.second) < 2. * way;
+       }))
+      corners.push_back(turn.second);
+  std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+// Turns a map whose border has four sides so that these lie along the axes as well as they can, and
+// returns them as chains; none, and the map as it is, if its border is not like that.
+inline std::vector<Straight_chain> sides_of_quad(const std::vector<Border_edge>& border,
+                                                 std::vector<Point_2>& uv)
+{
+  typedef std::complex<double> Complex;
+  const std::vector<std::vector<Vertex_index>> loops = border_loops(border, uv.size());
+  if(loops.size() != 1)
+    return {};
+  const std::vector<Vertex_index>& loop = loops[0];
+  const std::vector<std::size_t> corners = corners_of_quad(loop, uv);
+  if(corners.size() != 4)
+    return {};
+  const auto at = [&](std::size_t i) { return Complex(uv[loop[i]].x(), uv[loop[i]].y()); };
+  Complex sum = 0.;
+  for(int k = 0; k < 4; ++k)
+    sum += (at(corners[(k + 1) % 4]) - at(corners[k])) * std::pow(Complex(0., -1.), k);
+  if(!(std::abs(sum) > 0.))
+    return {};
+  const Complex turn = std::conj(sum) / std::abs(sum);
+  for(Point_2& p : uv) {
+    const Complex turned = turn * Complex(p.x(), p.y());
+    p = Point_2(turned.real(), turned.imag());
+  }
+  std::vector<Straight_chain> result(4);
+  for(int k = 0; k < 4; ++k) {
+    Straight_chain& side = result[k];
+    side.axis = 1 - k % 2;
+    for(std::size_t i = corners[k];; i = (i + 1) % loop.size()) {
+      side.vertices.push_back(loop[i]);
+      if(i == corners[(k + 1) % 4])
+        break;
+      const Point_2 &p = uv[loop[i]], &q = uv[loop[(i + 1) % loop.size()]];
+      const double length = std::sqrt(squared_distance(p, q));
+      side.length += length;
+      side.place += length * 0.5 * (p[side.axis] + q[side.axis]);
+    }
+    side.place /= side.length;
+  }
   return result;
 }
 

@@ -87,58 +87,72 @@ inline bool move_coordinate(const std::vector<Triangle_indices>& triangles,
 }
 
 // Where the vertices go when chains become straight; empty if that could not be solved.
-inline std::vector<Point_2> with_straight_chains(const Mapped_chart& map,
-                                                 const std::array<Fixed_coordinate, 2>& fixed)
+inline std::vector<Point_2> with_straight_chains(const std::vector<Triangle_indices>& triangles,
+                                                 const std::array<Fixed_coordinate, 2>& fixed,
+                                                 const std::vector<Point_2>& uv)
 {
-  const std::vector<Triangle_indices>& triangles = map.chart.mesh.triangles;
-  const auto weights = edge_weights(triangles, map.uv);
+  const auto weights = edge_weights(triangles, uv);
   std::array<std::vector<double>, 2> moved;
   for(int axis = 0; axis < 2; ++axis) {
-    for(const Point_2& p : map.uv)
+    for(const Point_2& p : uv)
       moved[axis].push_back(p[axis]);
     if(!move_coordinate(triangles, weights, fixed[axis], moved[axis]))
       return {};
   }
   std::vector<Point_2> result;
-  for(std::size_t v = 0; v < map.uv.size(); ++v)
+  for(std::size_t v = 0; v < uv.size(); ++v)
     result.emplace_back(moved[0][v], moved[1][v]);
   return result;
 }
 
-// Lets a chart that is turned along the axes have straight borders, if its map stays one-to-one, by
-// exact predicates, and within the bound, or not beyond what it was. Its area in the plane is kept.
-// What is nearly straight becomes straight; if that is too much, only what is still more so.
-inline void straighten_border(const Chart_mapping& mapping, Mapped_chart& map)
+// Gives a chart straight chains of border, if its map stays one-to-one, by exact predicates, and
+// within the bound, or not beyond what it was. `uv` is the map, perhaps turned. Its area in the plane
+// is kept. Returns whether it did so.
+inline bool take_chains(const Chart_mapping& mapping, const std::vector<Border_edge>& border,
+                        const std::vector<Straight_chain>& chains, std::vector<Point_2> uv,
+                        Mapped_chart& map)
 {
   namespace SMP = Surface_mesh_parameterization;
+  if(chains.empty() || !mapping.has_time())
+    return false;
   const Indexed_triangle_mesh& mesh = map.chart.mesh;
-  const std::vector<Border_edge> border = map.chart.border_edges();
+  const Chart_distortion& given = map.report.distortion;
   const Distortion_bound allowed
-    = {(std::max)(mapping.bound.area_scale, map.report.distortion.area_scale),
-       (std::max)(mapping.bound.quasi_conformal, map.report.distortion.quasi_conformal)};
-  for(const Chain_limits& limits : {Chain_limits{40., 0.03, 0.12}, Chain_limits{20., 0.015, 0.06},
-                                    Chain_limits{10., 0.005, 0.01}}) {
-    const std::vector<Straight_chain> chains = straight_chains(border, map.uv, limits);
-    if(chains.empty() || !mapping.has_time())
-      continue;
-    std::vector<Point_2> uv = with_straight_chains(map, fixed_coordinates(chains, map.uv.size()));
-    if(uv.empty())
-      continue;
-    if(const auto flips = count_flips(mesh.triangles, uv); flips.first + flips.second > 0)
-      SMP::repair_flipped_faces(mesh, uv, border_vertices(uv.size(), border));
-    Chart_distortion distortion = measure_chart_distortion(mesh, uv);
-    if(distortion.flipped_faces + distortion.degenerate_faces > 0 || !distortion.is_within(allowed)
-       || !SMP::is_simple_border(border, uv))
-      continue;
-    const double before = measure_chart_distortion(mesh, map.uv).uv_area; // with its density
-    const double scale = std::sqrt(before / distortion.uv_area);
-    for(Point_2& p : uv)
-      p = Point_2(scale * p.x(), scale * p.y());
-    distortion.uv_area = map.report.distortion.uv_area;
-    map.uv = std::move(uv);
-    map.report.distortion = distortion;
+    = {(std::max)(mapping.bound.area_scale, given.area_scale),
+       (std::max)(mapping.bound.quasi_conformal, given.quasi_conformal)};
+  const double uv_area = measure_chart_distortion(mesh, uv).uv_area; // with its density
+  uv = with_straight_chains(mesh.triangles, fixed_coordinates(chains, uv.size()), uv);
+  if(uv.empty())
+    return false;
+  if(const auto flips = count_flips(mesh.triangles, uv); flips.first + flips.second > 0)
+    SMP::repair_flipped_faces(mesh, uv, border_vertices(uv.size(), border));
+  Chart_distortion distortion = measure_chart_distortion(mesh, uv);
+  if(distortion.flipped_faces + distortion.degenerate_faces > 0 || !distortion.is_within(allowed)
+     || !SMP::is_simple_border(border, uv))
+    return false;
+  const double scale = std::sqrt(uv_area / distortion.uv_area);
+  for(Point_2& p : uv)
+    p = Point_2(scale * p.x(), scale * p.y());
+  distortion.uv_area = given.uv_area;
+  map.uv = std::move(uv);
+  map.report.distortion = distortion;
+  return true;
+}
+
+// Lets a chart that is turned along the axes have straight borders. One with four sides becomes a
+// rectangle; of others what is nearly straight becomes straight. If that is too much, only what is
+// still more so.
+inline void straighten_border(const Chart_mapping& mapping, Mapped_chart& map)
+{
+  const std::vector<Border_edge> border = map.chart.border_edges();
+  std::vector<Point_2> turned = map.uv;
+  const std::vector<Straight_chain> sides = sides_of_quad(border, turned);
+  if(take_chains(mapping, border, sides, std::move(turned), map))
     return;
-  }
+  for(const Chain_limits& limits : {Chain_limits{40., 0.03, 0.12}, Chain_limits{20., 0.015, 0.06},
+                                    Chain_limits{10., 0.005, 0.01}})
+    if(take_chains(mapping, border, straight_chains(border, map.uv, limits), map.uv, map))
+      return;
 }
 
 inline void straighten_borders(const Chart_mapping& mapping, std::vector<Mapped_chart>& maps)
