@@ -36,20 +36,22 @@ TEST_F(Atlas, has_the_options_that_help_lists)
        "--max-quasi-conformal", "1.5", "--max-charts", "3", "--seam-price", "0.1",
        "--min-used", "20", "--pages", "2", "--aspect", "2", "--packer", "horizon", "--method",
        "spectral", "--threads", "1", "--ply", "--pictures", path("pictures"), "--signal", "normals",
-       "--signal-weight", "2"},
+       "--signal-weight", "2", "--symmetric"},
       {"--texture", "64", "--charts", "uv", "--packer", "raster", "--packing-time", "0.001",
        "--method", "border-first", "--report", path("other.json"), "--limits", "groups",
        "--separate", "groups", "--density", density},
       {"--texture", "64", "--one-disk", "--method", "cascadic", "--smooth-seams", "--quiet", "--strict", "--weld", "0",
        "--time-limit", "1000"},
       {"--texture", "64", "--repack", "--keep-scale", "--align", "--udim", "--importance",
-       path("first/checker.png")}};
-  const std::vector<Texts> of_atlas{{"--stack"}, {}, {}, {"--lightmap"}};
+       path("first/checker.png")},
+      {"--texture", "64", "--padding", "1"}};
+  const std::vector<Texts> of_atlas{{"--stack"}, {}, {}, {"--lightmap"}, {}};
   const std::vector<Texts> of_bake{
       {"--faces", "50", "--samples", "3", "--space", "object", "--bits", "16", "--displacement"},
       {"--error", "1%", "--space", "tangent", "--bits", "8", "--colors", path("first/checker.png")},
-      {"--target", path("first/atlas.obj")},
-      {"--faces", "50"}};
+      {"--faces", "50"},
+      {"--faces", "50"},
+      {"--target", path("first/atlas.obj")}};
   for(const std::string command : {"atlas", "bake"}) {
     std::set<std::string> listed, known{"--help", "--output"};
     for(std::size_t i = 0; i < of_both.size(); ++i) {

@@ -8,9 +8,11 @@
 
 #include <CGAL/Surface_mesh_texturing/build_texture_atlas.h>
 #include <CGAL/Surface_mesh_texturing/equal_parts.h>
+#include <CGAL/Surface_mesh_texturing/unstacked_atlas.h>
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -185,6 +187,145 @@ TEST(Equal_parts, without_any_the_atlas_is_what_it_was)
   EXPECT_EQ(parts.representatives.triangles, mesh.triangles);
   const SMT::Texture_atlas_result one = SMT::build_texture_atlas(parts.representatives);
   EXPECT_EQ(SMT::stacked_atlas(mesh, parts, one).atlas.mesh.wedges, one.atlas.mesh.wedges);
+}
+
+// --- Mirrored halves
+
+// A plane with hills, and its mirror image at its side: nothing else of it is symmetric.
+Indexed_triangle_mesh symmetric_hills(std::uint64_t s)
+{
+  const Indexed_triangle_mesh half = with_hills(irregular_grid(9, 14, seed + s), 1.5, seed + s + 1);
+  Indexed_triangle_mesh mesh = half;
+  std::vector<Vertex_index> image(half.points.size());
+  for(Vertex_index v = 0; v < half.points.size(); ++v) {
+    const Point_3& p = half.points[v];
+    image[v] = v;
+    if(p.x() > 0.) {
+      image[v] = Vertex_index(mesh.points.size());
+      mesh.points.emplace_back(-p.x(), p.y(), p.z());
+    }
+  }
+  for(const Triangle_indices& t : half.triangles)
+    mesh.triangles.push_back({image[t[0]], image[t[2]], image[t[1]]});
+  return mesh;
+}
+
+TEST(Mirror_halves, are_found_wherever_the_plane_is)
+{
+  Random random(seed + 7);
+  for(int i = 0; i < 8; ++i) {
+    const Indexed_triangle_mesh mesh = copy_of(symmetric_hills(std::uint64_t(i)), random, i % 2 == 1);
+    const SMT::Equal_parts parts
+      = SMT::find_equal_parts(mesh, 1e-4, SMT::Mirror_halves::APART);
+    ASSERT_EQ(parts.error, "");
+    EXPECT_EQ(parts.halved_components, 1u) << i << seed_text;
+    EXPECT_EQ(parts.mirrored_copies, 1u);
+    EXPECT_EQ(parts.number_of_parts, 2u);
+    EXPECT_EQ(2 * parts.representatives.triangles.size(), mesh.triangles.size());
+    EXPECT_EQ(error_in_parts(mesh, parts, 1e-9), "") << i << seed_text;
+    EXPECT_EQ(SMT::find_equal_parts(mesh).copies, 0u); // only if asked for
+  }
+}
+
+TEST(Mirror_halves, of_copies_are_copies)
+{
+  Random random(seed + 8);
+  Indexed_triangle_mesh mesh;
+  for(const bool is_mirrored : {false, true, false})
+    add(copy_of(symmetric_hills(0), random, is_mirrored), mesh);
+  mesh = shuffled(mesh, seed);
+  const SMT::Equal_parts parts = SMT::find_equal_parts(mesh, 1e-4, SMT::Mirror_halves::APART);
+  EXPECT_EQ(parts.halved_components, 3u) << seed_text;
+  EXPECT_EQ(parts.copies, 5u) << seed_text;
+  EXPECT_EQ(6 * parts.representatives.triangles.size(), mesh.triangles.size());
+  EXPECT_EQ(error_in_parts(mesh, parts, 1e-9), "") << seed_text;
+}
+
+// A sphere that is bent so that only one plane is left, across which triangles lie.
+Indexed_triangle_mesh bent_sphere()
+{
+  Indexed_triangle_mesh mesh = sphere(3);
+  for(Point_3& p : mesh.points)
+    p = Point_3((1. + 0.3 * p.y() + 0.2 * p.z()) * p.x(), p.y() + 0.3 * p.z() * p.z(), p.z());
+  return mesh;
+}
+
+TEST(Mirror_halves, may_have_triangles_between_them)
+{
+  const Indexed_triangle_mesh mesh = bent_sphere();
+  const SMT::Equal_parts parts = SMT::find_equal_parts(mesh, 1e-4, SMT::Mirror_halves::APART);
+  EXPECT_EQ(parts.halved_components, 1u);
+  EXPECT_EQ(error_in_parts(mesh, parts, 1e-9), "");
+}
+
+TEST(Mirror_halves, are_not_found_where_there_are_none)
+{
+  for(const Indexed_triangle_mesh& mesh :
+      {model(0), with_noise(sphere(3), 0.01, seed), with_noise(torus(30, 15), 0.01, seed),
+       grid(1, 1)}) // which is not worth a seam
+    EXPECT_EQ(SMT::find_equal_parts(mesh, 1e-4, SMT::Mirror_halves::APART).halved_components, 0u);
+  Indexed_triangle_mesh mesh = symmetric_hills(0); // but for one point
+  mesh.points.back() = mesh.points.back() + CGAL::Simple_cartesian<double>::Vector_3(0., 0., 0.1);
+  EXPECT_EQ(SMT::find_equal_parts(mesh, 1e-4, SMT::Mirror_halves::APART).halved_components, 0u);
+}
+
+// The length of each side of a triangle in the texture, in texels, in the order of its stand-in's corners.
+std::array<double, 3> sides_in_texels(const SMT::Texture_atlas& atlas, const SMT::Equal_parts& parts,
+                                      std::size_t t)
+{
+  std::array<double, 3> result;
+  for(int c = 0; c < 3; ++c) {
+    const auto& w = atlas.mesh.wedges[t];
+    const auto d = atlas.mesh.uv[w[(c + 1) % 3]] - atlas.mesh.uv[w[c]];
+    const int a = parts.corner[t][c], b = parts.corner[t][(c + 1) % 3];
+    result[(a + 1) % 3 == b ? a : b]
+      = std::hypot(d.x() * double(atlas.width), d.y() * double(atlas.height));
+  }
+  return result;
+}
+
+TEST(Mirror_halves, have_charts_that_are_mirror_images)
+{
+  Random random(seed + 9);
+  SMT::Texture_atlas_options options;
+  options.packing.width = options.packing.height = 256;
+  options.coarse_faces = 500;
+  for(const Indexed_triangle_mesh& mesh :
+      {symmetric_hills(3), copy_of(symmetric_hills(4), random, false), bent_sphere()}) {
+    const SMT::Equal_parts parts = SMT::find_equal_parts(mesh, 1e-4, SMT::Mirror_halves::APART);
+    ASSERT_EQ(parts.halved_components, 1u) << seed_text;
+    const SMT::Texture_atlas_result half = SMT::build_texture_atlas(parts.representatives, options);
+    ASSERT_EQ(half.error, "");
+    const SMT::Texture_atlas_result all = SMT::unstacked_atlas(mesh, parts, half, options);
+    ASSERT_EQ(all.error, "");
+    EXPECT_EQ(error_in_atlas(mesh, all.atlas), "") << seed_text; // no flip, no overlap, disks
+    const std::size_t charts = all.atlas.charts.number_of_charts;
+    const bool are_all_in_pairs = 2 * parts.representatives.triangles.size() == mesh.triangles.size();
+    if(are_all_in_pairs) {
+      EXPECT_EQ(charts, 2 * half.atlas.charts.number_of_charts);
+      EXPECT_EQ(SMT::number_of_charts_with_equals(parts, all.atlas.charts), charts) << seed_text;
+    }
+    EXPECT_EQ(all.report.charts.size(), charts);
+    std::vector<std::array<double, 3>> of_model(parts.representatives.triangles.size());
+    for(std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      if(parts.triangle[parts.stand_in[t]] == t)
+        of_model[parts.stand_in[t]] = sides_in_texels(all.atlas, parts, t);
+    for(std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      for(int c = 0; c < 3; ++c)
+        EXPECT_NEAR(sides_in_texels(all.atlas, parts, t)[c], of_model[parts.stand_in[t]][c], 1e-6);
+    // On each other: twice the texels
+    const SMT::Texture_atlas_result stacked = SMT::stacked_atlas(mesh, parts, half);
+    if(are_all_in_pairs) {
+      EXPECT_EQ(stacked.atlas.mesh.uv.size(), 2 * half.atlas.mesh.uv.size());
+      EXPECT_EQ(SMT::number_of_charts_with_equals(parts, stacked.atlas.charts), charts);
+    }
+    EXPECT_GT(stacked.report.texels_per_unit, 1.2 * all.report.texels_per_unit);
+    // The number of threads does not matter
+    SMT::Texture_atlas_options threads = options;
+    threads.threads = 3;
+    const auto of_three = SMT::unstacked_atlas<CGAL::Parallel_tag>(mesh, parts, half, threads);
+    EXPECT_TRUE(of_three.atlas.mesh.uv == all.atlas.mesh.uv);
+  }
 }
 
 } // namespace equal_parts_test

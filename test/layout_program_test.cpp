@@ -175,6 +175,8 @@ TEST_F(Atlas, refuses_options_of_the_layout_that_contradict_each_other)
                                                 {"--keep-scale"},
                                                 {"--density", in, "--importance", in},
                                                 {"--separate", "groups", "--stack"},
+                                                {"--separate", "groups", "--symmetric"},
+                                                {"--repack", "--symmetric"},
                                                 {"--limits", "faces"}}) {
     const Outcome outcome = call("atlas", in, "out", options);
     EXPECT_EQ(outcome.exit_code, 2) << options[0];
@@ -182,6 +184,20 @@ TEST_F(Atlas, refuses_options_of_the_layout_that_contradict_each_other)
     EXPECT_EQ(outcome.err.find('\n') + 1, outcome.err.size()) << outcome.err;
   }
   EXPECT_EQ(names(), std::set<std::string>{"in.obj"});
+}
+
+// A chart that is kept as it is lies on one page.
+TEST_F(Atlas, refuses_to_separate_the_parts_of_a_chart_that_it_keeps)
+{
+  std::string text = obj(textured_squares(3, {0.5}));
+  const std::size_t first = text.find("\nf "), second = text.find("\nf ", first + 1);
+  text.insert(second + 1, "g other\n");
+  text.insert(first + 1, "g some\n");
+  const std::string in = write("in.obj", text);
+  const Texts options = {"--repack", "--separate", "groups"};
+  EXPECT_EQ(error_in_message(call("atlas", in, "none", options).err, in,
+                             {"face 0 and face 1 are in one chart", "groups", "--separate"}), "");
+  EXPECT_EQ(call("atlas", in, "out", {"--charts", "uv", "--separate", "groups"}).exit_code, 0);
 }
 
 // --- Density
@@ -400,6 +416,42 @@ TEST_F(Atlas, lays_equal_parts_on_each_other)
   const Outcome bake = call("bake", in, "none", {"--stack", "--faces", "100"});
   EXPECT_EQ(bake.exit_code, 2);
   EXPECT_NE(bake.err.find("--stack: parts that share texels"), std::string::npos) << bake.err;
+}
+
+TEST_F(Atlas, has_symmetric_charts)
+{
+  const Soup half = squares(12, 1);
+  Soup surface = half;
+  for(auto& p : surface.points) {
+    p[2] += 0.03 * p[0] * p[0] + 0.1 * std::sin(p[1]);
+  }
+  const std::size_t n = surface.points.size();
+  std::vector<std::size_t> image;
+  for(std::size_t v = 0; v < n; ++v) {
+    const auto p = surface.points[v];
+    image.push_back(p[0] == 0 ? v : surface.points.size());
+    if(p[0] != 0) {
+      surface.points.push_back({-p[0], p[1], p[2]});
+    }
+  }
+  for(const auto& face : half.faces) {
+    surface.faces.push_back({image[face[0]], image[face[2]], image[face[1]]});
+  }
+  const std::string in = write("in.off", off(surface));
+  const Json report = call_well("atlas", in, "out", {"--symmetric"});
+  ASSERT_TRUE(report.is_object());
+  const Json& symmetric = report["layout"]["symmetric"];
+  EXPECT_EQ(symmetric["halved_components"], 1);
+  EXPECT_EQ(symmetric["mirrored_copies"], 1);
+  EXPECT_EQ(symmetric["charts_with_equals"], report["charts"].size());
+  EXPECT_EQ(report["overlapping_texels"], 0);
+  EXPECT_EQ(report["flips"], 0);
+  const Textured_soup after = read_model(folder / "out/atlas.obj").soup;
+  for(std::size_t f = 0; f < half.faces.size(); ++f) { // OBJ has some digits
+    EXPECT_NEAR(uv_area(after, f), uv_area(after, f + half.faces.size()), 1e-4 * uv_area(after, f));
+  }
+  const Json stacked = call_well("atlas", in, "stacked", {"--symmetric", "--stack"});
+  EXPECT_GT(stacked["texels_per_unit"], 1.2 * double(report["texels_per_unit"]));
 }
 
 // --- Light maps

@@ -366,6 +366,116 @@ TEST(Aligned_charts, have_as_much_of_their_borders_along_the_axes_as_possible)
   }
 }
 
+// Of a torus, patches of so many columns and rows of its quads: what is mapped has four curved sides.
+SMT::Face_charts patches(const Indexed_triangle_mesh& mesh, std::size_t minor, std::size_t columns,
+                         std::size_t rows)
+{
+  std::vector<std::uint32_t> label;
+  for(std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    label.push_back(std::uint32_t(t / 2 / minor / columns * minor + t / 2 % minor / rows));
+  return SMT::charts_of_labels(mesh.triangles, label);
+}
+
+// The part of the seams' length that is parallel to an axis to the last bit.
+double exactly_parallel_part(const SMT::Texture_atlas& atlas)
+{
+  double parallel = 0., all = 0.;
+  for(std::size_t t = 0; t < atlas.mesh.triangles.size(); ++t)
+    for(int c = 0; c < 3; ++c)
+      if(atlas.charts.is_seam(t, c)) {
+        const Uv &p = atlas.mesh.uv[atlas.mesh.wedges[t][c]],
+                 &q = atlas.mesh.uv[atlas.mesh.wedges[t][(c + 1) % 3]];
+        const double length = std::sqrt(CGAL::squared_distance(p, q));
+        all += length;
+        parallel += p.x() == q.x() || p.y() == q.y() ? length : 0.;
+      }
+  return parallel / all;
+}
+
+SMT::Texture_atlas_result patches_atlas(const Indexed_triangle_mesh& mesh,
+                                        const SMT::Texture_atlas_options& options)
+{
+  return SMT::build_texture_atlas(mesh, options,
+                                  SMT::Given_charts_segmenter(patches(mesh, 40, 10, 10)));
+}
+
+TEST(Aligned_charts, that_have_four_sides_become_rectangles)
+{
+  const Indexed_triangle_mesh mesh = with_noise(torus(60, 40), 0.002, seed);
+  SMT::Texture_atlas_options options = small_texture();
+  options.bound.quasi_conformal = 3.5; // the sides of a patch are bent by some 30 degrees
+  const SMT::Texture_atlas_result as_mapped = patches_atlas(mesh, options);
+  options.is_aligned = true;
+  const SMT::Texture_atlas_result result = patches_atlas(mesh, options);
+  ASSERT_EQ(result.error, "");
+  EXPECT_EQ(error_in_atlas(mesh, result.atlas), "") << seed_text;
+  EXPECT_EQ(result.atlas.charts.number_of_charts, 24u);
+  EXPECT_LT(exactly_parallel_part(as_mapped.atlas), 0.01); // the test sees what is not
+  EXPECT_EQ(exactly_parallel_part(result.atlas), 1.) << seed_text;
+  for(const SMT::Chart_report& chart : result.report.charts)
+    EXPECT_TRUE(chart.distortion.is_within(options.bound) && chart.is_one_to_one);
+  // Equal densities as before
+  for(const auto& chart : result.report.charts)
+    EXPECT_NEAR(chart.distortion.uv_area / chart.distortion.area, 1., 1e-9);
+}
+
+TEST(Aligned_charts, stay_within_the_bound_or_as_they_are)
+{
+  const Indexed_triangle_mesh mesh = with_noise(torus(60, 40), 0.002, seed);
+  SMT::Texture_atlas_options options = small_texture();
+  options.bound = {1., 1.}; // all charts are beyond it already
+  const SMT::Texture_atlas_result as_mapped = patches_atlas(mesh, options);
+  options.is_aligned = true;
+  const SMT::Texture_atlas_result result = patches_atlas(mesh, options);
+  ASSERT_EQ(result.error, "");
+  for(std::size_t i = 0; i < result.report.charts.size(); ++i) {
+    const SMT::Chart_distortion &before = as_mapped.report.charts[i].distortion,
+                                &after = result.report.charts[i].distortion;
+    EXPECT_LE(after.quasi_conformal, before.quasi_conformal);
+    EXPECT_LE(after.area_scale, before.area_scale);
+  }
+}
+
+TEST(Aligned_charts, have_straight_borders_whatever_the_surface)
+{
+  Random random(seed + 5);
+  SMT::Texture_atlas_options options = small_texture();
+  for(const Indexed_triangle_mesh& mesh :
+      {with_noise(torus(40, 20), 0.01, seed), with_noise(sphere(4), 0.02, seed),
+       with_hills(irregular_grid(30, 30, seed), 3., seed), cylinder(60, 20),
+       with_holes(with_noise(torus(40, 20), 0.01, seed), 3, seed)}) {
+    options.is_aligned = true;
+    const SMT::Texture_atlas_result result = SMT::build_texture_atlas(mesh, options);
+    ASSERT_EQ(result.error, "");
+    EXPECT_EQ(error_in_atlas(mesh, result.atlas), "") << seed_text;
+    for(const SMT::Chart_report& chart : result.report.charts)
+      EXPECT_TRUE(chart.distortion.is_within(options.bound) && chart.is_one_to_one);
+    EXPECT_GT(exactly_parallel_part(result.atlas), 0.) << seed_text;
+    // Threads and the unit of length do not count
+    SMT::Texture_atlas_options threads = options;
+    threads.threads = 3;
+    const auto of_three = SMT::build_texture_atlas<CGAL::Parallel_tag>(mesh, threads);
+    ASSERT_EQ(of_three.atlas.mesh.uv.size(), result.atlas.mesh.uv.size());
+    EXPECT_EQ(std::memcmp(of_three.atlas.mesh.uv.data(), result.atlas.mesh.uv.data(),
+                          result.atlas.mesh.uv.size() * sizeof(Uv)), 0) << seed_text;
+    const auto large = SMT::build_texture_atlas(scaled(mesh, 1024.), options);
+    EXPECT_NEAR(exactly_parallel_part(large.atlas), exactly_parallel_part(result.atlas), 1e-6);
+  }
+}
+
+// A disk has no straight border: it stays round.
+TEST(Aligned_charts, that_are_round_stay_round)
+{
+  const Indexed_triangle_mesh mesh = disk(10, 120);
+  SMT::Texture_atlas_options options = small_texture();
+  options.is_aligned = true;
+  const SMT::Texture_atlas_result result
+    = SMT::build_texture_atlas(mesh, options, SMT::Component_segmenter());
+  ASSERT_EQ(result.error, "");
+  EXPECT_LT(exactly_parallel_part(result.atlas), 0.05);
+  EXPECT_LT(result.report.charts.at(0).distortion.quasi_conformal, 1.01);
+}
+
 TEST(Aligned_charts, are_turned_by_quarters_only)
 {
   packed_charts::Charts charts = packed_charts::mixed_charts();

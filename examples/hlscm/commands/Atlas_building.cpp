@@ -12,6 +12,7 @@
 
 #include <CGAL/Surface_mesh_texturing/Horizon_packer.h>
 #include <CGAL/Surface_mesh_texturing/build_texture_atlas.h>
+#include <CGAL/Surface_mesh_texturing/unstacked_atlas.h>
 
 #include <utility>
 
@@ -71,6 +72,17 @@ SMT::Texture_atlas_result build_between(const Indexed_triangle_mesh& mesh,
                 : build(mesh, library, SMT::Constrained_segmenter<>(limits), settings);
 }
 
+// With the charts of equal parts beside each other.
+SMT::Texture_atlas_result unstack(const Input_surface& surface, const SMT::Equal_parts& parts,
+                                  SMT::Texture_atlas_result atlas,
+                                  const SMT::Texture_atlas_options& library, Packer packer)
+{
+  const Indexed_triangle_mesh& mesh = surface.surface.mesh;
+  return packer == Packer::HORIZON
+             ? SMT::unstacked_atlas(mesh, parts, std::move(atlas), library, SMT::Horizon_packer())
+             : SMT::unstacked_atlas(mesh, parts, std::move(atlas), library, SMT::Raster_packer());
+}
+
 } // namespace
 
 Built_atlas build_atlas(const Input_surface& surface, const Program_options& options,
@@ -106,6 +118,7 @@ Built_atlas build_atlas(const Input_surface& surface, const Program_options& opt
   Layout_report layout;
   std::vector<std::uint8_t> limits = limits_of_charts(surface, options, layout);
   set_layout(surface, options, library);
+  const std::vector<std::uint8_t> no_seams = library.no_seams; // of the whole surface
   const std::optional<SMT::Equal_parts> parts = equal_parts(surface, options, library, layout);
   if(parts) {
     limits = parts->of_representatives(limits);
@@ -124,12 +137,23 @@ Built_atlas build_atlas(const Input_surface& surface, const Program_options& opt
   if(!result.error.empty()) {
     throw Program_error(options.input, result.error);
   }
-  if(parts) {
+  const bool is_stacked = options.atlas.layout.is_stacked;
+  if(parts && is_stacked) {
     result = SMT::stacked_atlas(surface.surface.mesh, *parts, std::move(result));
+  } else if(parts) {
+    library.no_seams = no_seams;
+    result = unstack(surface, *parts, std::move(result), library, options.atlas.packer);
+    Interruption::check();
+    if(!result.error.empty()) {
+      throw Program_error(options.input, result.error);
+    }
+  }
+  if(parts) {
+    layout.charts_with_equals = SMT::number_of_charts_with_equals(*parts, result.atlas.charts);
   }
   measure_layout(surface, result.atlas, options, layout);
   return {std::move(result.atlas), std::move(result.report), layout,
-          parts ? parts->triangle : std::vector<std::uint32_t>()};
+          parts && is_stacked ? parts->triangle : std::vector<std::uint32_t>()};
 }
 
 } // namespace hlscm

@@ -92,6 +92,33 @@ Named_parts parts_of(const Input_surface& surface, const Program_options& option
   return parts;
 }
 
+// A chart that is kept as it is cannot lie on the pages of two parts.
+void require_charts_within_parts(const Input_surface& surface, const Program_options& options,
+                                 const SMT::Textured_triangle_mesh& mesh,
+                                 const std::vector<std::uint32_t>& part)
+{
+  if(part.empty()) {
+    return;
+  }
+  const SMT::Face_charts charts = SMT::charts_of_texture(mesh);
+  std::vector<std::size_t> first(charts.number_of_charts, part.size());
+  for(std::size_t t = 0; t < charts.chart.size(); ++t) {
+    std::size_t& known = first[charts.chart[t]];
+    if(known == part.size()) {
+      known = t;
+    } else if(part[known] != part[t]) {
+      const bool are_groups = options.atlas.layout.separate == Chart_limits::GROUPS;
+      throw Program_error(options.input,
+                          "face " + std::to_string(surface.surface.face[known]) + " and face "
+                              + std::to_string(surface.surface.face[t])
+                              + " are in one chart, but in different "
+                              + (are_groups ? "groups" : "materials")
+                              + ", leave --separate out, or take --charts uv instead of --repack, "
+                                "which cuts it");
+    }
+  }
+}
+
 // For each page the name of what lies on it.
 std::vector<std::string> names_of_pages(const SMT::Texture_atlas& atlas, const Named_parts& parts)
 {
@@ -146,6 +173,7 @@ SMT::Texture_atlas_result repack(const Input_surface& surface, const Program_opt
 {
   require_uv(surface, options, "--repack");
   const SMT::Textured_triangle_mesh mesh = to_textured(surface);
+  require_charts_within_parts(surface, options, mesh, library.page_set);
   SMT::Repacking_options repacking;
   repacking.scale = options.atlas.layout.keeps_scale ? SMT::Chart_scale::AS_GIVEN
                                                      : SMT::Chart_scale::EQUAL_DENSITY;
@@ -177,10 +205,14 @@ std::optional<SMT::Equal_parts> equal_parts(const Input_surface& surface,
                                             SMT::Texture_atlas_options& library,
                                             Layout_report& report)
 {
-  if(!options.atlas.layout.is_stacked) {
+  const Layout_settings& layout = options.atlas.layout;
+  if(!layout.is_stacked && !layout.is_symmetric) {
     return std::nullopt;
   }
-  SMT::Equal_parts parts = SMT::find_equal_parts(surface.surface.mesh);
+  constexpr double tolerance = 1e-4; // as for programs that store coordinates with few digits
+  SMT::Equal_parts parts = SMT::find_equal_parts(
+      surface.surface.mesh, tolerance,
+      layout.is_symmetric ? SMT::Mirror_halves::APART : SMT::Mirror_halves::TOGETHER);
   if(!parts.is_ok()) {
     throw Program_error(options.input, parts.error);
   }
@@ -188,6 +220,7 @@ std::optional<SMT::Equal_parts> equal_parts(const Input_surface& surface,
   library.metric = parts.of_representatives(library.metric);
   library.no_seams = parts.of_representatives(library.no_seams);
   report.components = parts.number_of_parts;
+  report.halved_components = parts.halved_components;
   report.copies = parts.copies;
   report.mirrored_copies = parts.mirrored_copies;
   return parts;

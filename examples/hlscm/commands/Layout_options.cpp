@@ -30,6 +30,14 @@ void check_layout(const CLI::App& app, const Layout_settings& layout)
                                                    + std::string(other) + " out");
     }
   }
+  if(layout.is_symmetric) {
+    for(const char* other : {"--repack", "--separate"}) {
+      if(app.count(other) > 0) {
+        throw CLI::ValidationError("--symmetric", "charts of one half are those of the other one, leave "
+                                                      + std::string(other) + " out");
+      }
+    }
+  }
   if(layout.is_repacked && layout.is_stacked) {
     throw CLI::ValidationError("--repack", "it keeps each chart in a place of its own, leave --stack "
                                            "out");
@@ -37,7 +45,8 @@ void check_layout(const CLI::App& app, const Layout_settings& layout)
   if(layout.separate != Chart_limits::NONE && layout.is_stacked) {
     throw CLI::ValidationError("--separate", "equal parts would share a texture, leave --stack out");
   }
-  for(const char* other : {"--repack", "--stack", "--lightmap", "--colors", "--limits", "--separate"}) {
+  for(const char* other : {"--repack", "--stack", "--symmetric", "--lightmap", "--colors", "--limits",
+                           "--separate"}) {
     if(app.count("--smooth-seams") > 0 && app.get_option_no_throw(other) != nullptr
        && app.count(other) > 0) {
       throw CLI::ValidationError("--smooth-seams", "it moves seams and cuts faces, leave it or "
@@ -50,6 +59,21 @@ void check_layout(const CLI::App& app, const Layout_settings& layout)
   if(!layout.density.empty() && !layout.importance.empty()) {
     throw CLI::ValidationError("--importance", "the densities are given already, leave it or "
                                                "--density out");
+  }
+}
+
+// Throws which option is without effect if the light model of `bake` has texture coordinates.
+void check_target(const CLI::App& app)
+{
+  for(const char* other :
+      {"--aspect", "--mip-levels", "--max-area-scale", "--max-quasi-conformal", "--max-charts",
+       "--seam-price", "--min-used", "--smooth-seams", "--charts", "--one-disk", "--pages",
+       "--packing-time", "--method", "--repack", "--keep-scale", "--density", "--importance",
+       "--limits", "--separate", "--align", "--udim", "--symmetric"}) {
+    if(app.count(other) > 0) {
+      throw CLI::ValidationError("--target", "its texture coordinates are taken as they are, leave "
+                                                 + std::string(other) + " out");
+    }
   }
 }
 
@@ -78,11 +102,15 @@ void add_layout_options(CLI::App& app, Program_options& options)
       app, "--separate", {{"groups", Chart_limits::GROUPS}, {"materials", Chart_limits::MATERIALS}},
       layout.separate, "each group, or material, of IN on textures of its own");
   app.add_flag("--align", layout.is_aligned,
-               "turn charts so that their borders run along the rows and columns of the texture");
+               "lay borders of charts along the rows and columns of the texture, straight where they "
+               "nearly are");
   app.add_flag("--udim", layout.is_udim,
                "pages are the UDIM tiles 1001, 1002 ... of one plane, see --pages");
   CLI::Option* stack = app.add_flag("--stack", layout.is_stacked,
                                     "equal parts of IN, also mirrored ones, share their place");
+  app.add_flag("--symmetric", layout.is_symmetric,
+               "mirrored halves of IN, and equal parts, have equal charts; with --stack these share "
+               "their place");
   if(app.get_name() == "bake") {
     stack->group(""); // where it is refused with a reason
   } else {
@@ -91,6 +119,9 @@ void add_layout_options(CLI::App& app, Program_options& options)
   }
   app.parse_complete_callback([&app, &options] {
     check_layout(app, options.atlas.layout);
+    if(app.get_name() == "bake" && app.count("--target") > 0) {
+      check_target(app);
+    }
     if(options.atlas.layout.is_lightmap && app.count("--mip-levels") == 0) {
       options.atlas.mip_levels = mip_levels_of_lightmap;
     }

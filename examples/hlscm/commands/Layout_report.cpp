@@ -33,10 +33,13 @@ void add_layout(const Layout_report& report, const Layout_settings& settings,
         = {{"by", settings.separate == Chart_limits::GROUPS ? "groups" : "materials"},
            {"pages", report.page_names}};
   }
-  if(settings.is_stacked) {
-    layout["stacked"] = {{"components", report.components},
-                         {"copies", report.copies},
-                         {"mirrored_copies", report.mirrored_copies}};
+  if(settings.is_stacked || settings.is_symmetric) {
+    layout[settings.is_stacked ? "stacked" : "symmetric"]
+        = {{"components", report.components},
+           {"copies", report.copies},
+           {"mirrored_copies", report.mirrored_copies},
+           {"halved_components", report.halved_components},
+           {"charts_with_equals", report.charts_with_equals}};
   }
   if(settings.is_udim) {
     layout["udim"] = {{"first", SMT::udim_tile(0)}, {"last", SMT::udim_tile(report.tiles - 1)}};
@@ -70,9 +73,11 @@ void add_layout_lines(const Layout_report& report, const Layout_settings& settin
   if(report.mirrored_charts > 0) {
     text << ", charts mirrored as in the input: " << report.mirrored_charts;
   }
-  if(settings.is_stacked) {
+  if(settings.is_stacked || settings.is_symmetric) {
     text << ", " << report.copies << " of " << report.components
-         << " components in the place of others (" << report.mirrored_copies << " mirrored)";
+         << (settings.is_symmetric ? " components and halves " : " components ")
+         << (settings.is_stacked ? "in the place of others (" : "with the charts of others (")
+         << report.mirrored_copies << " mirrored)";
   }
   if(settings.is_udim) {
     text << ", tiles " << SMT::udim_tile(0) << " to " << SMT::udim_tile(report.tiles - 1);

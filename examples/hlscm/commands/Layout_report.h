@@ -26,8 +26,10 @@ struct Layout_report
   double least_density = 0, most_density = 0; ///< texels along a unit of length, of all charts
   double axis_parallel = 0;                  ///< the part of the borders of charts in the texture
   std::size_t tiles = 0;                     ///< of UDIM, from 1001 on
-  std::size_t components = 0;                ///< of the input, if equal ones share their place
-  std::size_t copies = 0, mirrored_copies = 0; ///< of these, those in the place of others
+  std::size_t components = 0;                ///< of the input, if equal ones share something
+  std::size_t halved_components = 0;         ///< of these, those whose halves count by themselves
+  std::size_t copies = 0, mirrored_copies = 0; ///< of these, those that have what others have
+  std::size_t charts_with_equals = 0;        ///< charts that another one is equal to
 };
 
 /// Adds them to the report, if there are such options.

@@ -63,13 +63,14 @@ struct Layout_settings
   bool is_aligned = false;   ///< borders of charts run along the axes
   bool is_udim = false;      ///< pages are tiles of one plane
   bool is_stacked = false;   ///< equal parts share their place
+  bool is_symmetric = false; ///< equal parts and mirrored halves have equal charts
   bool is_lightmap = false;  ///< the atlas is a second set of texture coordinates
 
   /// Whether there is anything to report.
   bool is_any() const
   {
     return is_repacked || !density.empty() || !importance.empty() || limits != Chart_limits::NONE
-           || separate != Chart_limits::NONE || is_aligned || is_udim || is_stacked || is_lightmap;
+           || separate != Chart_limits::NONE || is_aligned || is_udim || is_stacked || is_symmetric || is_lightmap;
   }
 };
 

@@ -73,8 +73,9 @@ struct Texture_atlas_options
   /// must be empty.
   bool has_smooth_seams = false;
   /// Whether charts are turned so that as much as possible of their borders, and of the creases in
-  /// them, runs along the rows and columns of the texture; then by quarters only. Parts of a chart
-  /// that is cut to fill the pages (`seam_price`) keep its direction.
+  /// them, runs along the rows and columns of the texture; then by quarters only. Chains of border
+  /// that nearly do so become straight, as far as the map stays one-to-one and within `bound`. Parts of
+  /// a chart that is cut to fill the pages (`seam_price`) keep its direction.
   bool is_aligned = false;
   /// The textures, and how charts are placed in them.
   Packing_options packing;

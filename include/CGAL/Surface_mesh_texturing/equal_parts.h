@@ -7,6 +7,7 @@
 #include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 #include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Surface_mesh_texturing/Texture_atlas.h>
+#include <CGAL/Surface_mesh_texturing/internal/mapped_charts/Mirror_finder.h>
 #include <CGAL/Surface_mesh_texturing/internal/mapped_charts/Part_matcher.h>
 
 #include <algorithm>
@@ -20,6 +21,13 @@
 
 namespace CGAL {
 namespace Surface_mesh_texturing {
+
+/// \ingroup PkgHLSCMTexturing
+/// Whether a component that is its own mirror image counts as one part, or each half as a part.
+enum class Mirror_halves {
+  TOGETHER, ///< as one part
+  APART     ///< as two equal parts, with a seam between them
+};
 
 /*!
 \ingroup PkgHLSCMTexturing
@@ -39,10 +47,12 @@ struct Equal_parts
   std::vector<Triangle_index> stand_in;
   /// For each corner of a triangle of the surface the corner of its stand-in.
   std::vector<std::array<std::uint8_t, 3>> corner;
-  std::vector<std::uint32_t> part; ///< for each triangle of the surface its component
-  std::size_t number_of_parts = 0; ///< components of the surface
+  /// For each triangle of the surface its component, or half of one.
+  std::vector<std::uint32_t> part;
+  std::size_t number_of_parts = 0; ///< components of the surface; halves count as two
   std::size_t copies = 0;          ///< of these, those that have a stand-in
   std::size_t mirrored_copies = 0; ///< of these, those that are mirrored
+  std::size_t halved_components = 0; ///< components of which each half is a part
 
   /// Returns those entries of an array of the surface's triangles that are of `representatives`. Empty
   /// if the array is.
@@ -122,6 +132,29 @@ inline void fill_representatives(const Indexed_triangle_mesh& mesh, Equal_parts&
   }
 }
 
+// Makes parts of the halves that are mirror images of others, `half`, and of the copies of these;
+// what stood for a triangle of such a half then has the stand-in of that.
+inline void part_halves(const std::vector<Triangle_match>& half, std::vector<Triangle_match>& match,
+                        Equal_parts& result)
+{
+  const std::uint32_t none = std::uint32_t(-1);
+  std::vector<std::uint32_t> part_of_half(result.number_of_parts, none);
+  for(Triangle_index t = 0; t < match.size(); ++t) {
+    const Triangle_match model = match[t], mirrored = half[model.triangle];
+    if(mirrored.triangle == model.triangle)
+      continue;
+    match[t] = {mirrored.triangle, model.corners.then(mirrored.corners)};
+    const std::uint32_t component = result.part[t];
+    if(part_of_half[component] == none) {
+      part_of_half[component] = std::uint32_t(result.number_of_parts++);
+      ++result.copies;
+      ++result.halved_components;
+      result.mirrored_copies += match[t].corners.is_mirrored ? 1 : 0;
+    }
+    result.part[t] = part_of_half[component];
+  }
+}
+
 } // namespace internal
 
 /*!
@@ -135,10 +168,18 @@ A component that is equal to an earlier one may be missed if it is nearly symmet
 ways; no two are taken for equal that are not. Mirrored copies count. Errors: those of
 `manifold_error()`.
 
+With `Mirror_halves::APART` a component of 32 triangles or more that a plane mirrors onto itself,
+vertices onto vertices within the tolerance and triangles onto triangles, is two parts, of which the
+second one is a mirrored copy; triangles that are mirrored to themselves are in the first. Planes are
+looked for through the centre of the area, across the axes of space and the principal axes; of
+several that do it, that with the shortest cut is taken.
+
 Expected time \f$ O(n \log n) \f$, for parts of few symmetries.
 */
-inline Equal_parts find_equal_parts(const Indexed_triangle_mesh& mesh, double tolerance = 1e-4)
+inline Equal_parts find_equal_parts(const Indexed_triangle_mesh& mesh, double tolerance = 1e-4,
+                                    Mirror_halves halves = Mirror_halves::TOGETHER)
 {
+  constexpr std::size_t least_triangles = 32; // of what is worth a seam
   Equal_parts result;
   if(result.fail(Mesh_status::BAD_MESH, manifold_error(mesh)))
     return result;
@@ -150,7 +191,10 @@ inline Equal_parts find_equal_parts(const Indexed_triangle_mesh& mesh, double to
   internal::Part_matcher matcher(mesh, adjacency, distance, tolerance);
   // The representatives by their numbers of triangles and vertices, and by their radius
   std::map<std::array<std::size_t, 3>, std::multimap<double, std::size_t>> kinds;
-  std::vector<internal::Triangle_match> match(mesh.triangles.size());
+  std::vector<internal::Triangle_match> match, half;
+  for(Triangle_index t = 0; t < mesh.triangles.size(); ++t)
+    match.push_back({t, {}});
+  half = match;
   std::vector<std::uint8_t> is_copy(parts.size(), 0);
   for(std::size_t i = 0; i < parts.size(); ++i) {
     const internal::Surface_part& part = parts[i];
@@ -172,13 +216,17 @@ inline Equal_parts find_equal_parts(const Indexed_triangle_mesh& mesh, double to
       result.mirrored_copies += found[0].corners.is_mirrored ? 1 : 0;
       break;
     }
-    if(is_copy[i] == 0)
-      models.insert({part.radius, i});
+    if(is_copy[i] != 0)
+      continue;
+    models.insert({part.radius, i});
+    if(halves == Mirror_halves::APART && part.triangles.size() >= least_triangles)
+      for(const auto& mirrored : internal::Mirror_finder(mesh, part, tolerance).half())
+        half[mirrored.first] = mirrored.second;
   }
+  internal::part_halves(half, match, result);
   std::vector<Triangle_index> number(mesh.triangles.size());
   for(Triangle_index t = 0; t < mesh.triangles.size(); ++t)
-    if(is_copy[result.part[t]] == 0) {
-      match[t] = {t, {}};
+    if(match[t].triangle == t) {
       number[t] = Triangle_index(result.triangle.size());
       result.triangle.push_back(t);
     }
@@ -235,15 +283,17 @@ inline Texture_atlas_result stacked_atlas(const Indexed_triangle_mesh& mesh,
         }
         whole.wedges[t][c] = number[w];
       }
+  const Triangle_adjacency adjacency(mesh.triangles);
   std::vector<std::uint8_t> seams(mesh.triangles.size(), 0);
   for(Triangle_index t = 0; t < seams.size(); ++t)
     for(int c = 0; c < 3; ++c) {
       const int a = parts.corner[t][c], b = parts.corner[t][(c + 1) % 3];
       const int side = (a + 1) % 3 == b ? a : b;
-      if(atlas.atlas.charts.is_seam(parts.stand_in[t], side))
+      const Halfedge o = adjacency.opposite(t, c);
+      if(atlas.atlas.charts.is_seam(parts.stand_in[t], side)
+         || (o != no_halfedge && parts.part[triangle_of(o)] != parts.part[t]))
         seams[t] |= std::uint8_t(1u << c);
     }
-  const Triangle_adjacency adjacency(mesh.triangles);
   result.atlas.charts = charts_between(adjacency, std::move(seams));
   result.report.charts.clear();
   result.report.seams = measure_seams(mesh, adjacency, result.atlas.charts);
@@ -253,7 +303,36 @@ inline Texture_atlas_result stacked_atlas(const Indexed_triangle_mesh& mesh,
       const std::uint32_t chart = atlas.atlas.charts.chart[parts.stand_in[t]];
       result.atlas.page.push_back(atlas.atlas.page[chart]);
       result.report.charts.push_back(atlas.report.charts[chart]);
+      result.report.charts.back().faces = 0;
     }
+  for(const std::uint32_t chart : result.atlas.charts.chart)
+    ++result.report.charts[chart].faces;
+  return result;
+}
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+Returns how many charts have an equal one: there is a chart whose triangles have the same stand-ins.
+
+\pre `charts` are those of the surface whose parts these are
+
+Time \f$ O(n \log n) \f$.
+*/
+inline std::size_t number_of_charts_with_equals(const Equal_parts& parts, const Face_charts& charts)
+{
+  CGAL_precondition(charts.chart.size() == parts.stand_in.size());
+  std::vector<std::vector<Triangle_index>> models(charts.number_of_charts);
+  for(Triangle_index t = 0; t < parts.stand_in.size(); ++t)
+    models[charts.chart[t]].push_back(parts.stand_in[t]);
+  std::map<std::vector<Triangle_index>, std::size_t> number;
+  for(std::vector<Triangle_index>& model : models) {
+    std::sort(model.begin(), model.end());
+    ++number[model];
+  }
+  std::size_t result = 0;
+  for(const auto& of_model : number)
+    result += of_model.second > 1 ? of_model.second : 0;
   return result;
 }
 

@@ -14,6 +14,7 @@
 #include <CGAL/Surface_mesh_texturing/internal/filling/page_sets.h>
 #include <CGAL/Surface_mesh_texturing/internal/mapped_charts/align_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/mapped_charts/scale_by_density.h>
+#include <CGAL/Surface_mesh_texturing/internal/mapped_charts/straighten_borders.h>
 
 #include <atomic>
 #include <cmath>
@@ -278,8 +279,12 @@ inline bool Texture_atlas_builder::take_maps()
 inline bool Texture_atlas_builder::pack()
 {
   const Blocked_execution::Stopwatch watch;
-  if(m_options.is_aligned)
+  Chart_mapping mapping = chart_mapping(m_options.bound);
+  if(m_options.is_aligned) {
     align_charts(m_maps);
+    if(!m_models.take_maps)
+      straighten_borders(mapping, m_maps);
+  }
   Packing_options packing = m_options.packing;
   packing.quarter_turns_only = packing.quarter_turns_only || m_options.is_aligned;
   packing.is_enough = [this, is_enough = packing.is_enough] {
@@ -287,7 +292,6 @@ inline bool Texture_atlas_builder::pack()
   };
   double left = 1.; // of this stage: each packing, whose number is not known before, is half of that
   packing.progress = [&](double part) { return proceed(0.8, 1., 1. - left * (1. - 0.5 * part)); };
-  Chart_mapping mapping = chart_mapping(m_options.bound);
   mapping.no_seams = m_options.no_seams;
   mapping.is_bounded = m_options.metric.empty();
   m_page_height = packing.height
@@ -308,6 +312,8 @@ inline bool Texture_atlas_builder::pack()
     if(!m_result.fail(packed))
       add_pages(std::move(sets[i]), std::move(packed), m_maps, m_packing);
   }
+  if(m_result.is_ok() && m_options.is_aligned)
+    turn_by_quarters(m_maps, m_packing.placements);
   if(m_result.is_ok())
     sort_by_first_triangle(m_maps, m_packing.placements);
   m_result.report.seconds_pack = watch.seconds();

@@ -37,6 +37,11 @@ struct Corner_match
   int operator()(int c) const { return (is_mirrored ? first - c + 6 : first + c) % 3; }
   // The side between the corners c and c + 1
   int side(int c) const { return (*this)(is_mirrored ? c + 1 : c); }
+  // What stands for what stands for a corner
+  Corner_match then(const Corner_match& next) const
+  {
+    return {next(first), is_mirrored != next.is_mirrored};
+  }
   bool operator==(const Corner_match& o) const
   {
     return first == o.first && is_mirrored == o.is_mirrored;

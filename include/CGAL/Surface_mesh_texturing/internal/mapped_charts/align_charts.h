@@ -105,6 +105,24 @@ inline void align_charts(std::vector<Mapped_chart>& maps)
   });
 }
 
+// Turns maps that are turned by quarters on their pages, so that their places do not turn them any
+// more: what is parallel to the axes then stays so exactly.
+inline void turn_by_quarters(std::vector<Mapped_chart>& maps,
+                             std::vector<Chart_placement>& placements)
+{
+  constexpr double negligible = 1e-9; // other angles are those of packers that turn as they like
+  for(std::size_t i = 0; i < maps.size(); ++i) {
+    const double quarters = placements[i].angle / (0.5 * CGAL_PI), whole = std::round(quarters);
+    if(std::abs(quarters - whole) > negligible)
+      continue;
+    const int number = int(std::fmod(whole, 4.) + 4.) % 4;
+    for(Point_2& p : maps[i].uv)
+      for(int k = 0; k < number; ++k)
+        p = Point_2(-p.y(), p.x());
+    placements[i].angle = 0.;
+  }
+}
+
 } // namespace internal
 } // namespace Surface_mesh_texturing
 } // namespace CGAL
