@@ -277,19 +277,6 @@ def streams():
                   "million splits a second in WebAssembly", "native"], lines)
 
 
-def python_module():
-    """What the Python module takes beside the program."""
-    lines = []
-    for row in read("python.csv"):
-        if row["command"] == "nothing":
-            continue
-        seconds = [float(row["program_seconds"]), float(row["module_seconds"])]
-        more = 1e6 * (float(row["module_mb"]) - float(row["program_mb"])) / int(row["faces"])
-        lines.append([row["command"], f"{int(row['faces']):,}", f"{seconds[0]:.2f}, {seconds[1]:.2f}",
-                      f"{seconds[1] / seconds[0]:.2f}", f"{more:.0f}"])
-    return table(["command", "faces", "seconds: program, module", "ratio", "bytes a face more"], lines)
-
-
 COMPILED = {"cgal_lscm": "example, CGAL's `LSCM_parameterizer_3`",
             "hlscm": "example, `HLSCM_parameterizer_3`, `CGAL::HLSCM`",
             "hlscm_compiled": "the same, `CGAL::HLSCM_compiled`",
@@ -472,8 +459,8 @@ def memory_of_commands():
 
 TABLES = {table.__name__: table for table in (
     million_faces, ratios, scaling, growth, stages, stages_two_threads, atlases,
-    atlases_beside_paper, atlases_short, live, levels, streams, python_module, compile_time,
-    reading, low_stretch, one_to_one, equation_peers, signals, which_map, full_pages,
+    atlases_beside_paper, atlases_short, live, levels, streams, compile_time, reading,
+    low_stretch, one_to_one, equation_peers, signals, which_map, full_pages,
     full_pages_peer, ranks, memory_of_commands)}
 BEGIN, END = "<!-- table ", "<!-- end of table -->"
 
