@@ -266,6 +266,17 @@ def levels():
          "it keeps 64-bit coordinates"]])
 
 
+def streams():
+    """The reader of progressive meshes in WebAssembly beside the native one."""
+    lines = []
+    for row in read("streams.csv"):
+        rates = [float(row[c]) / 1e6 for c in ("webassembly_per_second", "native_per_second")]
+        lines.append([row["model"].replace("_", " "), f"{int(row['splits']):,}", row["bytes"],
+                      row["module_bytes"]] + [f"{rate:.1f}" for rate in rates])
+    return table(["model", "splits", "bytes", "bytes of the reader",
+                  "million splits a second in WebAssembly", "native"], lines)
+
+
 COMPILED = {"cgal_lscm": "example, CGAL's `LSCM_parameterizer_3`",
             "hlscm": "example, `HLSCM_parameterizer_3`, `CGAL::HLSCM`",
             "hlscm_compiled": "the same, `CGAL::HLSCM_compiled`",
@@ -466,8 +477,8 @@ def memory_of_commands():
 
 TABLES = {table.__name__: table for table in (
     million_faces, ratios, scaling, growth, stages, stages_two_threads, atlases,
-    atlases_beside_paper, atlases_short, live, levels, compile_time, reading, low_stretch, one_to_one,
-    equation_peers, signals, light_models, which_map, full_pages, full_pages_peer, ranks,
+    atlases_beside_paper, atlases_short, live, levels, streams, compile_time, reading, low_stretch,
+    one_to_one, equation_peers, signals, light_models, which_map, full_pages, full_pages_peer, ranks,
     memory_of_commands)}
 BEGIN, END = "<!-- table ", "<!-- end of table -->"
 

@@ -178,6 +178,61 @@ TEST(Progressive_mesh_fit, finds_affine_maps)
     }
 }
 
+#if defined(__SSE2__)
+
+// Two derivations of one fit: loops over differences of 32 bits, and products of 16 bits side by side.
+TEST(Progressive_mesh_fit, of_short_rows_is_that_of_long_ones)
+{
+  using SMM::internal::Short_wedge_values;
+  Random random(seed);
+  std::array<int, 17> taken = {};
+  for(int trial = 0; trial < 40000; ++trial) {
+    const auto count = std::uint32_t(1 + uniform_index(random, 9));
+    const int bits = trial % 17;
+    Split_ring ring(count);
+    Split_ring::Listing listing(ring);
+    std::vector<Short_wedge_values> rows(count + 1);
+    std::vector<Wedge_values> long_rows(count + 1);
+    const std::size_t width = std::size_t(1) << bits, begin = uniform_index(random, 65537 - width);
+    SMM::internal::Wedge_value_sums sums;
+    for(std::uint32_t i = 0; i <= count; ++i) {
+      rows[i] = {};
+      long_rows[i] = {};
+      for(std::size_t c = 0; c < 5; ++c) {
+        const bool is_extreme = uniform_index(random, 4) == 0;
+        long_rows[i][c] = std::uint32_t(begin + (is_extreme ? width - 1 : uniform_index(random, width)));
+        rows[i][c] = std::uint16_t(long_rows[i][c]);
+      }
+      if(i < count) {
+        listing(i);
+        sums.add(long_rows[i]);
+      }
+    }
+    Wedge_values wanted_mean, mean;
+    sums.store_mean(long_rows[count], count, (1u << 20) / (count + 2), wanted_mean);
+    SMM::internal::Ring_sums short_sums;
+    if(!SMM::internal::sum_ring(ring, count, rows.data(), mean, short_sums)) {
+      EXPECT_TRUE(count > Split_ring::few || bits > 12) << bits << seed_text;
+      continue;
+    }
+    ++taken[std::size_t(bits)];
+    Ring_fit wanted(ring, count, long_rows.data(), wanted_mean), fit(short_sums);
+    wanted.set_basis(3, 4);
+    const auto a = std::int32_t(uniform_index(random, 4096)), b = 1000 - a;
+    ASSERT_EQ(mean, wanted_mean) << trial << seed_text;
+    ASSERT_EQ(fit.spread_of_points(), wanted.spread_of_points()) << trial << seed_text;
+    ASSERT_EQ(fit.spread_of_uv(), wanted.spread_of_uv()) << trial << seed_text;
+    ASSERT_EQ(fit.axis_of_plane(), wanted.axis_of_plane()) << trial << seed_text;
+    ASSERT_EQ(fit.point_at(a, b), wanted.point_at(a, b)) << trial << seed_text;
+    ASSERT_EQ(fit.slopes(1), wanted.slopes(1)) << trial << seed_text;
+  }
+  EXPECT_GT(taken[12], 1000);
+  EXPECT_GT(taken[13], 10);  // some are in range
+  EXPECT_LT(taken[13], 2000);
+}
+
+#endif
+
 TEST(Progressive_mesh_fit, bears_anything)
 {
   Random random(seed);

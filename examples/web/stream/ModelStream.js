@@ -14,13 +14,14 @@ export const Status = Object.freeze({
 export class ModelStream {
   #exports;
 
-  /** `module`: the bytes of decoder/stream.cpp, compiled. */
+  /** `module`: the bytes of decoder/stream.cpp, compiled, or the module of them. */
   static async create(module) {
     const nothing = () => 0;
     const imports = new Proxy({}, { get: () => nothing }); // of the system, which it never calls
-    const { instance } = await WebAssembly.instantiate(module, {
+    const made = await WebAssembly.instantiate(module, {
       env: imports, wasi_snapshot_preview1: imports,
     });
+    const instance = made.instance ?? made;
     instance.exports._initialize?.();
     return new ModelStream(instance.exports);
   }

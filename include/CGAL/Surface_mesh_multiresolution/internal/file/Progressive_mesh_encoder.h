@@ -247,7 +247,7 @@ inline std::string Progressive_mesh_encoder::put_split(Vertex_index w)
     return "the split that makes wedge " + std::to_string(w) + " does not keep a manifold, or its "
            "parent has more than " + std::to_string(Corner_rings::max_walk) + " neighbours";
   m_coder.code_ring(m_symbols, m_rings.is_border(t), split);
-  Split_ring ring;
+  Split_ring ring(t);
   Split_ring::Listing listing(ring);
   m_rings.split(split, listing);
   m_coder.code_values(m_symbols, split, ring, m_values.data(), is_second(w), m_values[w]);

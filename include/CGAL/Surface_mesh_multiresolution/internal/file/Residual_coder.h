@@ -65,8 +65,19 @@ private:
     return (std::min)(symbol, escape);
   }
 
+  // The least number of each symbol, and the bits that the symbol does not tell.
+  struct Symbol_range
+  {
+    std::uint8_t begin, below;
+  };
+  static constexpr std::array<Symbol_range, escape> ranges
+    = {{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 1}, {6, 1}, {8, 2}, {12, 2}, {16, 3}, {24, 3}, {32, 4},
+        {48, 4}, {64, 5}, {96, 5}, {128, 6}}};
+
+  // The size of a number, and its sign unless it is 0.
   template <class Coder>
-  static std::uint32_t code_size(Coder& coder, Symbol_model& model, int shift, std::uint32_t size);
+  static std::uint32_t code_size(Coder& coder, Symbol_model& model, int shift, std::uint32_t size,
+                                 std::uint32_t& sign);
 
   std::array<std::array<Scale, number_of_spreads>, number_of_kinds> m_scales;
   std::array<std::array<Symbol_model, 32>, number_of_kinds> m_models;
@@ -74,14 +85,26 @@ private:
 
 template <class Coder>
 std::uint32_t Residual_coder::code_size(Coder& coder, Symbol_model& model, int shift,
-                                        std::uint32_t size)
+                                        std::uint32_t size, std::uint32_t& sign)
 {
   const std::uint32_t s = coder.symbol(model, symbol_of(size >> shift));
-  if(s == escape)
-    return code_plain(coder, size);
-  const int below = s < 4 ? 0 : int(s) / 2 - 1; // bits that the symbol does not tell
-  const std::uint32_t begin = (s < 4 ? s : (2u | (s & 1u)) << below) << shift;
-  return begin + (below + shift == 0 ? 0 : coder.bits(below + shift, size - begin));
+  if(s == escape) {
+    size = code_plain(coder, size);
+    sign = size == 0 ? 0 : coder.bits(1, sign);
+    return size;
+  }
+  const std::uint32_t begin = std::uint32_t(ranges[s].begin) << shift;
+  const int below = ranges[s].below + shift; // at most 28, as means have 29 bits at most
+  if constexpr(Coder::is_decoder) { // all bits at a time, without branches
+    const std::uint64_t bits = coder.next_bits();
+    size = begin + (std::uint32_t(bits) & ((1u << below) - 1));
+    sign = std::uint32_t(bits >> below) & std::uint32_t(size != 0);
+    coder.skip_bits(below + (size != 0 ? 1 : 0));
+  } else {
+    coder.bits(below, size - begin);
+    coder.bits(size == 0 ? 0 : 1, sign);
+  }
+  return size;
 }
 
 template <class Coder>
@@ -94,15 +117,12 @@ std::uint32_t Residual_coder::code(Coder& coder, Residual_kind kind, int spread,
   const int width = bit_width(std::uint32_t(scale.mean)), shift = (std::max)(width - 7, 0);
   const int quarter = width < 3 ? 0 : (scale.mean >> (width - 3)) & 3;
   Symbol_model& model = m_models[std::size_t(kind)][std::size_t(4 * (width - shift) + quarter)];
-  const std::uint32_t sign = residual >> 31;
-  std::uint32_t size = code_size(coder, model, shift, (residual ^ (0 - sign)) + sign);
+  std::uint32_t sign = residual >> 31;
+  const std::uint32_t size = code_size(coder, model, shift, (residual ^ (0 - sign)) + sign, sign);
   const auto bounded = std::int32_t((std::min)(size, std::uint32_t(longest)));
   scale.mean += (16 * bounded - scale.mean) >> scale.shift;
   scale.shift += scale.shift < 5 ? 1 : 0;
-  if(size == 0)
-    return 0;
-  const std::uint32_t is_negative = coder.bits(1, sign);
-  return (size ^ (0 - is_negative)) + is_negative;
+  return (size ^ (0 - sign)) + sign;
 }
 
 } // namespace internal

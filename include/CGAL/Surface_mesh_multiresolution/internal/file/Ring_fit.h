@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_FILE_RING_FIT_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_FILE_RING_FIT_H
 
+#include <CGAL/Surface_mesh_multiresolution/internal/file/Ring_sums.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/file/Symbol_coder.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/file/split_prediction.h>
 
@@ -14,38 +15,6 @@
 namespace CGAL {
 namespace Surface_mesh_multiresolution {
 namespace internal {
-
-// The neighbours of a wedge that a split makes, in the order of its ring, without the parent. A ring
-// is cut off behind as many as a fit takes.
-class Split_ring
-{
-public:
-  static constexpr std::uint32_t most = 24;
-
-  // Takes a neighbour. To be copied: what is stored is elsewhere.
-  class Listing
-  {
-  public:
-    explicit Listing(Split_ring& ring) : m_ring(&ring) {}
-    void operator()(Vertex_index w)
-    {
-      m_ring->m_wedges[(std::min)(m_count, most - 1)] = w;
-      m_ring->m_count = (std::min)(++m_count, most);
-    }
-
-  private:
-    Split_ring* m_ring;
-    std::uint32_t m_count = 0;
-  };
-
-  std::uint32_t size() const { return m_count; }
-  Vertex_index operator[](std::uint32_t i) const { return m_wedges[i]; }
-  Vertex_index back() const { return m_wedges[m_count - 1]; } // the last, even of a long ring
-
-private:
-  std::array<Vertex_index, most> m_wedges;
-  std::uint32_t m_count = 0;
-};
 
 // The affine map that fits a ring and its parent best in the sense of least squares: x, y and z as
 // functions of two coordinates, the basis. It predicts the point of a new wedge whose basis is known.
@@ -61,6 +30,14 @@ public:
   // `mean` is near the mean of the values.
   template <class Row>
   Ring_fit(const Split_ring& ring, Vertex_index parent, const Row* rows, const Wedge_values& mean);
+
+  // The same, given its sums: a fit with u and v as its basis and no other.
+  explicit Ring_fit(const Ring_sums& sums)
+    : m_count(0), m_shift{}, m_extent(sums.squares[0] + sums.squares[1] + sums.squares[2])
+    , m_uv_extent(sums.squares[3] + sums.vv), m_has_basis(true)
+  {
+    set_moments(sums.squares[3], sums.with_v[3], sums.vv, sums.with_u, sums.with_v);
+  }
 
   // The steps of a factor sqrt(2) in which the extent of the ring grows: in space, in the texture.
   int spread_of_points() const { return bit_width(std::uint32_t(m_extent)) + 2 * m_shift[0]; }
@@ -96,10 +73,15 @@ private:
     return size(2) > size(larger) ? 2 : larger;
   }
 
+  template <class Sums>
+  void set_moments(std::int32_t aa, std::int32_t ab, std::int32_t bb, const Sums& with_a,
+                   const Sums& with_b);
+
   std::array<Lanes, Split_ring::most + 1> m_differences; // of x, y, z, u, v from the mean
   std::uint32_t m_count;
   std::array<int, 5> m_shift;                    // bits that the differences lack
   std::int32_t m_extent, m_uv_extent;            // sums of squares
+  bool m_has_basis = false;
   int m_basis_shift = 0;
   std::int64_t m_aa = 0, m_ab = 0, m_bb = 0;     // moments of the basis
   Offset m_a = {}, m_b = {};                     // moments of x, y, z with the basis
@@ -150,6 +132,8 @@ inline int Ring_fit::axis_of_polygon() const
 
 inline void Ring_fit::set_basis(int a, int b)
 {
+  if(m_has_basis)
+    return;
   m_basis_shift = m_shift[std::size_t(a)];
   std::int32_t aa = 0, ab = 0, bb = 0;
   Lanes with_a = {}, with_b = {};
@@ -164,6 +148,13 @@ inline void Ring_fit::set_basis(int a, int b)
       with_b[c] += db * d[c];
     }
   }
+  set_moments(aa, ab, bb, with_a, with_b);
+}
+
+template <class Sums>
+void Ring_fit::set_moments(std::int32_t aa, std::int32_t ab, std::int32_t bb, const Sums& with_a,
+                           const Sums& with_b)
+{
   // A little is added where the ring is so thin that it tells nothing about one direction
   const std::int32_t floor = ((aa + bb) >> 8) + 1;
   m_aa = aa + floor;
@@ -189,7 +180,7 @@ inline Ring_fit::Offset Ring_fit::point_at(std::int32_t a, std::int32_t b) const
   // The weights of the basis, as integers in units of 2^-scale: the moments have at most 30 bits, the
   // numerators 45, the determinant 60, the weights 31, and the sums 61
   const int scale = bit_width(std::uint64_t(m_aa + m_bb)) + 8;
-  const double unit = double(std::uint64_t(1) << scale), det = double(m_aa * m_bb - m_ab * m_ab);
+  const double unit = double(std::int64_t(1) << scale), det = double(m_aa * m_bb - m_ab * m_ab);
   const auto weight_a = std::int64_t(double(m_bb * p - m_ab * q) * unit / det);
   const auto weight_b = std::int64_t(double(m_aa * q - m_ab * p) * unit / det);
   Offset result;

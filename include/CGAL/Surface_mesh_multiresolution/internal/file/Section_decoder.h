@@ -258,7 +258,7 @@ bool Section_decoder::split_by_symbols(Symbol_decoder& symbols, std::size_t i, V
   Ring_split& split = m_numbers.splits[i];
   m_mesh.parents[wedge - m_mesh.header.base.wedges] = split.parent;
   m_coder.code_ring(symbols, m_mesh.rings.is_border(split.parent), split);
-  Split_ring ring;
+  Split_ring ring(split.parent);
   Split_ring::Listing listing(ring);
   if(!m_mesh.rings.split(split, listing))
     return false;

@@ -13,6 +13,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 // What a split is in a file of version 3 or 4, for writer and reader: see Symbol_coder.h for coders.
@@ -93,7 +95,11 @@ class Split_coder
 {
 public:
   Split_coder() {}
-  explicit Split_coder(const File_header& header) : m_header(header) {}
+  explicit Split_coder(const File_header& header) : m_header(header)
+  {
+    for(int c = 0; c < 5; ++c)
+      m_masks[std::size_t(c)] = header.mask(c);
+  }
 
   void set_parents(const Parent_prediction& ranges) { m_parents = Parent_coder(ranges); }
 
@@ -129,12 +135,13 @@ private:
   void code_exact_values(Coder& coder, const Wedge_values& mean, std::size_t first,
                          Wedge_values& values);
   template <class Coder>
-  void code_textured(Coder& coder, Ring_fit& fit, const Wedge_values& mean, bool is_second,
+  void code_textured(Coder& coder, Ring_fit&& fit, const Wedge_values& mean, bool is_second,
                      Wedge_values& values);
   template <class Coder>
   void code_untextured(Coder& coder, Ring_fit& fit, const Wedge_values& mean, Wedge_values& values);
 
   File_header m_header;
+  std::array<std::uint32_t, 5> m_masks = {}; // of the header
   Parent_coder m_parents;
   Residual_coder m_residuals;
   std::vector<std::uint8_t> m_corners; // of each wedge, modulo 256
@@ -182,7 +189,7 @@ std::int32_t Split_coder::code_value(Coder& coder, Residual_kind kind, int sprea
                                      std::uint32_t predicted, Wedge_values& values)
 {
   // The shorter way round if values have fewer than 32 bits
-  const std::uint32_t mask = m_header.mask(int(c)), sign = (mask >> 1) + 1;
+  const std::uint32_t mask = m_masks[c], sign = (mask >> 1) + 1;
   const auto shorter = [&](std::uint32_t x) { return ((x & mask) ^ sign) - sign; };
   const std::uint32_t residual
     = m_residuals.code(coder, kind, spread, shorter(values[c] - predicted));
@@ -202,7 +209,7 @@ void Split_coder::code_exact_values(Coder& coder, const Wedge_values& mean, std:
 // u and v first, as the point is an affine function of them nearly, but for its distance from a
 // plane. What the residual along one axis says of that distance predicts the others.
 template <class Coder>
-void Split_coder::code_textured(Coder& coder, Ring_fit& fit, const Wedge_values& mean,
+void Split_coder::code_textured(Coder& coder, Ring_fit&& fit, const Wedge_values& mean,
                                 bool is_second, Wedge_values& values)
 {
   const int spread = fit.spread_of_uv();
@@ -245,11 +252,18 @@ void Split_coder::code_values(Coder& coder, const Ring_split& split, const Split
                               const Row* rows, bool is_second, Wedge_values& values)
 {
   const bool is_inside = split.kind == Split_kind::INSIDE;
+  Wedge_values mean;
+#if defined(__SSE2__)
+  if constexpr(std::is_same<Row, Short_wedge_values>::value) {
+    Ring_sums ring_sums;
+    if(is_inside && m_header.has_texture && sum_ring(ring, split.parent, rows, mean, ring_sums))
+      return code_textured(coder, Ring_fit(ring_sums), mean, is_second, values);
+  }
+#endif
   Wedge_value_sums sums;
   for(std::uint32_t i = 0; i < ring.size(); ++i)
     sums.add(rows[ring[i]]);
   // The parent counts twice inside: it is as near as any neighbour, and was not chosen by the split
-  Wedge_values mean;
   sums.store_mean(rows[split.parent], ring.size(), (1u << 20) / (ring.size() + (is_inside ? 2 : 1)),
                   mean);
   const std::size_t first = is_second ? 3 : 0;
@@ -257,7 +271,7 @@ void Split_coder::code_values(Coder& coder, const Ring_split& split, const Split
     return code_exact_values(coder, mean, first, values);
   Ring_fit fit(ring, split.parent, rows, mean);
   if(is_inside && m_header.has_texture)
-    return code_textured(coder, fit, mean, is_second, values);
+    return code_textured(coder, std::move(fit), mean, is_second, values);
   if(is_inside)
     return code_untextured(coder, fit, mean, values);
   for(std::size_t c = first; c < std::size_t(m_header.number_of_values()); ++c)

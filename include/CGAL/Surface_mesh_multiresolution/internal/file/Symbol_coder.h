@@ -62,16 +62,12 @@ class Symbol_model
 public:
   Symbol_model()
   {
-    for(int i = 0; i < symbol_count; ++i)
-      m_start[std::size_t(i)] = std::int16_t(i << (probability_bits - 4));
+    for(int i = 0; i <= symbol_count; ++i)
+      m_start[std::size_t(i)] = std::int16_t(std::uint16_t(i << (probability_bits - 4)));
   }
 
-  std::uint32_t start(std::uint32_t s) const { return std::uint32_t(m_start[s]); }
-  std::uint32_t size(std::uint32_t s) const
-  {
-    const std::uint32_t end = s + 1 < symbol_count ? start(s + 1) : 1u << probability_bits;
-    return end - start(s);
-  }
+  std::uint32_t start(std::uint32_t s) const { return std::uint16_t(m_start[s]); }
+  std::uint32_t size(std::uint32_t s) const { return start(s + 1) - start(s); }
 
   // The symbol whose part has the given place: one less than the number of starts up to there.
   std::uint32_t symbol_at(std::uint32_t place) const
@@ -119,7 +115,7 @@ private:
   }
 #endif
 
-  Symbol_starts m_start;
+  alignas(16) std::array<std::int16_t, symbol_count + 1> m_start; // the last is 2^15, unsigned
   int m_shift = 2 << 3; // in eighths: each of the first shifts is used eight times
 };
 
@@ -206,41 +202,47 @@ public:
   {
     const std::uint32_t place = m_state & ((1u << probability_bits) - 1);
     const std::uint32_t s = model.symbol_at(place);
-    m_state = model.size(s) * (m_state >> probability_bits) + place - model.start(s);
-    if(m_state < 1u << 16) {
-      m_state <<= 16;
-      if(m_word < m_words_end) {
-        m_state |= static_cast<unsigned char>(m_word[0])
-                 | std::uint32_t(static_cast<unsigned char>(m_word[1])) << 8;
-        m_word += 2;
-      } else {
-        m_is_open = false;
-      }
-    }
+    const std::uint32_t state
+      = model.size(s) * (m_state >> probability_bits) + place - model.start(s);
+    // No branch: whether a word is needed nothing foretells
+    const std::uint32_t lacks_word = (state >> 16) == 0 ? 1 : 0;
+    const char* word = (std::min)(m_word, m_words_end);
+    const std::uint32_t bits = static_cast<unsigned char>(word[0])
+                             | std::uint32_t(static_cast<unsigned char>(word[1])) << 8;
+    m_state = (state << (16 * lacks_word)) | (bits & (0 - lacks_word));
+    m_word = word + 2 * lacks_word;
+    m_lacks_words |= m_word > m_words_end;
     model.learn(s);
     return s;
   }
 
   std::uint32_t bits(int count, std::uint32_t = 0)
   {
-    const std::size_t at = (std::min)(m_at, m_number_of_bits);
-    const std::uint64_t window = load_64_bits(m_plain + (at >> 3)) >> (at & 7u);
-    m_at += std::size_t(count);
+    const std::uint64_t window = next_bits();
+    skip_bits(count);
     return std::uint32_t(window & ((std::uint64_t(1) << count) - 1));
   }
 
+  // The plain bits that come next, 57 at least; and on behind some of them.
+  std::uint64_t next_bits() const
+  {
+    const std::size_t at = (std::min)(m_at, m_number_of_bits);
+    return load_64_bits(m_plain + (at >> 3)) >> (at & 7u);
+  }
+  void skip_bits(int count) { m_at += std::size_t(count); }
+
   // Whether nothing was read behind the end.
-  bool is_sound() const { return m_is_open && m_at <= m_number_of_bits; }
+  bool is_sound() const { return m_is_open && !m_lacks_words && m_at <= m_number_of_bits; }
 
   // Whether, after the last symbol, there is no symbol left.
   bool is_at_end() const { return is_sound() && m_state == 1u << 16 && m_word == m_words_end; }
 
 private:
   std::uint32_t m_state = 1u << 16;
-  const char *m_word = nullptr, *m_words_end = nullptr;
   const char* m_plain = "\0\0\0\0\0\0\0"; // eight bytes
+  const char *m_word = m_plain, *m_words_end = m_plain;
   std::size_t m_at = 0, m_number_of_bits = 0;
-  bool m_is_open = false;
+  bool m_is_open = false, m_lacks_words = false;
 };
 
 // --- Numbers as symbols
