@@ -129,6 +129,14 @@ public:
     write_manifest();
   }
 
+  // Phases that were finished count no more: they will be done again.
+  void forget(const std::vector<std::string>& phases)
+  {
+    for(const std::string& phase : phases)
+      m_values.erase(phase);
+    write_manifest();
+  }
+
   // What all files take.
   std::size_t bytes() const
   {
