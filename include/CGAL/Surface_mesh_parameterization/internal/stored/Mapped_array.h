@@ -222,6 +222,13 @@ public:
     m_file.release(first * sizeof(T), last * sizeof(T));
   }
   void release() const { m_file.release(0, m_file.bytes()); }
+  // The same when all before was: now and then also what came back, pages at a time, since entries
+  // of later ranges have neighbours there.
+  void release_passed(std::size_t first, std::size_t last) const
+  {
+    constexpr std::size_t entries = std::size_t(1) << 20;
+    release(last >= size() || first / entries != last / entries ? 0 : first, last);
+  }
 
   const Mapped_file& file() const { return m_file; }
 
@@ -229,11 +236,11 @@ private:
   Mapped_file m_file;
 };
 
-// What takes ranges of arrays in files out of the memory.
+// What takes ranges of arrays in files out of the memory, one after the other.
 template <class... Array>
 auto releases(const Array&... array)
 {
-  return [&](std::size_t begin, std::size_t end) { (array.release(begin, end), ...); };
+  return [&](std::size_t begin, std::size_t end) { (array.release_passed(begin, end), ...); };
 }
 
 // Calls `body(begin, end)` for blocks of rows, and after each slab of them `release(begin, end)`,

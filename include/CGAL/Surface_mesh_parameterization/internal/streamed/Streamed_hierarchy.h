@@ -61,6 +61,11 @@ public:
   Work_folder& folder() { return m_folder; }
   std::vector<Streamed_level>& levels() { return m_levels; } // the coarsest first
   Gathered_hierarchy& gathered() { return *m_gathered; }
+  void remove_gathered() // when the map is found
+  {
+    m_gathered.reset();
+    give_memory_back();
+  }
   std::size_t bytes_of_gathered() const { return bytes_of_vertex * m_gathered->size(); }
   // What is in memory of arrays that are streamed, and of the program.
   std::size_t bytes_of_window() const
@@ -303,10 +308,7 @@ inline Streamed_mesh Streamed_hierarchy::sort_coarse(std::size_t k, const Stream
           s = mesh.rank[s];
       }
     },
-    [&](std::size_t begin, std::size_t end) {
-      level.stencils.release(begin, end);
-      decimated.stencils.release(begin, end);
-    });
+    releases(level.stencils, decimated.stencils, mesh.rank));
   for(Pin& pin : m_state.pins)
     pin.vertex = mesh.rank[pin.vertex];
   m_finished.finish_mesh(k, mesh, level.stencils, m_state);
@@ -352,10 +354,13 @@ inline void Streamed_hierarchy::complete_report()
   report.levels.back().faces = report.faces;
   const std::vector<std::uint32_t> pins
     = m_levels.empty() ? m_state.pinned() : m_levels.back().pins;
-  for(std::size_t v = 0; v < m_rank.size(); ++v)
+  for(std::size_t v = 0; v < m_rank.size(); ++v) {
+    if(v % 65536 == 0)
+      m_rank.release(0, v);
     for(std::size_t i = 0; i < pins.size(); ++i)
       if(m_rank[v] == pins[i])
         report.pins.push_back({v, m_state.pins[i].value.real(), m_state.pins[i].value.imag()});
+  }
   m_rank.release();
   if(report.mollified_faces > 0)
     report.warnings.push_back(mollification_warning(report.mollified_faces));

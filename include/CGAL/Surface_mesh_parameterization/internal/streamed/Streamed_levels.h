@@ -32,9 +32,10 @@ struct Streamed_level
 
   std::size_t size() const { return matrix.size(); }
 
-  // Calls `use(i, value)` for all rows with what vertex i gets of a coarse vector.
-  template <class Value, class Use>
-  void prolong(const Value* coarse, const Use& use) const
+  // Calls `use(i, value)` for all rows with what vertex i gets of a coarse vector, and
+  // `release(begin, end)` for what was used.
+  template <class Value, class Use, class Release>
+  void prolong(const Value* coarse, const Use& use, const Release& release) const
   {
     typedef typename Value::value_type Real;
     stream_rows(
@@ -46,7 +47,10 @@ struct Streamed_level
                    + Real(s.weight[2]) * coarse[s.source[2]]);
         }
       },
-      [this](std::size_t begin, std::size_t end) { stencils.release(begin, end); });
+      [&](std::size_t begin, std::size_t end) {
+        stencils.release(begin, end);
+        release(begin, end);
+      });
   }
 };
 
@@ -117,7 +121,7 @@ private:
   {
     level.files->matrix.release(begin, end);
     for(const Vector* vector : {&level.u, &level.f, &level.r, &level.z, &level.next})
-      vector->release(begin, end);
+      vector->release_passed(begin, end);
   }
 
   template <class Body>
@@ -241,8 +245,10 @@ inline void Streamed_levels::restrict_residual(std::size_t l)
       level.files->stencils.release(begin, end);
     });
   level.has_step = false;
-  if(l > 1)
+  if(l > 1) {
+    at(l - 1).f.release();
     start_at_zero(l - 1);
+  }
 }
 
 inline void Streamed_levels::correct(std::size_t l)
@@ -252,7 +258,10 @@ inline void Streamed_levels::correct(std::size_t l)
   level.files->prolong(l == 1 ? m_coarsest_u.data() : at(l - 1).u.data(),
                        [&](std::size_t i, const Rounded& value) {
                          level.u[i] = was_zero ? value : level.u[i] + value;
-                       });
+                       },
+                       releases(level.u));
+  if(l > 1)
+    at(l - 1).u.release();
   clear_pins(level, level.u); // of a correction it has none
   level.is_zero = level.has_step = false;
 }

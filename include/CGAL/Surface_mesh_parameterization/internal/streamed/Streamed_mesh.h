@@ -7,6 +7,7 @@
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/internal/stored/Work_folder.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -136,16 +137,24 @@ inline void sort_keys(Mapped_array<Curve_key>& keys, Mapped_array<Curve_key>& ot
 {
   constexpr int bits = 10;
   constexpr std::size_t digits = std::size_t(1) << bits;
+  constexpr std::size_t slab = std::size_t(1) << 20;
+  const auto for_each_key = [&keys, &other](const auto& use) {
+    for(std::size_t first = 0; first < keys.size(); first += slab) {
+      const std::size_t last = (std::min)(keys.size(), first + slab);
+      for(std::size_t i = first; i < last; ++i)
+        use(keys[i]);
+      keys.release(first, last);
+      other.release();
+    }
+  };
   for(int shift = 0; shift < 30; shift += bits) {
     const auto digit = [shift](const Curve_key& key) { return (key.code >> shift) & (digits - 1); };
     std::array<std::uint64_t, digits> at = {};
-    for(const Curve_key& key : keys)
-      ++at[digit(key)];
+    for_each_key([&](const Curve_key& key) { ++at[digit(key)]; });
     std::uint64_t before = 0;
     for(std::uint64_t& place : at)
       before += std::exchange(place, before);
-    for(const Curve_key& key : keys)
-      other[at[digit(key)]++] = key;
+    for_each_key([&](const Curve_key& key) { other[at[digit(key)]++] = key; });
     std::swap(keys, other);
   }
 }
@@ -256,7 +265,9 @@ void Streamed_mesh_builder<Source>::sort_vertices(const Curve_cube& cube, std::s
   m_mesh.points = create<Three_numbers>("points", vertices);
   m_mesh.source = create<std::uint32_t>("source", vertices);
   m_mesh.rank = create<std::uint32_t>("rank", m_source.number_of_vertices());
-  std::fill(m_mesh.rank.begin(), m_mesh.rank.end(), Indexed_mesh::no_vertex);
+  stream_rows(all, [this](std::size_t begin, std::size_t end) {
+    std::fill(m_mesh.rank.begin() + begin, m_mesh.rank.begin() + end, Indexed_mesh::no_vertex);
+  }, releases(m_mesh.rank));
   for(std::size_t first = 0; first < vertices; first += slab) {
     const std::size_t last = (std::min)(vertices, first + slab);
     for(std::size_t i = first; i < last; ++i) {
@@ -266,6 +277,10 @@ void Streamed_mesh_builder<Source>::sort_vertices(const Curve_cube& cube, std::s
       m_mesh.points[i] = m_source.point(v);
     }
     releases(keys, m_mesh.source, m_mesh.points)(first, last);
+    if(first / slab % 16 == 15) { // where they are depends on the order of the input
+      m_source.release_vertices(0, all);
+      m_mesh.rank.release();
+    }
   }
   keys = Mapped_array<Curve_key>();
   m_folder.remove(m_name + "keys");
