@@ -26,8 +26,8 @@ namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
 
-// A file as a piece of memory (POSIX). The system reads what is touched and writes what was changed;
-// what is released takes no memory of the process until it is touched again.
+// A file as a piece of memory (POSIX). The system reads what is touched and writes what was
+// changed; what is released takes no memory of the process until it is touched again.
 class Mapped_file
 {
 public:

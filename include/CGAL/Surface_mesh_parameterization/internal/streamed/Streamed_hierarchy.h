@@ -79,7 +79,8 @@ public:
   // Tells how much is done; returns whether the work goes on.
   bool tell(double part)
   {
-    m_is_cancelled = m_is_cancelled || (m_options.solver.progress && !m_options.solver.progress(part));
+    const auto& progress = m_options.solver.progress;
+    m_is_cancelled = m_is_cancelled || (progress && !progress(part));
     return !m_is_cancelled;
   }
 
@@ -107,7 +108,8 @@ private:
   std::size_t most_in_block() const
   {
     const std::size_t most = m_options.block_vertices;
-    return (std::clamp)(most > 0 ? most : m_options.memory / 1000, least_in_block, most_with_32_bits);
+    return (std::clamp)(most > 0 ? most : m_options.memory / 1000, least_in_block,
+                        most_with_32_bits);
   }
   std::size_t block_size_for(std::size_t vertices) const
   {
@@ -143,7 +145,8 @@ inline std::string Streamed_hierarchy::identity() const
   std::ostringstream text;
   text.precision(17);
   text << format << ' ' << m_input.records().checksum() << ' ' << most_gathered() << ' '
-       << most_in_block() << ' ' << m_options.solver.level_ratio << ' ' << m_options.solver.angular_defect_bound;
+       << most_in_block() << ' ' << m_options.solver.level_ratio << ' '
+       << m_options.solver.angular_defect_bound;
   return text.str();
 }
 
@@ -234,7 +237,8 @@ inline void Streamed_hierarchy::normalize(Streamed_mesh& mesh)
 }
 
 // Builds the matrix of level k and the mesh that comes after it.
-inline void Streamed_hierarchy::decimate(std::size_t k, Streamed_mesh& mesh, Decimated_level& coarse)
+inline void Streamed_hierarchy::decimate(std::size_t k, Streamed_mesh& mesh,
+                                         Decimated_level& coarse)
 {
   const auto name = [&mesh](std::uint32_t v) { return mesh.source[v]; }; // where it matters
   const std::string prefix = m_finished.level_name(k) + "_";
@@ -254,7 +258,8 @@ inline void Streamed_hierarchy::decimate(std::size_t k, Streamed_mesh& mesh, Dec
   }
   if(k == 0) {
     m_state.blocks = blocks;
-    m_state.pins = far_border_pins(level.matrix.border(), [&mesh](std::uint32_t v) { return mesh.points[v]; });
+    m_state.pins = far_border_pins(level.matrix.border(),
+                                   [&mesh](std::uint32_t v) { return mesh.points[v]; });
   }
   level.pins = m_state.pinned();
   for(const std::uint32_t pin : level.pins)
@@ -298,7 +303,8 @@ inline Streamed_mesh Streamed_hierarchy::sort_coarse(std::size_t k, const Stream
                                      block_size_for(count));
   Streamed_level& level = m_levels.back();
   level.stencils
-    = m_folder.create<Streamed_stencil>(m_finished.level_name(k - 1) + "_prolongation", fine.points.size());
+    = m_folder.create<Streamed_stencil>(m_finished.level_name(k - 1) + "_prolongation",
+                                        fine.points.size());
   stream_rows(
     level.size(),
     [&](std::size_t begin, std::size_t end) {

@@ -55,8 +55,8 @@ struct Streamed_level
 };
 
 // The cycle over the levels in files, the coarsest first; below them, as level 0, a hierarchy in
-// memory. As `Multigrid_levels`, with the same smoother, but each pass over the rows of a level does
-// all that can be done in it.
+// memory. As `Multigrid_levels`, with the same smoother, but each pass over the rows of a level
+// does all that can be done in it.
 //
 // A model of `MultigridLevels`.
 class Streamed_levels
@@ -91,7 +91,7 @@ private:
   struct Level
   {
     Streamed_level* files = nullptr;
-    Vector u, f, r, z, next;  // of the system; residual; the last step of the smoother, and the next
+    Vector u, f, r, z, next;  // of the system; residual; the last step of the smoother, the next
     bool is_zero = true;      // u is 0, whatever is stored
     bool has_step = false;    // r - H z is f - H u
     std::vector<std::pair<Vector, Vector>> directions; // and H times them; for the accelerator
@@ -162,8 +162,8 @@ private:
   std::vector<Rounded> m_coarsest_f, m_coarsest_u;
 };
 
-// Steps of the Chebyshev method of the fourth kind, as `Multigrid::chebyshev_steps()`. u gets a step
-// only when the pass that needs it for its neighbours is over.
+// Steps of the Chebyshev method of the fourth kind, as `Multigrid::chebyshev_steps()`. u gets a
+// step only when the pass that needs it for its neighbours is over.
 inline void Streamed_levels::smooth(std::size_t l, unsigned int steps)
 {
   if(steps == 0)
@@ -268,7 +268,8 @@ inline void Streamed_levels::correct(std::size_t l)
 
 // As `Multigrid_levels::accelerate()`.
 template <class Coarse_cycle>
-void Streamed_levels::accelerate(std::size_t l, unsigned int steps, const Coarse_cycle& coarse_cycle)
+void Streamed_levels::accelerate(std::size_t l, unsigned int steps,
+                                 const Coarse_cycle& coarse_cycle)
 {
   Level& level = at(l);
   if(level.x.empty())
@@ -288,9 +289,8 @@ void Streamed_levels::accelerate(std::size_t l, unsigned int steps, const Coarse
     Vector& q = level.directions[step].second;
     std::swap(p, level.u);
     pass(level, [&](std::size_t begin, std::size_t end) {
-      level.files->matrix.for_each_product(begin, end, p.data(), [&](std::size_t i, const Rounded& s) {
-        q[i] = s;
-      });
+      level.files->matrix.for_each_product(
+        begin, end, p.data(), [&](std::size_t i, const Rounded& s) { q[i] = s; });
     });
     p.release();
     q.release();

@@ -72,7 +72,7 @@ struct Streamed_mesh
 
   std::size_t block_size = 0;            // vertices
   Mapped_array<Three_numbers> points;
-  Mapped_array<std::uint32_t> source;    // for each vertex what it is in the mesh that this was made of
+  Mapped_array<std::uint32_t> source;    // what each vertex is in the mesh that this was made of
   Mapped_array<std::uint32_t> rank;      // the inverse; `no_vertex` for what is not in this mesh
   Mapped_array<Triangle_indices> triangles, ghosts;
   Mapped_array<Three_numbers> cotangents, ghost_cotangents; // empty: those of the points
@@ -114,7 +114,10 @@ struct Curve_cube
   double cells_per_length = 0.;
 
   // The part for level k: the cells of no two levels have faces in common.
-  static double part_of_level(std::size_t k) { return std::fmod(0.6180339887498949 * double(k), 1.); }
+  static double part_of_level(std::size_t k)
+  {
+    return std::fmod(0.6180339887498949 * double(k), 1.);
+  }
 
   // Around a box; moved by a part of its side, with a side twice as long.
   Curve_cube(const Bbox_3& box, double part)
@@ -247,7 +250,8 @@ private:
 template <class Source>
 void Streamed_mesh_builder<Source>::sort_vertices(const Curve_cube& cube, std::size_t vertices)
 {
-  auto keys = create<Curve_key>("keys", vertices), other = create<Curve_key>("other_keys", vertices);
+  auto keys = create<Curve_key>("keys", vertices);
+  auto other = create<Curve_key>("other_keys", vertices);
   std::size_t count = 0;
   constexpr std::size_t slab = std::size_t(1) << 18;
   const std::size_t all = m_source.number_of_vertices();

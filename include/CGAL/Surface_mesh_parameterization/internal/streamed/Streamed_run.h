@@ -42,7 +42,10 @@ public:
   }
   std::size_t slot_of_row(std::uint32_t v) const { return v; }
   template <class Use>
-  void for_each_entry(std::size_t v, const Use& use) const { m_level.matrix.for_each_entry(v, use); }
+  void for_each_entry(std::size_t v, const Use& use) const
+  {
+    m_level.matrix.for_each_entry(v, use);
+  }
 
 private:
   const Streamed_level& m_level;
@@ -64,7 +67,8 @@ std::vector<std::uint32_t> faces_without_positive_area(const Mapped_array<Triang
   return result;
 }
 
-// What the system counts of a process that goes to disks and comes from them; 0 if it does not tell.
+// What the system counts of a process that goes to disks and comes from them; 0 if it does not
+// tell.
 struct Disk_traffic
 {
   std::size_t read = 0, written = 0;
@@ -177,7 +181,7 @@ inline Streamed_map Streamed_run::map_in_memory()
 {
   Gathered_hierarchy& gathered = m_hierarchy.gathered();
   Multigrid::Iteration_report result;
-  const auto stop = energy_stop(m_options.solver, 1.); // the pins, far from each other, are at distance 1
+  const auto stop = energy_stop(m_options.solver, 1.); // the distance of the pins, which are far
   auto z = gathered.map(stop, [this](double part) { return m_hierarchy.tell(0.7 + 0.2 * part); },
                         result);
   conclude(result);
@@ -228,10 +232,9 @@ inline Streamed_map Streamed_run::iterate()
     z = std::move(fine);
     folder.remove("map" + std::to_string(l - 1));
     coarse = z.data();
-    result = solver.minimize(l, z,
-                             l == levels.size()
-                               ? energy_stop(m_options.solver, longer_side(box_of(z))) : coarse_stop,
-                             observe);
+    const auto stop = l == levels.size()
+                        ? energy_stop(m_options.solver, longer_side(box_of(z))) : coarse_stop;
+    result = solver.minimize(l, z, stop, observe);
     m_report.solver.levels[gathered.number_of_levels() + l - 1].iterations = result.iterations;
     if(result.cancelled)
       break;

@@ -31,8 +31,8 @@ struct Row_sums
   }
 };
 
-// The flexible conjugate gradient method on levels in files, as `Multigrid::minimize_energy()`, with
-// the passes over the rows put together: one with the matrix, and two without, a step.
+// The flexible conjugate gradient method on levels in files, as `Multigrid::minimize_energy()`,
+// with the passes over the rows put together: one with the matrix, and two without, a step.
 class Streamed_solver
 {
 public:
