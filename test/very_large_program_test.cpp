@@ -111,7 +111,7 @@ TEST_F(Very_large_program, refuses_damaged_obj_files)
        {text + "f 1 2 3 4\n", "face 1682 is not a triangle; triangulate"},
        {text + "f 1 2 901\n", "face 1682 names vertex 900 but there are 900 vertices"},
        {text + std::string(1, '\0'), " is zero, this is no OBJ text"},
-       {"\x1f\x8b" + text, "packed by gzip"},
+       {"\x1f\x8b\x08" + text, "packed by gzip"},
        {"v 1 2 3\n", "no faces"},
        {"", "no faces"}};
   for(const auto& [bytes, words] : cases) {
