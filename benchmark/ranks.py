@@ -3,12 +3,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Maps terrains by several ranks of MPI, out of core and in memory: a row for each run.
 
-Usage: benchmark/ranks.py BIN > benchmark/results/ranks.csv
+Usage: benchmark/ranks.py BIN [SERIES]... > benchmark/results/ranks.csv
 
-BIN is the folder of hlscm and hlscm-mpi. Series:
+BIN is the folder of hlscm and hlscm-mpi. Series, all of them if none is named:
   large   one terrain of 23M faces: in memory with one thread, out of core in 4 GB, by 1 and 2 ranks
   largest one of 50M faces by 2 ranks
   weak    2M faces a rank
+  size    1M to 100M faces out of core by two threads, in 60 bytes a face
   strong  8M faces; with more ranks than processors for the counts, not for the time
 Seconds are those of the clock from the read mesh to the map, those of reading and writing apart; memory
 is that of the rank that takes most, or of the process.
@@ -40,15 +41,15 @@ def terrain(folder, faces):
     return name
 
 
-def run(bin_dir, name, method, ranks):
+def run(bin_dir, name, method, ranks, faces, threads):
     out, report_name = name + ".out.ply", name + ".json"
     options = ["parameterize", name, "-o", out, "--report", report_name, "--quiet"]
     if method == "ranks":
         command = ["mpirun", "-n", str(ranks), os.path.join(bin_dir, "hlscm-mpi")] + options
     else:
-        command = [os.path.join(bin_dir, "hlscm")] + options + ["--threads", "1"]
+        command = [os.path.join(bin_dir, "hlscm")] + options + ["--threads", str(threads)]
         if method == "out of core":
-            command += ["--memory", "4G"]
+            command += ["--memory", "4G" if threads == 1 else str(60 * faces)]
     start = time.monotonic()
     subprocess.run(command, check=True, env=dict(os.environ, **MPI))
     wall = time.monotonic() - start
@@ -56,7 +57,7 @@ def run(bin_dir, name, method, ranks):
         report = json.load(file)
     os.remove(out)
     seconds, parts = report["seconds"], report.get("ranks", [])
-    row = {"method": method, "ranks": ranks, "faces": report["faces"],
+    row = {"method": method if threads == 1 else f"{method}, {threads} threads", "ranks": ranks, "faces": report["faces"],
            "distributed_levels": report.get("distributed_levels", report.get("levels_in_files", 0)),
            "iterations": report["iterations"], "energy": report["energy"], "flips": report["flips"],
            "seconds": round(seconds["total"], 2), "wall": round(wall, 2),
@@ -83,9 +84,14 @@ def main():
     runs += [("large", "in memory", 1, 23 * million), ("large", "out of core", 1, 23 * million),
              ("large", "ranks", 1, 23 * million), ("large", "ranks", 2, 23 * million),
              ("largest", "ranks", 2, 50 * million)]
+    runs += [("size", "out of core", 1, n * million) for n in (1, 4, 16, 50, 100)]
     with tempfile.TemporaryDirectory() as folder:
         for series, method, ranks, faces in runs:
-            writer.writerow(dict(run(bin_dir, terrain(folder, faces), method, ranks), series=series))
+            if len(sys.argv) > 2 and series not in sys.argv[2:]:
+                continue
+            threads = 2 if series == "size" else 1
+            row = run(bin_dir, terrain(folder, faces), method, ranks, faces, threads)
+            writer.writerow(dict(row, series=series))
             sys.stdout.flush()
 
 

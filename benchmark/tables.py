@@ -455,6 +455,7 @@ def ranks():
     for row in read("ranks.csv"):
         count = int(row["ranks"])
         by = {"in memory": "in memory, one thread", "out of core": "out of core, `--memory 4G`, one thread",
+              "out of core, 2 threads": "out of core, 60 bytes a face, two threads",
               "ranks": f"{count} rank" + ("s" if count > 1 else "")}[row["method"]]
         sent = ""
         if count > 1:
@@ -464,6 +465,17 @@ def ranks():
                       row["peak_memory_mb"] + " MB", sent])
     return table(["series", "faces", "by", "iterations", "energy", "seconds", "with files",
                   "most memory of a process", "sent, messages"], lines)
+
+
+def interfaces():
+    """Triangles of coarse meshes near the interfaces of blocks, and elsewhere."""
+    return table(["chart", "level", "blocks of the finer one", "triangles", "share", "mean quality",
+                  "5 %", "1 %", "mean least angle", "5 %"],
+                 [[f"{row['chart']}, {float(row['faces']) / 1e6:.1f}M faces", row["level"],
+                   row["blocks_of_finer"], row["where"], f"{100 * float(row['share']):.1f} %",
+                   number(row, "quality_mean", 2), number(row, "quality_5", 2),
+                   number(row, "quality_1", 2), number(row, "least_angle_mean", 1),
+                   number(row, "least_angle_5", 1)] for row in read("interfaces.csv")])
 
 
 def memory_of_commands():
@@ -479,6 +491,7 @@ TABLES = {table.__name__: table for table in (
     million_faces, ratios, scaling, growth, stages, stages_two_threads, atlases,
     atlases_beside_paper, atlases_short, live, levels, streams, compile_time, reading, low_stretch,
     one_to_one, equation_peers, signals, light_models, which_map, full_pages, full_pages_peer, ranks,
+    interfaces,
     memory_of_commands)}
 BEGIN, END = "<!-- table ", "<!-- end of table -->"
 

@@ -11,13 +11,14 @@
 #           any                        files whose bytes tell the format
 #           soup                       the surfaces of polygon soups
 #           pm                         progressive mesh files
+#           records                    PLY files that are mapped out of core
 
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 seconds="${1:-600}"
 [[ "$seconds" =~ ^[1-9][0-9]*$ ]] || fail "SECONDS is a number, not $seconds"
 fuzzers=("${@:2}")
-[ "${#fuzzers[@]}" -gt 0 ] || fuzzers=(gltf obj off ply stl any soup pm)
+[ "${#fuzzers[@]}" -gt 0 ] || fuzzers=(gltf obj off ply stl any soup pm records)
 
 cd "$root"
 scripts/install_dependencies.sh
@@ -37,7 +38,11 @@ for fuzzer in "${fuzzers[@]}"; do
     any) seeds=("$root"/test/fuzz/seeds/{gltf,obj,off,ply,stl}) ;;
     soup) options=(-timeout=20 -max_len=1024) ;;
     pm) options=(-timeout=20 -max_len=4096) ;;
-    *) fail "unknown fuzzer $fuzzer; there are gltf, obj, off, ply, stl, any, soup and pm" ;;
+    records)
+      seeds=("$root"/test/fuzz/seeds/{records,ply})
+      options=(-timeout=20 -max_len=4096 -dict="$root/test/fuzz/mesh_files.dict")
+      ;;
+    *) fail "unknown fuzzer $fuzzer; there are gltf, obj, off, ply, stl, any, soup, pm and records" ;;
   esac
   say "$fuzzer for $seconds seconds"
   found="$build/found/$fuzzer"

@@ -17,11 +17,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <string>
 #include <vector>
+
+#include <unistd.h>
 
 namespace distributed_chart_test {
 
@@ -329,6 +334,102 @@ TEST_F(Distributed_file, says_that_it_cannot_be_written)
     EXPECT_NE(SMP::map_distributed_chart(MPI_COMM_WORLD, input(), fail, options).error, SMP::OK);
 }
 
+// Told to stop at some moment, a run that goes on ends as one that was left alone; and so it does if
+// one rank has fewer finished levels than the others, or none.
+TEST_F(Distributed_file, is_resumed)
+{
+  const Indexed_triangle_mesh mesh = shuffled(with_noise(irregular_grid(60, 50, 4), 0.2, 5), 8);
+  write(mesh);
+  Options options = options_of(500, 200, 1e-6);
+  options.work_folder = (folder / "work").string();
+  const std::filesystem::path own
+    = folder / "work" / ("rank" + std::to_string(rank_in(MPI_COMM_WORLD)));
+  int calls = 0;
+  options.solver.progress = [&calls](double) { ++calls; return true; };
+  ASSERT_EQ(map_file(options).error, SMP::OK);
+  const std::string expected = output;
+  EXPECT_FALSE(std::filesystem::exists(folder / "work"));
+  MPI_Bcast(&calls, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  std::size_t most = 0;
+  for(int k = 0; k < 5; ++k) {
+    const int last = 1 + k * (calls - 1) / 4;
+    SCOPED_TRACE("stopped at call " + std::to_string(last) + " of " + std::to_string(calls));
+    int left = last;
+    options.solver.progress = [&left](double) { return --left > 0; };
+    const bool is_last_late = k == 3, is_first_lost = k == 4;
+    options.resumes = false;
+    EXPECT_TRUE(map_file(options).solver.cancelled);
+    EXPECT_EQ(output, "");
+    const int last_rank = size_of(MPI_COMM_WORLD) - 1;
+    if(is_last_late && rank_in(MPI_COMM_WORLD) == last_rank)
+      std::filesystem::remove(own / "finished.hlscm");
+    if(is_first_lost && rank_in(MPI_COMM_WORLD) == 0)
+      std::filesystem::remove_all(own);
+    options.solver.progress = nullptr;
+    options.resumes = true;
+    const Report report = map_file(options);
+    ASSERT_EQ(report.error, SMP::OK) << report.message;
+    most = (std::max)(most, report.finished_before);
+    if(is_last_late || is_first_lost) {
+      EXPECT_EQ(report.finished_before, 0u);
+    }
+    EXPECT_EQ(output.size(), expected.size());
+    if(!output.empty() && output.size() == expected.size()) {
+      const Mapped_ply a = read_mapped_ply(output, mesh.points.size(), mesh.triangles.size()),
+                       b = read_mapped_ply(expected, mesh.points.size(), mesh.triangles.size());
+      for(std::size_t v = 0; v < a.uv.size(); ++v)
+        ASSERT_LT(squared_distance(a.uv[v], b.uv[v]), 1e-18); // sums in another order
+    }
+    MPI_Barrier(MPI_COMM_WORLD);
+    EXPECT_FALSE(std::filesystem::exists(folder / "work"));
+  }
+  EXPECT_GT(most, 1u);
+}
+
+// What was kept is of another input, of other options, or damaged on one rank: a sentence of all.
+TEST_F(Distributed_file, sees_what_changed_before_it_goes_on)
+{
+  Indexed_triangle_mesh mesh = grid(40, 40);
+  write(mesh);
+  Options options = options_of(300, 150, 1e-6);
+  options.work_folder = (folder / "work").string();
+  const auto stop = [&] {
+    options.resumes = false;
+    options.solver.progress = [](double part) { return part < 0.6; };
+    EXPECT_TRUE(map_file(options).solver.cancelled);
+    options.resumes = true;
+    options.solver.progress = nullptr;
+  };
+  const auto message = [&](const Options& o) {
+    const Report report = map_file(o);
+    EXPECT_NE(report.error, SMP::OK);
+    EXPECT_EQ(output, "");
+    return report.message;
+  };
+  const std::filesystem::path last
+    = folder / "work" / ("rank" + std::to_string(size_of(MPI_COMM_WORLD) - 1));
+  stop();
+  Options other = options;
+  other.block_vertices = 400;
+  EXPECT_NE(message(other).find("other options"), std::string::npos);
+  MPI_Barrier(MPI_COMM_WORLD);
+  if(rank_in(MPI_COMM_WORLD) == 0) {
+    std::fstream file(last / "mesh1_points.hlscm",
+                      std::ios::in | std::ios::out | std::ios::binary);
+    file.put('x');
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
+  EXPECT_EQ(message(options), (last / "mesh1_points.hlscm").string()
+                                + ": the file is not what was written, remove the work folder "
+                                  "and begin again");
+  stop();
+  mesh.points[7] = Point_3(mesh.points[7].x(), mesh.points[7].y(), 1e-9);
+  write(mesh);
+  EXPECT_NE(message(options).find("another input"), std::string::npos);
+  options.resumes = false;
+  EXPECT_EQ(map_file(options).error, SMP::OK);
+}
+
 // A face on one rank that is wrong, a surface that is no chart: one sentence, on all ranks.
 TEST(Distributed_chart, is_refused_in_a_sentence)
 {
@@ -412,6 +513,41 @@ TEST(Distributed_chart, passes_on_what_progress_throws)
     EXPECT_TRUE(run());
 }
 
+// What a test of killed runs calls: maps a file in a folder as these tests do. At that call of
+// `progress`, counted from 1, a rank is killed; at none if it is 0. Prints how many calls and how
+// many levels of an earlier run there were. The output is there only if all went well.
+int map_in(const std::string& folder, int killing_call, int killed_rank)
+{
+  const std::string name = folder + "/out.ply";
+  if(rank_in(MPI_COMM_WORLD) == 0)
+    write_records(shuffled(with_noise(irregular_grid(60, 50, 4), 0.2, 5), 8), folder + "/in.ply");
+  std::vector<pid_t> processes(std::size_t(size_of(MPI_COMM_WORLD)));
+  const pid_t own = getpid(); // ranks of one machine
+  MPI_Allgather(&own, sizeof(own), MPI_BYTE, processes.data(), sizeof(own), MPI_BYTE,
+                MPI_COMM_WORLD);
+  Options options = options_of(500, 200, 1e-6);
+  options.work_folder = folder + "/work";
+  options.resumes = true; // if there is something
+  int calls = 0;
+  options.solver.progress = [&](double) {
+    if(++calls == killing_call) {
+      kill(processes[std::size_t(killed_rank) % processes.size()], SIGKILL);
+      pause(); // until the others are ended
+    }
+    return true;
+  };
+  std::string output;
+  options.finish = [&](const SMP::Very_large_chart_report&) {
+    std::ofstream(name, std::ios::binary) << output;
+  };
+  const Report report = SMP::map_distributed_chart(
+    MPI_COMM_WORLD, folder + "/in.ply", [&output](std::string_view bytes) { output += bytes; },
+    options);
+  if(rank_in(MPI_COMM_WORLD) == 0)
+    std::printf("%d %d %s\n", calls, int(report.finished_before), report.message.c_str());
+  return report.error == SMP::OK ? 0 : 1;
+}
+
 } // namespace distributed_chart_test
 
 int main(int argc, char** argv)
@@ -421,7 +557,11 @@ int main(int argc, char** argv)
   if(distributed_chart_test::rank_in(MPI_COMM_WORLD) != 0) // what all say is said once
     delete testing::UnitTest::GetInstance()->listeners().Release(
       testing::UnitTest::GetInstance()->listeners().default_result_printer());
-  int failed = RUN_ALL_TESTS(), any = 0;
+  const bool is_killed = argc == 4; // <folder> <call> <rank>
+  int failed = is_killed ? distributed_chart_test::map_in(argv[1], std::atoi(argv[2]),
+                                                          std::atoi(argv[3]))
+                         : RUN_ALL_TESTS();
+  int any = 0;
   MPI_Allreduce(&failed, &any, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
   if(failed != 0)
     std::fprintf(stderr, "rank %d has failed\n", distributed_chart_test::rank_in(MPI_COMM_WORLD));

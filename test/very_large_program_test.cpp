@@ -7,11 +7,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <filesystem>
+#include <set>
+#include <sstream>
 #include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 namespace very_large_program_test {
 
@@ -71,6 +76,52 @@ TEST_F(Very_large_program, refuses_what_it_cannot_do)
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_EQ(error_in_message(outcome.err, text, {"convert it to binary PLY"}), "");
   EXPECT_EQ(names(), (std::set<std::string>{"in.ply", "text.ply"}));
+}
+
+// OBJ files are read piece by piece: what is in two of them, and lines that are longer than one.
+TEST_F(Very_large_program, takes_obj_files)
+{
+  const Soup soup = grid(60, hilly);
+  ASSERT_EQ(parameterize(write("in.ply", ply(soup, "binary_little_endian")), "expected.ply",
+                         {"--memory", "1M"}).exit_code, 0);
+  const std::string expected = read_file(path("expected.ply"));
+  std::string text = obj(soup);
+  const std::size_t middle = text.find('\n', text.size() / 3), last = text.rfind("f ");
+  std::string relative = "f";
+  std::istringstream corners(text.substr(last + 2));
+  for(std::string corner; corners >> corner;) {
+    relative += " \\\r\n -" + std::to_string(soup.points.size() + 1 - std::stoul(corner)) + "//";
+  }
+  text = text.substr(0, middle + 1) + "# " + std::string(9 << 20, 'x') + "\r\nvt 1 2\nvn 0 0 1\ng a\n"
+         + text.substr(middle + 1, last - middle - 1) + relative;
+  const Outcome outcome = parameterize(write("in.obj", text), "out.ply", {"--memory", "1M"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_TRUE(read_file(path("out.ply")) == expected);
+  EXPECT_EQ(names(), (std::set<std::string>{"in.ply", "in.obj", "out.ply", "expected.ply"}));
+}
+
+TEST_F(Very_large_program, refuses_damaged_obj_files)
+{
+  const std::string text = obj(grid(30, hilly)), far = "# " + std::string(5 << 20, 'x') + "\n";
+  const std::vector<std::pair<std::string, std::string>> cases
+    = {{far + text + "v 1 2\n", "line "
+          + std::to_string(std::count(text.begin(), text.end(), '\n') + 2)
+          + " should hold the coordinates of vertex 900"},
+       {text + "f 1 2 x\n", "should hold the corners of face 1682"},
+       {text + "f 1 2 3 4\n", "face 1682 is not a triangle; triangulate"},
+       {text + "f 1 2 901\n", "face 1682 names vertex 900 but there are 900 vertices"},
+       {text + std::string(1, '\0'), " is zero, this is no OBJ text"},
+       {"\x1f\x8b\x08" + text, "packed by gzip"},
+       {"v 1 2 3\n", "no faces"},
+       {"", "no faces"}};
+  for(const auto& [bytes, words] : cases) {
+    const std::string in = write("in.obj", bytes);
+    const Outcome outcome = parameterize(in, "out.ply", {"--memory", "1M"});
+    EXPECT_EQ(outcome.exit_code, 1) << words;
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.err.rfind("hlscm: error: " + in + ": ", 0), 0u) << outcome.err;
+    EXPECT_EQ(names(), std::set<std::string>{"in.obj"});
+  }
 }
 
 // SIGKILL at some moment, and the same run again; what was there before is there until it is done.

@@ -14,6 +14,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -81,7 +82,8 @@ TEST_F(Very_large_resume, keeps_its_files_until_the_output_is_in_place)
   EXPECT_FALSE(fs::exists(work()));
 }
 
-// Killed at ten moments, a run that goes on writes what one that was left alone does.
+// Killed at ten random moments, one in each tenth of its steps, a run that goes on writes what one
+// that was left alone does.
 TEST_F(Very_large_resume, goes_on_when_it_was_killed)
 {
   const Indexed_triangle_mesh mesh = curved_charts(4)[3].mesh;
@@ -93,11 +95,13 @@ TEST_F(Very_large_resume, goes_on_when_it_was_killed)
   const std::string expected = output;
   const int all = calls;
   std::size_t most = 0;
+  std::mt19937 random(19);
   for(int k = 0; k < 10; ++k) {
-    SCOPED_TRACE("killed at call " + std::to_string(1 + k * (all - 1) / 9));
+    const int moment = 1 + (k * all + int(random() % unsigned(all))) / 10;
+    SCOPED_TRACE("killed at call " + std::to_string(moment) + " of " + std::to_string(all));
     const pid_t child = fork();
     if(child == 0) {
-      int left = 1 + k * (all - 1) / 9;
+      int left = moment;
       o.solver.progress = [&left](double) {
         if(--left == 0)
           raise(SIGKILL);

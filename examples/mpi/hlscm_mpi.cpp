@@ -56,11 +56,18 @@ std::optional<int> parse(int argc, char** argv, bool is_first, Options& options)
          "are its own")
       ->transform(CLI::AsSizeValue(false))
       ->type_name("SIZE");
+  run->add_option("--work-folder", options.library.work_folder,
+                  "where each rank keeps its finished levels (default: OUT.ply.work)");
+  run->add_flag("--resume", options.library.resumes,
+                "go on from the levels that a run of as many ranks has finished there");
   run->add_flag("-q,--quiet", options.is_quiet, "print nothing but errors");
   try {
     app.parse(argc, argv);
     if(std::filesystem::path(options.output).extension() != ".ply") {
       throw CLI::ValidationError("--output", "it must be .ply");
+    }
+    if(options.library.work_folder.empty()) {
+      options.library.work_folder = options.output + ".work";
     }
   } catch(const CLI::ParseError& e) {
     return is_first ? app.exit(e) : e.get_exit_code();
@@ -90,6 +97,7 @@ std::string to_json(const Report& report, const Options& options)
                      {"borders", s.borders},
                      {"blocks", report.blocks},
                      {"distributed_levels", report.levels_in_files},
+                     {"levels_finished_before", report.finished_before},
                      {"level_table", levels},
                      {"iterations", s.iterations},
                      {"energy", s.energy},
@@ -118,7 +126,11 @@ void print(const Report& report)
   }
   std::cout << s.vertices << " vertices, " << s.faces << " faces, " << report.ranks.size()
             << " ranks\nlevels: " << s.levels.size() << ", " << report.levels_in_files
-            << " of them distributed, the finest in " << report.blocks << " blocks\n"
+            << " of them distributed, "
+            << (report.finished_before > 0
+                    ? std::to_string(report.finished_before) + " from an earlier run, "
+                    : std::string())
+            << "the finest in " << report.blocks << " blocks\n"
             << s.iterations << " iterations, energy " << s.energy << ", about "
             << s.energy_gap_estimate << " above the minimum, " << report.flipped_faces
             << " flipped faces\nseconds: " << s.seconds_total << " = sort " << report.seconds_sort
@@ -178,6 +190,9 @@ int run(Options& options, bool is_first)
   }
   SMP::Very_large_chart_options& library = options.library;
   library.solver.threads = 1; // there is a rank for each processor
+  library.finish = [&](const SMP::Very_large_chart_report& report) {
+    outputs->finish(static_cast<const Report&>(report), options);
+  };
   library.solver.progress = [](double) { return !hlscm::Interruption::is_requested(); };
   const Report report = SMP::map_distributed_chart(
       MPI_COMM_WORLD, options.input, [&](std::string_view bytes) { outputs->map->put(bytes); },
@@ -192,7 +207,6 @@ int run(Options& options, bool is_first)
     return 1;
   }
   if(is_first) {
-    outputs->finish(report, options);
     for(const std::string& warning : report.solver.warnings) {
       std::cerr << "hlscm-mpi: warning: " << options.input << ": " << warning << '\n';
     }

@@ -69,6 +69,20 @@ mapped(1 "in.ply" parameterize ${work_dir}/in.ply -o ${work_dir}/in.ply)
 mapped(1 "cannot be" parameterize ${work_dir}/in.ply -o ${work_dir}/missing/folder/out.ply)
 mapped(1 "raise their number" parameterize ${work_dir}/in.ply -o ${work_dir}/out.ply --memory 200000
        --tolerance 1e-9 --max-iterations 1)
+
+# It goes on from the levels of the run that made too few iterations; then its files go.
+mapped(1 "in.ply.*other options" parameterize ${work_dir}/in.ply -o ${work_dir}/out.ply --resume)
+mapped(0 "^$" parameterize ${work_dir}/in.ply -o ${work_dir}/resumed.ply ${options} --memory 200000
+       --resume --work-folder ${work_dir}/out.ply.work --report ${work_dir}/report.json)
+get(${work_dir}/report.json levels_finished_before finished)
+if(NOT finished EQUAL levels)
+  message(FATAL_ERROR "${finished} levels were there, not ${levels}")
+endif()
+file(SHA256 ${work_dir}/resumed.ply resumed)
+if(NOT resumed STREQUAL before)
+  message(FATAL_ERROR "a run that goes on does not write the same")
+endif()
+file(REMOVE ${work_dir}/resumed.ply)
 file(SHA256 ${work_dir}/out.ply after)
 if(NOT after STREQUAL before)
   message(FATAL_ERROR "an output was changed by a run that failed")

@@ -6,6 +6,7 @@
 
 #include "error_of_mesh_bytes.h"
 #include "error_of_progressive_mesh_bytes.h"
+#include "error_of_record_bytes.h"
 #include "error_of_soup_bytes.h"
 
 #include <gtest/gtest.h>
@@ -69,6 +70,19 @@ TEST(Seeds, do_not_have_to_end)
       // a copy of its own, so that a sanitizer sees what is read behind the end
       expect_map_or_reason(seed.bytes.substr(0, size));
     }
+  }
+}
+
+TEST(Record_seeds, are_read_as_they_are_written)
+{
+  const std::vector<Seed> seeds = seeds_of({"records", "ply"});
+  EXPECT_GE(seeds.size(), 3u);
+  for(const Seed& seed : seeds) {
+    for(std::size_t size = 0; size <= seed.bytes.size(); size += 1 + seed.bytes.size() / 30) {
+      EXPECT_EQ(test_support::error_of_record_bytes(seed.bytes.substr(0, size)), "")
+          << seed.path << ", " << size << " bytes";
+    }
+    EXPECT_EQ(test_support::error_of_record_bytes(seed.bytes), "") << seed.path;
   }
 }
 

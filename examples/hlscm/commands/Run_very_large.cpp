@@ -6,14 +6,17 @@
 #include "common/Interruption.h"
 #include "common/Program_error.h"
 #include "common/Progress_bar.h"
+#include "formats/Converted_obj.h"
 #include "writing/Output_files.h"
 
 #include <CGAL/Surface_mesh_parameterization/map_very_large_chart.h>
 
 #include <cmath>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -155,9 +158,17 @@ int run_very_large(const Program_options& options)
     Interruption::finish();
     files.commit();
   };
+  std::string input = options.input;
+  std::optional<Converted_obj> converted;
+  const std::string extension = std::filesystem::path(options.input).extension().string();
+  if(extension == ".obj" || extension == ".OBJ") {
+    progress.start_stage("converting");
+    converted.emplace(options.input, library.work_folder, progress);
+    input = converted->path();
+  }
   progress.start_stage("mapping");
   const Report report = SMP::map_very_large_chart(
-      options.input, [&output](std::string_view bytes) { output.put(bytes); }, library);
+      input, [&output](std::string_view bytes) { output.put(bytes); }, library);
   if(report.error != SMP::OK) {
     Interruption::check();
     throw Program_error(options.input, report.message);

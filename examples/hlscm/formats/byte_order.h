@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <string>
 
 namespace hlscm {
 
@@ -16,6 +17,13 @@ T little_endian(const char* bytes)
   T value; // on the little-endian machines that this program is built for
   std::memcpy(&value, bytes, sizeof value);
   return value;
+}
+
+/// Appends the bytes of a number, the lowest first.
+template <typename T>
+void append_little_endian(std::string& bytes, T value)
+{
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
 /// The number that bytes are, of any alignment, the highest first.

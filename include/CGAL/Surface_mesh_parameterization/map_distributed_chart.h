@@ -68,6 +68,7 @@ Distributed_chart_report map_parts(MPI_Comm comm, const Very_large_chart_options
   const Blocked_execution::Thread_scope threads((std::max)(options.solver.threads, 1u));
   Distributed_chart_report report;
   Ranks ranks(comm);
+  std::optional<Kept_levels> kept;
   try {
     begin_petsc();
     if(!(options.solver.tolerance > 0.))
@@ -76,7 +77,8 @@ Distributed_chart_report map_parts(MPI_Comm comm, const Very_large_chart_options
     work(ranks, [&](Mesh_part part) {
       std::vector<std::array<double, 2>> uv;
       report.seconds_sort = watch.seconds();
-      Distributed_run run(ranks, options, report);
+      kept.emplace(ranks, options, part);
+      Distributed_run run(ranks, options, *kept, report);
       try {
         run.map(std::move(part));
         uv = run.uv();
@@ -91,13 +93,21 @@ Distributed_chart_report map_parts(MPI_Comm comm, const Very_large_chart_options
         ranks.messages_sent() + petsc_messages() - messages});
       return uv;
     });
-    if(options.finish && ranks.rank() == 0)
-      options.finish(report);
+    const bool is_finished = ranks.decided_by_first([&] {
+      if(options.finish)
+        options.finish(report);
+      return true;
+    });
+    if(!is_finished)
+      throw Streaming_failure(Streaming_failure::RESUMABLE, "the output cannot be finished");
+    kept->remove();
   } catch(const Streaming_failure& failure) {
     report.error = failure.error;
     report.message = report.solver.message = failure.what();
     report.solver.converged = false;
     report.solver.cancelled = failure.kind == Streaming_failure::CANCELLED;
+    if(kept && failure.kind == Streaming_failure::BAD_INPUT)
+      kept->remove();
   }
   return report;
 }
@@ -117,7 +127,9 @@ iterates; rank 0 has the coarser ones.
 \param uv becomes where the vertices of this rank are; (0, 0) for vertices without a face
 \param options of these count: of `solver` what `Very_large_chart_options` says, `progress` that of
        rank 0, and 0 `threads` are one; `block_vertices` (0: 100000); `gathered_vertices`, up to
-       which a level is rank 0's (0: 300000, or `memory` / 1300 if that is less)
+       which a level is rank 0's (0: 300000, or `memory` / 1300 if that is less); `work_folder`, where
+       each rank keeps the levels that are finished, or none if it is empty; and `resumes`: whether
+       such files of as many ranks are gone on from, if all of them see theirs
 
 Blocks do not depend on the number of ranks: levels are the same but for ties that rounding decides,
 and the map differs within the tolerance. Bad data on any rank is an error on all of them, in one
@@ -143,7 +155,8 @@ map_distributed_chart(MPI_Comm comm, const Distributed_chart& chart,
 \ingroup PkgHLSCMParameterizer
 
 The same for a file, as `map_very_large_chart()`: of the binary PLY file `input`, which all ranks
-see, each reads its part; `put` and `options.finish` are called on rank 0.
+see, each reads its part; `put` and `options.finish` are called on rank 0, the latter with what
+will be returned.
 */
 inline Distributed_chart_report
 map_distributed_chart(MPI_Comm comm, const std::string& input,

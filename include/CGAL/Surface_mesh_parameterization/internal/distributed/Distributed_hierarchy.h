@@ -7,8 +7,8 @@
 #include <CGAL/Blocked_execution/Progress.h>
 #include <CGAL/Surface_mesh_parameterization/Very_large_chart_options.h>
 #include <CGAL/Surface_mesh_parameterization/internal/distributed/Distributed_level.h>
+#include <CGAL/Surface_mesh_parameterization/internal/distributed/Kept_levels.h>
 #include <CGAL/Surface_mesh_parameterization/internal/streamed/Gathered_hierarchy.h>
-#include <CGAL/Surface_mesh_parameterization/internal/streamed/border_pins.h>
 
 #include <algorithm>
 #include <array>
@@ -28,9 +28,9 @@ namespace internal {
 class Distributed_hierarchy
 {
 public:
-  Distributed_hierarchy(Ranks& ranks, const Very_large_chart_options& options,
+  Distributed_hierarchy(Ranks& ranks, const Very_large_chart_options& options, Kept_levels& kept,
                         Very_large_chart_report& report)
-    : m_ranks(ranks), m_options(options), m_report(report)
+    : m_ranks(ranks), m_options(options), m_kept(kept), m_report(report)
   {}
 
   // Builds all levels of a mesh whose points are not normalised yet.
@@ -84,10 +84,10 @@ private:
 
   Bbox_3 box_of(const std::vector<Three_numbers>& points, const std::vector<bool>& is_used) const;
   Distributed_mesh sort_input(Mesh_part part);
+  Distributed_mesh sort_coarse(std::size_t k, Mesh_part coarse);
   void normalize(Distributed_mesh& mesh) const;
-  Pins choose_pins(const Distributed_mesh& mesh, const Conformal_row_collector& rows);
-  Mesh_part decimate(bool is_finest, Distributed_mesh& mesh,
-                     std::vector<Streamed_stencil>& stencils);
+  void add_level(bool is_finest, const Distributed_mesh& mesh);
+  Mesh_part decimate(Distributed_mesh& mesh, std::vector<Streamed_stencil>& stencils);
   void set_prolongation(const Distributed_mesh& fine, std::vector<Streamed_stencil>& stencils,
                         const Distributed_mesh& coarse);
   void report_pins(const Distributed_mesh& mesh);
@@ -96,6 +96,7 @@ private:
 
   Ranks& m_ranks;
   const Very_large_chart_options& m_options;
+  Kept_levels& m_kept;
   Very_large_chart_report& m_report;
   Pins m_pins; // of the level that is being worked on
   std::vector<std::uint32_t> m_finest_pins;
@@ -111,7 +112,18 @@ inline void Distributed_hierarchy::build(Mesh_part part)
 {
   Blocked_execution::Stopwatch watch;
   HLSCM_report& times = m_report.solver;
-  Distributed_mesh mesh = sort_input(std::move(part));
+  m_report.solver.vertices
+    = m_ranks.sum(std::size_t(std::count(part.is_used.begin(), part.is_used.end(), true)));
+  m_report.solver.faces = m_ranks.sum(part.triangles.size());
+  std::vector<Streamed_stencil> stencils;
+  Distributed_mesh mesh;
+  if(m_kept.number_of_meshes() > 0) {
+    mesh = m_kept.mesh(0, stencils);
+    part = Mesh_part();
+  } else {
+    mesh = sort_input(std::move(part));
+    m_kept.put(0, mesh, stencils);
+  }
   m_begin = mesh.begin;
   m_number = std::move(mesh.number);
   m_report.blocks = Blocked_execution::number_of_blocks(mesh.number_of_vertices(), mesh.block_size);
@@ -120,15 +132,18 @@ inline void Distributed_hierarchy::build(Mesh_part part)
   std::size_t k = 0;
   for(; mesh.number_of_vertices() > most_gathered(); ++k) {
     tell(0.1 + 0.1 * double((std::min)(k, std::size_t(4))));
-    std::vector<Streamed_stencil> stencils;
-    Mesh_part coarse = decimate(k == 0, mesh, stencils);
-    times.seconds_hierarchy += watch.lap();
-    const std::size_t vertices = m_ranks.sum(
-      std::size_t(std::count(coarse.is_used.begin(), coarse.is_used.end(), true)));
-    const Bbox_3 box = box_of(coarse.points, {});
-    const Curve_cube cube(box, Curve_cube::part_of_level(k + 1));
-    Distributed_mesh next
-      = Mesh_sorter(m_ranks, std::move(coarse)).sort(cube, vertices, block_size_for(vertices));
+    add_level(k == 0, mesh);
+    Distributed_mesh next;
+    if(k + 1 < m_kept.number_of_meshes()) {
+      next = m_kept.mesh(k + 1, stencils);
+      ++m_report.finished_before;
+      times.seconds_hierarchy += watch.lap();
+    } else {
+      Mesh_part coarse = decimate(mesh, stencils);
+      times.seconds_hierarchy += watch.lap();
+      next = sort_coarse(k + 1, std::move(coarse));
+      m_kept.put(k + 1, next, stencils);
+    }
     set_prolongation(mesh, stencils, next);
     mesh = std::move(next);
     m_report.seconds_sort += watch.lap();
@@ -164,14 +179,19 @@ inline Distributed_mesh Distributed_hierarchy::sort_input(Mesh_part part)
   const Unit_box unit(box_of(part.points, part.is_used));
   for(Three_numbers& p : part.points)
     p = unit.moved(p);
-  const std::size_t vertices
-    = m_ranks.sum(std::size_t(std::count(part.is_used.begin(), part.is_used.end(), true)));
-  m_report.solver.vertices = vertices;
-  m_report.solver.faces = m_ranks.sum(part.triangles.size());
+  const std::size_t vertices = m_report.solver.vertices;
   Distributed_mesh mesh = Mesh_sorter(m_ranks, std::move(part))
                             .sort(Curve_cube(unit.box(), 0.), vertices, block_size_for(vertices));
   normalize(mesh);
   return mesh;
+}
+
+inline Distributed_mesh Distributed_hierarchy::sort_coarse(std::size_t k, Mesh_part coarse)
+{
+  const std::size_t vertices = m_ranks.sum(
+    std::size_t(std::count(coarse.is_used.begin(), coarse.is_used.end(), true)));
+  const Curve_cube cube(box_of(coarse.points, {}), Curve_cube::part_of_level(k));
+  return Mesh_sorter(m_ranks, std::move(coarse)).sort(cube, vertices, block_size_for(vertices));
 }
 
 // Scales the mean length of the edges to 1.
@@ -191,38 +211,10 @@ inline void Distributed_hierarchy::normalize(Distributed_mesh& mesh) const
         x /= mean;
 }
 
-// The border is found by rank 0.
-inline Pins Distributed_hierarchy::choose_pins(const Distributed_mesh& mesh,
-                                               const Conformal_row_collector& rows)
-{
-  std::vector<Three_numbers> points;
-  for(const Border_entry& entry : rows.border())
-    points.push_back(mesh.point(entry.row));
-  const std::vector<Border_entry> border = m_ranks.gathered(rows.border());
-  points = m_ranks.gathered(points);
-  std::array<Pin, 2> pins = {};
-  m_ranks.together([&] {
-    if(m_ranks.rank() != 0)
-      return;
-    const Pins chosen = far_border_pins(border, [&](std::uint32_t v) -> const Three_numbers& {
-      const auto entry = std::lower_bound(border.begin(), border.end(), v,
-                                          [](const Border_entry& e, std::uint32_t row) {
-        return e.row < row;
-      });
-      return points[std::size_t(entry - border.begin())];
-    });
-    std::copy(chosen.begin(), chosen.end(), pins.begin());
-  });
-  pins = m_ranks.broadcast(pins);
-  return Pins(pins.begin(), pins.end());
-}
-
-// Builds a level; returns what is left of the mesh.
-inline Mesh_part Distributed_hierarchy::decimate(bool is_finest, Distributed_mesh& mesh,
-                                                 std::vector<Streamed_stencil>& stencils)
+// Builds the level of a mesh but for what comes from the coarser one.
+inline void Distributed_hierarchy::add_level(bool is_finest, const Distributed_mesh& mesh)
 {
   const Known_entries<std::uint32_t> source(m_ranks, mesh.begin, mesh.source, mesh.ghosts);
-  const auto name = [&](std::uint32_t v) { return source[v]; }; // where it matters
   Conformal_row_collector rows;
   std::size_t mollified = 0;
   m_ranks.together([&] {
@@ -231,7 +223,7 @@ inline Mesh_part Distributed_hierarchy::decimate(bool is_finest, Distributed_mes
       const Mesh_block block = mesh.block(b);
       if(is_finest)
         check_rings(Indexed_mesh::Vertex_rings(block.mesh),
-                    [&](std::uint32_t v) { return name(block.global(v)); });
+                    [&](std::uint32_t v) { return source[block.global(v)]; });
       rows.add(block);
       mollified += block.own_mollified;
     }
@@ -241,11 +233,17 @@ inline Mesh_part Distributed_hierarchy::decimate(bool is_finest, Distributed_mes
   });
   if(is_finest) {
     m_report.solver.mollified_faces = m_ranks.sum(mollified);
-    m_pins = choose_pins(mesh, rows);
+    m_pins = far_border_pins(m_ranks, mesh, rows);
     report_pins(mesh);
   }
   m_levels.emplace_back(m_ranks.comm(), mesh, m_pins, rows);
-  rows = Conformal_row_collector();
+}
+
+// Returns what is left of the mesh, and the way to it.
+inline Mesh_part Distributed_hierarchy::decimate(Distributed_mesh& mesh,
+                                                 std::vector<Streamed_stencil>& stencils)
+{
+  const Known_entries<std::uint32_t> source(m_ranks, mesh.begin, mesh.source, mesh.ghosts);
   std::vector<std::uint32_t> pins;
   for(const Pin& pin : m_pins)
     pins.push_back(pin.vertex);
@@ -259,7 +257,7 @@ inline Mesh_part Distributed_hierarchy::decimate(bool is_finest, Distributed_mes
       Mesh_block block = mesh.block(b);
       const Decimated_block decimated
         = decimate_block(block, pins, ratio, m_options.solver.angular_defect_bound,
-                         [&](std::uint32_t v) { return name(block.global(v)); });
+                         [&](std::uint32_t v) { return source[block.global(v)]; });
       for_each_result(
         block, decimated,
         [&](std::uint32_t v, const Streamed_stencil& s) { stencils[v - mesh.first] = s; },

@@ -8,9 +8,11 @@
 #include <CGAL/Surface_mesh_parameterization/internal/distributed/petsc_objects.h>
 #include <CGAL/Surface_mesh_parameterization/internal/solver/Pins.h>
 #include <CGAL/Surface_mesh_parameterization/internal/streamed/Streamed_matrix.h>
+#include <CGAL/Surface_mesh_parameterization/internal/streamed/border_pins.h>
 #include <CGAL/Surface_mesh_parameterization/internal/streamed/decimate_blocks.h>
 
 #include <algorithm>
+#include <array>
 #include <complex>
 #include <cstdint>
 #include <utility>
@@ -73,6 +75,32 @@ private:
   std::vector<PetscScalar> m_inverse_diagonal;
   std::vector<Border_entry> m_border;
 };
+
+// The pins of a mesh with such rows. The border is found by rank 0.
+inline Pins far_border_pins(Ranks& ranks, const Distributed_mesh& mesh,
+                            const Conformal_row_collector& rows)
+{
+  std::vector<Three_numbers> points;
+  for(const Border_entry& entry : rows.border())
+    points.push_back(mesh.point(entry.row));
+  const std::vector<Border_entry> border = ranks.gathered(rows.border());
+  points = ranks.gathered(points);
+  std::array<Pin, 2> pins = {};
+  ranks.together([&] {
+    if(ranks.rank() != 0)
+      return;
+    const Pins chosen = far_border_pins(border, [&](std::uint32_t v) -> const Three_numbers& {
+      const auto entry = std::lower_bound(border.begin(), border.end(), v,
+                                          [](const Border_entry& e, std::uint32_t row) {
+        return e.row < row;
+      });
+      return points[std::size_t(entry - border.begin())];
+    });
+    std::copy(chosen.begin(), chosen.end(), pins.begin());
+  });
+  pins = ranks.broadcast(pins);
+  return Pins(pins.begin(), pins.end());
+}
 
 // A level that all ranks share: what PETSc's cycle needs of it.
 //

@@ -67,6 +67,21 @@ struct Distributed_mesh
   std::vector<Three_numbers> cotangents;    // of these; empty: those of the points
   std::vector<std::size_t> triangle_begin;  // by blocks
 
+  // Calls `use(array, name)` for all of its arrays.
+  template <class Use>
+  void for_each_array(const Use& use)
+  {
+    use(begin, "begin");
+    use(points, "points");
+    use(source, "source");
+    use(number, "number");
+    use(ghosts, "ghosts");
+    use(ghost_points, "ghost_points");
+    use(triangles, "triangles");
+    use(cotangents, "cotangents");
+    use(triangle_begin, "triangle_begin");
+  }
+
   std::size_t number_of_vertices() const { return begin.back(); }
   std::size_t number_of_blocks() const { return triangle_begin.size() - 1; } // of this rank
   bool is_own(std::uint32_t v) const { return v - first < source.size(); }

@@ -125,9 +125,10 @@ class Distributed_run
 public:
   typedef std::complex<double> Complex;
 
-  Distributed_run(Ranks& ranks, const Very_large_chart_options& options,
+  Distributed_run(Ranks& ranks, const Very_large_chart_options& options, Kept_levels& kept,
                   Very_large_chart_report& report)
-    : m_ranks(ranks), m_options(options), m_report(report), m_hierarchy(ranks, options, report)
+    : m_ranks(ranks), m_options(options), m_report(report)
+    , m_hierarchy(ranks, options, kept, report)
   {}
 
   void map(Mesh_part part)

@@ -138,23 +138,29 @@ Flip_patch_finder::patches_around(const std::vector<std::uint32_t>& faces, int r
 // The faces whose images do not have a positive area. Here and below, matrix, triangles and map may
 // be in memory or in files.
 template <class Triangles, class Map>
-std::vector<std::uint32_t> faces_without_positive_area(const Triangles& triangles, const Map& z)
+void add_faces_without_positive_area(const Triangles& triangles, const Map& z, std::size_t first,
+                                     std::size_t last, std::vector<std::uint32_t>& result)
 {
   constexpr std::size_t block = 16384;
   std::vector<std::vector<std::uint32_t>> found(
-    Blocked_execution::number_of_blocks(triangles.size(), block));
-  Blocked_execution::blocked_for(triangles.size(), block,
-                                 [&](std::size_t begin, std::size_t end) {
-    for(std::size_t t = begin; t < end; ++t) {
+    Blocked_execution::number_of_blocks(last - first, block));
+  Blocked_execution::blocked_for(last - first, block, [&](std::size_t begin, std::size_t end) {
+    for(std::size_t t = first + begin; t < first + end; ++t) {
       const std::complex<double> b = z[triangles[t][1]] - z[triangles[t][0]];
       const std::complex<double> c = z[triangles[t][2]] - z[triangles[t][0]];
       if(!(b.real() * c.imag() - b.imag() * c.real() > 0.))
         found[begin / block].push_back(std::uint32_t(t));
     }
   });
-  std::vector<std::uint32_t> result;
   for(const auto& part : found)
     result.insert(result.end(), part.begin(), part.end());
+}
+
+template <class Triangles, class Map>
+std::vector<std::uint32_t> faces_without_positive_area(const Triangles& triangles, const Map& z)
+{
+  std::vector<std::uint32_t> result;
+  add_faces_without_positive_area(triangles, z, 0, triangles.size(), result);
   return result;
 }
 

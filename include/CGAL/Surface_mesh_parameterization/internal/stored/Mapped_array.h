@@ -26,8 +26,8 @@ namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
 
-// A file as a piece of memory (POSIX). The system reads what is touched and writes what was changed;
-// what is released takes no memory of the process until it is touched again.
+// A file as a piece of memory (POSIX). The system reads what is touched and writes what was
+// changed; what is released takes no memory of the process until it is touched again.
 class Mapped_file
 {
 public:
@@ -155,29 +155,46 @@ inline std::uint64_t mixed(std::uint64_t hash, std::uint64_t word)
   return hash ^ (hash >> 29);
 }
 
-// A number that another content of the file hardly has: of each megabyte a hash of its words, and a
-// hash of these. It guards against damage, not against malice.
-inline std::uint64_t checksum_of(const Mapped_file& file)
+// A number that other bytes hardly have: of each megabyte a hash of its words, and a hash of these.
+// It guards against damage, not against malice. `release(begin, end)`: what is called for each of
+// them when it was read.
+template <class Release>
+std::uint64_t checksum_of(const char* data, std::size_t bytes, const Release& release)
 {
   constexpr std::size_t block = std::size_t(1) << 20;
-  std::vector<std::uint64_t> of_block(Blocked_execution::number_of_blocks(file.bytes(), block));
-  Blocked_execution::blocked_for(file.bytes(), block, [&](std::size_t begin, std::size_t end) {
+  std::vector<std::uint64_t> of_block(Blocked_execution::number_of_blocks(bytes, block));
+  Blocked_execution::blocked_for(bytes, block, [&](std::size_t begin, std::size_t end) {
     std::uint64_t lanes[4] = {1, 2, 3, 4}, words[4];
     std::size_t i = begin;
     for(; i + sizeof(words) <= end; i += sizeof(words)) {
-      std::memcpy(words, file.data() + i, sizeof(words));
+      std::memcpy(words, data + i, sizeof(words));
       for(int lane = 0; lane < 4; ++lane)
         lanes[lane] = mixed(lanes[lane], words[lane]);
     }
     for(; i < end; ++i)
-      lanes[0] = mixed(lanes[0], std::uint8_t(file.data()[i]));
+      lanes[0] = mixed(lanes[0], std::uint8_t(data[i]));
     of_block[begin / block] = mixed(mixed(lanes[0], lanes[1]), mixed(lanes[2], lanes[3]));
-    file.release(begin, end);
+    release(begin, end);
   });
-  std::uint64_t result = mixed(1, file.bytes());
+  std::uint64_t result = mixed(1, bytes);
   for(const std::uint64_t hash : of_block)
     result = mixed(result, hash);
   return result;
+}
+
+inline std::uint64_t checksum_of(const Mapped_file& file)
+{
+  return checksum_of(file.data(), file.bytes(), [&file](std::size_t begin, std::size_t end) {
+    file.release(begin, end);
+  });
+}
+
+template <class T>
+std::uint64_t checksum_of(const std::vector<T>& values)
+{
+  static_assert(std::is_trivially_copyable<T>::value, "bytes are read");
+  return checksum_of(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T),
+                     [](std::size_t, std::size_t) {});
 }
 
 // An array in a file: a handle, which may be constant while the entries are not.
@@ -205,6 +222,13 @@ public:
     m_file.release(first * sizeof(T), last * sizeof(T));
   }
   void release() const { m_file.release(0, m_file.bytes()); }
+  // The same when all before was: now and then also what came back, pages at a time, since entries
+  // of later ranges have neighbours there.
+  void release_passed(std::size_t first, std::size_t last) const
+  {
+    constexpr std::size_t entries = std::size_t(1) << 20;
+    release(last >= size() || first / entries != last / entries ? 0 : first, last);
+  }
 
   const Mapped_file& file() const { return m_file; }
 
@@ -212,11 +236,11 @@ private:
   Mapped_file m_file;
 };
 
-// What takes ranges of arrays in files out of the memory.
+// What takes ranges of arrays in files out of the memory, one after the other.
 template <class... Array>
 auto releases(const Array&... array)
 {
-  return [&](std::size_t begin, std::size_t end) { (array.release(begin, end), ...); };
+  return [&](std::size_t begin, std::size_t end) { (array.release_passed(begin, end), ...); };
 }
 
 // Calls `body(begin, end)` for blocks of rows, and after each slab of them `release(begin, end)`,

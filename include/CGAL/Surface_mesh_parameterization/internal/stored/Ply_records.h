@@ -20,6 +20,15 @@ namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
 
+// Whether this machine has the lowest byte of a number first.
+inline bool is_little_endian()
+{
+  const std::uint16_t one = 1;
+  char first;
+  std::memcpy(&first, &one, 1);
+  return first == 1;
+}
+
 // Refuses a point that is none.
 inline void check_point(std::size_t v, const std::array<double, 3>& p)
 {
@@ -33,15 +42,16 @@ inline void check_triangle(std::size_t f, const std::array<std::uint32_t, 3>& tr
                            std::size_t vertices, const std::string& remedy = "")
 {
   if(triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0])
-    refuse("face " + std::to_string(f) + " has a vertex twice; remove it", ERROR_NON_TRIANGULAR_MESH);
+    refuse("face " + std::to_string(f) + " has a vertex twice; remove it",
+           ERROR_NON_TRIANGULAR_MESH);
   for(const std::uint32_t v : triangle)
     if(v >= vertices)
       refuse("face " + std::to_string(f) + " names vertex " + std::to_string(std::int32_t(v))
              + " but there are " + std::to_string(vertices) + " vertices" + remedy);
 }
 
-// A binary PLY file of triangles whose vertices, and whose faces, all take the same number of bytes,
-// so that each can be found without reading those before it.
+// A binary PLY file of triangles whose vertices, and whose faces, all take the same number of
+// bytes, so that each can be found without reading those before it.
 class Ply_records
 {
 public:
@@ -96,14 +106,16 @@ public:
   Point point(std::size_t v) const
   {
     const char* const record = m_file.data() + m_first_vertex + v * m_vertex_size;
-    return {number(record + m_coordinate[0], m_type[0]), number(record + m_coordinate[1], m_type[1]),
+    return {number(record + m_coordinate[0], m_type[0]),
+            number(record + m_coordinate[1], m_type[1]),
             number(record + m_coordinate[2], m_type[2])};
   }
 
   // Its number of corners is to be three: see `is_triangle()`.
   Triangle triangle(std::size_t f) const
   {
-    const char* const corners = m_file.data() + m_first_face + f * m_face_size + m_list + m_count_size;
+    const char* const corners
+      = m_file.data() + m_first_face + f * m_face_size + m_list + m_count_size;
     return {whole<std::uint32_t>(corners), whole<std::uint32_t>(corners + 4),
             whole<std::uint32_t>(corners + 8)};
   }
@@ -178,10 +190,11 @@ private:
   {
     if(type.kind == 'f')
       return type.size == 4 ? double(whole<float>(bytes)) : whole<double>(bytes);
+    const bool is_signed = type.kind == 'i';
     switch(type.size) {
-    case 1: return type.kind == 'i' ? double(whole<std::int8_t>(bytes)) : whole<std::uint8_t>(bytes);
-    case 2: return type.kind == 'i' ? double(whole<std::int16_t>(bytes)) : whole<std::uint16_t>(bytes);
-    default: return type.kind == 'i' ? double(whole<std::int32_t>(bytes)) : whole<std::uint32_t>(bytes);
+    case 1: return is_signed ? double(whole<std::int8_t>(bytes)) : whole<std::uint8_t>(bytes);
+    case 2: return is_signed ? double(whole<std::int16_t>(bytes)) : whole<std::uint16_t>(bytes);
+    default: return is_signed ? double(whole<std::int32_t>(bytes)) : whole<std::uint32_t>(bytes);
     }
   }
 
@@ -208,10 +221,6 @@ private:
 
 inline void Ply_records::read_format(std::istringstream& words)
 {
-  const std::uint16_t one = 1;
-  char first;
-  std::memcpy(&first, &one, 1);
-  const bool is_little = first == 1;
   std::string format;
   words >> format;
   if(format == "ascii")
@@ -219,7 +228,7 @@ inline void Ply_records::read_format(std::istringstream& words)
            "reading all of it");
   if(format != "binary_little_endian" && format != "binary_big_endian")
     refuse("the header has the format \"" + format + "\", which PLY does not know");
-  m_is_swapped = is_little != (format == "binary_little_endian");
+  m_is_swapped = is_little_endian() != (format == "binary_little_endian");
 }
 
 inline void Ply_records::read_property(std::istringstream& words, bool is_of_vertices)
@@ -263,8 +272,8 @@ inline void Ply_records::read_header()
   std::string line, word, element;
   std::getline(lines, line);
   if(line.substr(0, 3) != "ply")
-    refuse("this is not a PLY file, convert it to binary PLY: only its records can be found without "
-           "reading all of it");
+    refuse("this is not a PLY file, convert it to binary PLY: only its records can be found "
+           "without reading all of it");
   bool has_ended = false, has_format = false;
   while(!has_ended && std::getline(lines, line)) {
     if(!line.empty() && line.back() == '\r')
@@ -281,8 +290,8 @@ inline void Ply_records::read_header()
       words >> element >> count;
       const bool is_vertex = element == "vertex" && before.empty();
       if(!is_vertex && !(element == "face" && before == "vertex") && count > 0)
-        refuse("the header has the element \"" + element + "\" where only vertices, and then faces, "
-               "can be: save the mesh without it");
+        refuse("the header has the element \"" + element + "\" where only vertices, and then "
+               "faces, can be: save the mesh without it");
       if(is_vertex)
         m_vertices = count;
       else if(element == "face")

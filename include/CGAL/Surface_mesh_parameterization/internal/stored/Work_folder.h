@@ -32,7 +32,8 @@ public:
     std::filesystem::create_directories(path, error);
     m_folder = error ? -1 : ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if(m_folder < 0)
-      throw Streaming_failure(Streaming_failure::RESUMABLE, path + ": the work folder cannot be created ("
+      throw Streaming_failure(Streaming_failure::RESUMABLE,
+                              path + ": the work folder cannot be created ("
                               + (error ? error.message() : std::strerror(errno)) + ")");
     struct stat opened, named; // a run that ends now may have removed what was opened
     if(::flock(m_folder, LOCK_EX | LOCK_NB) == 0 && ::fstat(m_folder, &opened) == 0
@@ -96,8 +97,9 @@ public:
     if(known != m_checksums.end())
       result = Mapped_array<T>(Mapped_file::open(path_of(name), true));
     if(known == m_checksums.end() || checksum_of(result.file()) != known->second)
-      throw Streaming_failure(Streaming_failure::RESUMABLE, path_of(name) + ": the file is not what was "
-                              "written, remove the work folder and begin again");
+      throw Streaming_failure(Streaming_failure::RESUMABLE,
+                              path_of(name) + ": the file is not what was written, remove the "
+                                              "work folder and begin again");
     return result;
   }
 
@@ -126,6 +128,14 @@ public:
     for(const Mapped_file* file : files)
       m_checksums[std::filesystem::path(file->path()).stem().string()] = checksum_of(*file);
     m_values[phase] = values;
+    write_manifest();
+  }
+
+  // Phases that were finished count no more: they will be done again.
+  void forget(const std::vector<std::string>& phases)
+  {
+    for(const std::string& phase : phases)
+      m_values.erase(phase);
     write_manifest();
   }
 
@@ -233,11 +243,12 @@ private:
         std::filesystem::remove(file, ignored); // it was being written
     if(!is_whole)
       throw Streaming_failure(Streaming_failure::RESUMABLE, (m_path / manifest_name).string()
-                              + ": the file is not what was written, remove the work folder and begin "
-                              "again");
+                              + ": the file is not what was written, remove the work folder and "
+                              "begin again");
     if(!is_same)
-      throw Streaming_failure(Streaming_failure::RESUMABLE, m_path.string() + ": this is work on another "
-                              "input or with other options, remove it or do not resume it");
+      throw Streaming_failure(Streaming_failure::RESUMABLE, m_path.string()
+                              + ": this is work on another input or with other options, remove it "
+                              "or do not resume it");
   }
 
   std::filesystem::path m_path;

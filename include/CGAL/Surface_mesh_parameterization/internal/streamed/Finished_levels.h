@@ -54,9 +54,9 @@ struct Run_state
   }
 };
 
-// The files of levels in a work folder, and the phases that leave them: "mesh<k>", a sorted mesh and
-// the way from it to the finer one, and "level<k>", its matrix and what its blocks were decimated to.
-// Level 0 is the finest.
+// The files of levels in a work folder, and the phases that leave them: "mesh<k>", a sorted mesh
+// and the way from it to the finer one, and "level<k>", its matrix and what its blocks were
+// decimated to. Level 0 is the finest.
 class Finished_levels
 {
 public:

@@ -64,7 +64,8 @@ public:
     std::vector<HLSCM_level_report> result;
     for(std::size_t l = 0; l <= finest(); ++l) {
       const auto [entries, bytes] = m_hierarchy.size_of_matrices(l);
-      result.push_back({m_hierarchy.levels()[l].vertices.size(), m_faces[l], 0, 0., entries, bytes});
+      const std::size_t vertices = m_hierarchy.levels()[l].vertices.size();
+      result.push_back({vertices, m_faces[l], 0, 0., entries, bytes});
     }
     return result;
   }

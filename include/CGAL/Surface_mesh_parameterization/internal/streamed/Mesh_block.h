@@ -44,7 +44,7 @@ struct Mesh_block
 
   std::size_t first = 0, own = 0;
   std::vector<std::uint32_t> ghosts;
-  Indexed_mesh::Indexed_triangle_mesh mesh; // triangles by their smallest vertex, which is the first
+  Indexed_mesh::Indexed_triangle_mesh mesh; // triangles by their smallest vertex, the first one
   Half_cotangents cotangents;               // of these
   std::size_t own_mollified = 0;            // of those that no earlier block has
 
@@ -54,8 +54,9 @@ struct Mesh_block
   // block has. `given`: their cotangents; if empty, they are those of the points. `point(v)` is
   // asked for these vertices and the others of the triangles.
   template <class Point>
-  Mesh_block(std::size_t first_vertex, std::size_t number_of_own, std::vector<Triangle_indices> triangles,
-             const std::vector<Three_numbers>& given, const Point& point);
+  Mesh_block(std::size_t first_vertex, std::size_t number_of_own,
+             std::vector<Triangle_indices> triangles, const std::vector<Three_numbers>& given,
+             const Point& point);
 
   // What a vertex is in the whole mesh.
   std::uint32_t global(std::uint32_t v) const
@@ -122,7 +123,8 @@ inline void Mesh_block::measure()
   cotangents = Half_cotangents(mesh);
   if(cotangents.mollified > 0)
     for(std::size_t t = 0; t < mesh.triangles.size(); ++t)
-      own_mollified += owns(mesh.triangles[t]) && conformal_triangle(mesh, t).is_mollified() ? 1 : 0;
+      if(owns(mesh.triangles[t]) && conformal_triangle(mesh, t).is_mollified())
+        ++own_mollified;
 }
 
 // What a block has of an array that is sorted by blocks, and of that of the ghosts.

@@ -118,8 +118,7 @@ void write_mapped_ply(const Ply_records& ply, const Uv& uv,
   const auto add = [&bytes](auto value) {
     char copy[sizeof(value)];
     std::memcpy(copy, &value, sizeof(value));
-    const std::uint16_t one = 1;
-    if(*reinterpret_cast<const char*>(&one) == 0)
+    if(!is_little_endian())
       std::reverse(copy, copy + sizeof(value));
     bytes.append(copy, sizeof(value));
   };

@@ -61,6 +61,11 @@ public:
   Work_folder& folder() { return m_folder; }
   std::vector<Streamed_level>& levels() { return m_levels; } // the coarsest first
   Gathered_hierarchy& gathered() { return *m_gathered; }
+  void remove_gathered() // when the map is found
+  {
+    m_gathered.reset();
+    give_memory_back();
+  }
   std::size_t bytes_of_gathered() const { return bytes_of_vertex * m_gathered->size(); }
   // What is in memory of arrays that are streamed, and of the program.
   std::size_t bytes_of_window() const
@@ -74,7 +79,8 @@ public:
   // Tells how much is done; returns whether the work goes on.
   bool tell(double part)
   {
-    m_is_cancelled = m_is_cancelled || (m_options.solver.progress && !m_options.solver.progress(part));
+    const auto& progress = m_options.solver.progress;
+    m_is_cancelled = m_is_cancelled || (progress && !progress(part));
     return !m_is_cancelled;
   }
 
@@ -102,7 +108,8 @@ private:
   std::size_t most_in_block() const
   {
     const std::size_t most = m_options.block_vertices;
-    return (std::clamp)(most > 0 ? most : m_options.memory / 1000, least_in_block, most_with_32_bits);
+    return (std::clamp)(most > 0 ? most : m_options.memory / 1000, least_in_block,
+                        most_with_32_bits);
   }
   std::size_t block_size_for(std::size_t vertices) const
   {
@@ -138,7 +145,8 @@ inline std::string Streamed_hierarchy::identity() const
   std::ostringstream text;
   text.precision(17);
   text << format << ' ' << m_input.records().checksum() << ' ' << most_gathered() << ' '
-       << most_in_block() << ' ' << m_options.solver.level_ratio << ' ' << m_options.solver.angular_defect_bound;
+       << most_in_block() << ' ' << m_options.solver.level_ratio << ' '
+       << m_options.solver.angular_defect_bound;
   return text.str();
 }
 
@@ -229,7 +237,8 @@ inline void Streamed_hierarchy::normalize(Streamed_mesh& mesh)
 }
 
 // Builds the matrix of level k and the mesh that comes after it.
-inline void Streamed_hierarchy::decimate(std::size_t k, Streamed_mesh& mesh, Decimated_level& coarse)
+inline void Streamed_hierarchy::decimate(std::size_t k, Streamed_mesh& mesh,
+                                         Decimated_level& coarse)
 {
   const auto name = [&mesh](std::uint32_t v) { return mesh.source[v]; }; // where it matters
   const std::string prefix = m_finished.level_name(k) + "_";
@@ -249,7 +258,8 @@ inline void Streamed_hierarchy::decimate(std::size_t k, Streamed_mesh& mesh, Dec
   }
   if(k == 0) {
     m_state.blocks = blocks;
-    m_state.pins = far_border_pins(level.matrix.border(), [&mesh](std::uint32_t v) { return mesh.points[v]; });
+    m_state.pins = far_border_pins(level.matrix.border(),
+                                   [&mesh](std::uint32_t v) { return mesh.points[v]; });
   }
   level.pins = m_state.pinned();
   for(const std::uint32_t pin : level.pins)
@@ -293,7 +303,8 @@ inline Streamed_mesh Streamed_hierarchy::sort_coarse(std::size_t k, const Stream
                                      block_size_for(count));
   Streamed_level& level = m_levels.back();
   level.stencils
-    = m_folder.create<Streamed_stencil>(m_finished.level_name(k - 1) + "_prolongation", fine.points.size());
+    = m_folder.create<Streamed_stencil>(m_finished.level_name(k - 1) + "_prolongation",
+                                        fine.points.size());
   stream_rows(
     level.size(),
     [&](std::size_t begin, std::size_t end) {
@@ -303,10 +314,7 @@ inline Streamed_mesh Streamed_hierarchy::sort_coarse(std::size_t k, const Stream
           s = mesh.rank[s];
       }
     },
-    [&](std::size_t begin, std::size_t end) {
-      level.stencils.release(begin, end);
-      decimated.stencils.release(begin, end);
-    });
+    releases(level.stencils, decimated.stencils, mesh.rank));
   for(Pin& pin : m_state.pins)
     pin.vertex = mesh.rank[pin.vertex];
   m_finished.finish_mesh(k, mesh, level.stencils, m_state);
@@ -352,10 +360,13 @@ inline void Streamed_hierarchy::complete_report()
   report.levels.back().faces = report.faces;
   const std::vector<std::uint32_t> pins
     = m_levels.empty() ? m_state.pinned() : m_levels.back().pins;
-  for(std::size_t v = 0; v < m_rank.size(); ++v)
+  for(std::size_t v = 0; v < m_rank.size(); ++v) {
+    if(v % 65536 == 0)
+      m_rank.release(0, v);
     for(std::size_t i = 0; i < pins.size(); ++i)
       if(m_rank[v] == pins[i])
         report.pins.push_back({v, m_state.pins[i].value.real(), m_state.pins[i].value.imag()});
+  }
   m_rank.release();
   if(report.mollified_faces > 0)
     report.warnings.push_back(mollification_warning(report.mollified_faces));

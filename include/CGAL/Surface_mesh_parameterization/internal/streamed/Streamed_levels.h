@@ -32,9 +32,10 @@ struct Streamed_level
 
   std::size_t size() const { return matrix.size(); }
 
-  // Calls `use(i, value)` for all rows with what vertex i gets of a coarse vector.
-  template <class Value, class Use>
-  void prolong(const Value* coarse, const Use& use) const
+  // Calls `use(i, value)` for all rows with what vertex i gets of a coarse vector, and
+  // `release(begin, end)` for what was used.
+  template <class Value, class Use, class Release>
+  void prolong(const Value* coarse, const Use& use, const Release& release) const
   {
     typedef typename Value::value_type Real;
     stream_rows(
@@ -46,13 +47,16 @@ struct Streamed_level
                    + Real(s.weight[2]) * coarse[s.source[2]]);
         }
       },
-      [this](std::size_t begin, std::size_t end) { stencils.release(begin, end); });
+      [&](std::size_t begin, std::size_t end) {
+        stencils.release(begin, end);
+        release(begin, end);
+      });
   }
 };
 
 // The cycle over the levels in files, the coarsest first; below them, as level 0, a hierarchy in
-// memory. As `Multigrid_levels`, with the same smoother, but each pass over the rows of a level does
-// all that can be done in it.
+// memory. As `Multigrid_levels`, with the same smoother, but each pass over the rows of a level
+// does all that can be done in it.
 //
 // A model of `MultigridLevels`.
 class Streamed_levels
@@ -87,7 +91,7 @@ private:
   struct Level
   {
     Streamed_level* files = nullptr;
-    Vector u, f, r, z, next;  // of the system; residual; the last step of the smoother, and the next
+    Vector u, f, r, z, next;  // of the system; residual; the last step of the smoother, the next
     bool is_zero = true;      // u is 0, whatever is stored
     bool has_step = false;    // r - H z is f - H u
     std::vector<std::pair<Vector, Vector>> directions; // and H times them; for the accelerator
@@ -117,7 +121,7 @@ private:
   {
     level.files->matrix.release(begin, end);
     for(const Vector* vector : {&level.u, &level.f, &level.r, &level.z, &level.next})
-      vector->release(begin, end);
+      vector->release_passed(begin, end);
   }
 
   template <class Body>
@@ -158,8 +162,8 @@ private:
   std::vector<Rounded> m_coarsest_f, m_coarsest_u;
 };
 
-// Steps of the Chebyshev method of the fourth kind, as `Multigrid::chebyshev_steps()`. u gets a step
-// only when the pass that needs it for its neighbours is over.
+// Steps of the Chebyshev method of the fourth kind, as `Multigrid::chebyshev_steps()`. u gets a
+// step only when the pass that needs it for its neighbours is over.
 inline void Streamed_levels::smooth(std::size_t l, unsigned int steps)
 {
   if(steps == 0)
@@ -241,8 +245,10 @@ inline void Streamed_levels::restrict_residual(std::size_t l)
       level.files->stencils.release(begin, end);
     });
   level.has_step = false;
-  if(l > 1)
+  if(l > 1) {
+    at(l - 1).f.release();
     start_at_zero(l - 1);
+  }
 }
 
 inline void Streamed_levels::correct(std::size_t l)
@@ -252,14 +258,18 @@ inline void Streamed_levels::correct(std::size_t l)
   level.files->prolong(l == 1 ? m_coarsest_u.data() : at(l - 1).u.data(),
                        [&](std::size_t i, const Rounded& value) {
                          level.u[i] = was_zero ? value : level.u[i] + value;
-                       });
+                       },
+                       releases(level.u));
+  if(l > 1)
+    at(l - 1).u.release();
   clear_pins(level, level.u); // of a correction it has none
   level.is_zero = level.has_step = false;
 }
 
 // As `Multigrid_levels::accelerate()`.
 template <class Coarse_cycle>
-void Streamed_levels::accelerate(std::size_t l, unsigned int steps, const Coarse_cycle& coarse_cycle)
+void Streamed_levels::accelerate(std::size_t l, unsigned int steps,
+                                 const Coarse_cycle& coarse_cycle)
 {
   Level& level = at(l);
   if(level.x.empty())
@@ -279,9 +289,8 @@ void Streamed_levels::accelerate(std::size_t l, unsigned int steps, const Coarse
     Vector& q = level.directions[step].second;
     std::swap(p, level.u);
     pass(level, [&](std::size_t begin, std::size_t end) {
-      level.files->matrix.for_each_product(begin, end, p.data(), [&](std::size_t i, const Rounded& s) {
-        q[i] = s;
-      });
+      level.files->matrix.for_each_product(
+        begin, end, p.data(), [&](std::size_t i, const Rounded& s) { q[i] = s; });
     });
     p.release();
     q.release();

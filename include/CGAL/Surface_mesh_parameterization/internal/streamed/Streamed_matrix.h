@@ -35,8 +35,8 @@ inline double inverse_diagonal_of(const Multigrid::Matrix_row& row)
 }
 
 // The Hermitian matrix of the conformal energy of a streamed mesh, in files. A row has an entry for
-// each triangle at its vertex v, that of the corner after v: these are all neighbours but one at the
-// border. That one, and the imaginary parts, which only border edges have, are kept in memory.
+// each triangle at its vertex v, that of the corner after v: these are all neighbours but one at
+// the border. That one, and the imaginary parts, which only border edges have, are in memory.
 // Rows of pins are not taken out.
 class Streamed_matrix
 {
@@ -45,8 +45,9 @@ public:
 
   std::size_t size() const { return m_diagonal.size(); }
   const Mapped_array<double>& diagonal() const { return m_diagonal; }
-  const Mapped_array<float>& inverse_diagonal() const { return m_inverse_diagonal; } // see Chebyshev
-  const std::vector<Border_entry>& border() const { return m_border; }               // by rows
+  const std::vector<Border_entry>& border() const { return m_border; } // by rows
+  // See `Chebyshev_smoother`.
+  const Mapped_array<float>& inverse_diagonal() const { return m_inverse_diagonal; }
 
   void create(Work_folder& folder, const std::string& name, std::size_t rows, std::size_t entries);
   void open(Work_folder& folder, const std::string& name);
@@ -95,7 +96,8 @@ public:
   void for_each_entry(std::size_t row, const Use& use) const;
 
 private:
-  void set_row(std::size_t i, std::uint64_t at, std::size_t entries, const Multigrid::Matrix_row& row);
+  void set_row(std::size_t i, std::uint64_t at, std::size_t entries,
+               const Multigrid::Matrix_row& row);
 
   template <class Real>
   const Real* values() const
@@ -163,7 +165,8 @@ inline void Streamed_matrix::add_block(const Mesh_block& block)
       for(std::size_t k = 0; k < row.entries.size(); ++k) {
         const auto& e = row.entries[k];
         if(k >= entries || e.im != 0.)
-          border[begin / part].push_back({std::uint32_t(i), e.column, k < entries ? 0. : e.re, e.im});
+          border[begin / part].push_back(
+            {std::uint32_t(i), e.column, k < entries ? 0. : e.re, e.im});
       }
     }
   });

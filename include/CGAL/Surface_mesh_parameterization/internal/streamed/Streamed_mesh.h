@@ -7,6 +7,7 @@
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/internal/stored/Work_folder.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -71,7 +72,7 @@ struct Streamed_mesh
 
   std::size_t block_size = 0;            // vertices
   Mapped_array<Three_numbers> points;
-  Mapped_array<std::uint32_t> source;    // for each vertex what it is in the mesh that this was made of
+  Mapped_array<std::uint32_t> source;    // what each vertex is in the mesh that this was made of
   Mapped_array<std::uint32_t> rank;      // the inverse; `no_vertex` for what is not in this mesh
   Mapped_array<Triangle_indices> triangles, ghosts;
   Mapped_array<Three_numbers> cotangents, ghost_cotangents; // empty: those of the points
@@ -113,7 +114,10 @@ struct Curve_cube
   double cells_per_length = 0.;
 
   // The part for level k: the cells of no two levels have faces in common.
-  static double part_of_level(std::size_t k) { return std::fmod(0.6180339887498949 * double(k), 1.); }
+  static double part_of_level(std::size_t k)
+  {
+    return std::fmod(0.6180339887498949 * double(k), 1.);
+  }
 
   // Around a box; moved by a part of its side, with a side twice as long.
   Curve_cube(const Bbox_3& box, double part)
@@ -136,16 +140,24 @@ inline void sort_keys(Mapped_array<Curve_key>& keys, Mapped_array<Curve_key>& ot
 {
   constexpr int bits = 10;
   constexpr std::size_t digits = std::size_t(1) << bits;
+  constexpr std::size_t slab = std::size_t(1) << 20;
+  const auto for_each_key = [&keys, &other](const auto& use) {
+    for(std::size_t first = 0; first < keys.size(); first += slab) {
+      const std::size_t last = (std::min)(keys.size(), first + slab);
+      for(std::size_t i = first; i < last; ++i)
+        use(keys[i]);
+      keys.release(first, last);
+      other.release();
+    }
+  };
   for(int shift = 0; shift < 30; shift += bits) {
     const auto digit = [shift](const Curve_key& key) { return (key.code >> shift) & (digits - 1); };
     std::array<std::uint64_t, digits> at = {};
-    for(const Curve_key& key : keys)
-      ++at[digit(key)];
+    for_each_key([&](const Curve_key& key) { ++at[digit(key)]; });
     std::uint64_t before = 0;
     for(std::uint64_t& place : at)
       before += std::exchange(place, before);
-    for(const Curve_key& key : keys)
-      other[at[digit(key)]++] = key;
+    for_each_key([&](const Curve_key& key) { other[at[digit(key)]++] = key; });
     std::swap(keys, other);
   }
 }
@@ -238,7 +250,8 @@ private:
 template <class Source>
 void Streamed_mesh_builder<Source>::sort_vertices(const Curve_cube& cube, std::size_t vertices)
 {
-  auto keys = create<Curve_key>("keys", vertices), other = create<Curve_key>("other_keys", vertices);
+  auto keys = create<Curve_key>("keys", vertices);
+  auto other = create<Curve_key>("other_keys", vertices);
   std::size_t count = 0;
   constexpr std::size_t slab = std::size_t(1) << 18;
   const std::size_t all = m_source.number_of_vertices();
@@ -256,7 +269,9 @@ void Streamed_mesh_builder<Source>::sort_vertices(const Curve_cube& cube, std::s
   m_mesh.points = create<Three_numbers>("points", vertices);
   m_mesh.source = create<std::uint32_t>("source", vertices);
   m_mesh.rank = create<std::uint32_t>("rank", m_source.number_of_vertices());
-  std::fill(m_mesh.rank.begin(), m_mesh.rank.end(), Indexed_mesh::no_vertex);
+  stream_rows(all, [this](std::size_t begin, std::size_t end) {
+    std::fill(m_mesh.rank.begin() + begin, m_mesh.rank.begin() + end, Indexed_mesh::no_vertex);
+  }, releases(m_mesh.rank));
   for(std::size_t first = 0; first < vertices; first += slab) {
     const std::size_t last = (std::min)(vertices, first + slab);
     for(std::size_t i = first; i < last; ++i) {
@@ -266,6 +281,10 @@ void Streamed_mesh_builder<Source>::sort_vertices(const Curve_cube& cube, std::s
       m_mesh.points[i] = m_source.point(v);
     }
     releases(keys, m_mesh.source, m_mesh.points)(first, last);
+    if(first / slab % 16 == 15) { // where they are depends on the order of the input
+      m_source.release_vertices(0, all);
+      m_mesh.rank.release();
+    }
   }
   keys = Mapped_array<Curve_key>();
   m_folder.remove(m_name + "keys");

@@ -42,13 +42,33 @@ public:
   }
   std::size_t slot_of_row(std::uint32_t v) const { return v; }
   template <class Use>
-  void for_each_entry(std::size_t v, const Use& use) const { m_level.matrix.for_each_entry(v, use); }
+  void for_each_entry(std::size_t v, const Use& use) const
+  {
+    m_level.matrix.for_each_entry(v, use);
+  }
 
 private:
   const Streamed_level& m_level;
 };
 
-// What the system counts of a process that goes to disks and comes from them; 0 if it does not tell.
+// The same for what is in files.
+template <class Triangle>
+std::vector<std::uint32_t> faces_without_positive_area(const Mapped_array<Triangle>& triangles,
+                                                       const Streamed_map& z)
+{
+  constexpr std::size_t slab = std::size_t(1) << 20;
+  std::vector<std::uint32_t> result;
+  for(std::size_t first = 0; first < triangles.size(); first += slab) {
+    const std::size_t last = (std::min)(triangles.size(), first + slab);
+    add_faces_without_positive_area(triangles, z, first, last, result);
+    triangles.release(first, last);
+    z.release();
+  }
+  return result;
+}
+
+// What the system counts of a process that goes to disks and comes from them; 0 if it does not
+// tell.
 struct Disk_traffic
 {
   std::size_t read = 0, written = 0;
@@ -94,6 +114,10 @@ public:
     m_hierarchy.input().check_that_it_stayed();
     const auto& rank = m_hierarchy.rank();
     write_mapped_ply(m_hierarchy.input(), [&](std::size_t v) -> std::array<double, 2> {
+      if(v % 65536 == 0) {
+        m_map.release();
+        rank.release();
+      }
       return rank[v] == Indexed_mesh::no_vertex ? std::array<double, 2>{0., 0.} : uv(rank[v]);
     }, put);
     m_report.seconds_write = watch.lap();
@@ -157,7 +181,7 @@ inline Streamed_map Streamed_run::map_in_memory()
 {
   Gathered_hierarchy& gathered = m_hierarchy.gathered();
   Multigrid::Iteration_report result;
-  const auto stop = energy_stop(m_options.solver, 1.); // the pins, far from each other, are at distance 1
+  const auto stop = energy_stop(m_options.solver, 1.); // the distance of the pins, which are far
   auto z = gathered.map(stop, [this](double part) { return m_hierarchy.tell(0.7 + 0.2 * part); },
                         result);
   conclude(result);
@@ -171,6 +195,7 @@ inline Streamed_map Streamed_run::map_in_memory()
 inline Streamed_map Streamed_run::map_in_files()
 {
   Streamed_map z = iterate();
+  m_hierarchy.remove_gathered();
   std::vector<Streamed_level>& levels = m_hierarchy.levels();
   relax_flipped_faces(Pinned_rows(levels.back()), m_hierarchy.triangles(), z);
   m_report.solver.energy = Streamed_solver::energy(levels.back(), z);
@@ -197,19 +222,19 @@ inline Streamed_map Streamed_run::iterate()
   const Complex* coarse = coarsest.data();
   Streamed_map z;
   for(std::size_t l = 1; l <= levels.size(); ++l) {
-    Streamed_map fine = folder.create_scratch<Complex>("map" + std::to_string(l), levels[l - 1].size());
-    levels[l - 1].prolong(coarse, [&fine](std::size_t i, const Complex& value) { fine[i] = value; });
-    fine.release();
+    Streamed_map fine
+      = folder.create_scratch<Complex>("map" + std::to_string(l), levels[l - 1].size());
+    levels[l - 1].prolong(
+      coarse, [&fine](std::size_t i, const Complex& value) { fine[i] = value; }, releases(fine));
     const Pins& pins = m_hierarchy.pins();
     for(std::size_t i = 0; i < pins.size(); ++i)
       fine[levels[l - 1].pins[i]] = pins[i].value;
     z = std::move(fine);
     folder.remove("map" + std::to_string(l - 1));
     coarse = z.data();
-    result = solver.minimize(l, z,
-                             l == levels.size()
-                               ? energy_stop(m_options.solver, longer_side(box_of(z))) : coarse_stop,
-                             observe);
+    const auto stop = l == levels.size()
+                        ? energy_stop(m_options.solver, longer_side(box_of(z))) : coarse_stop;
+    result = solver.minimize(l, z, stop, observe);
     m_report.solver.levels[gathered.number_of_levels() + l - 1].iterations = result.iterations;
     if(result.cancelled)
       break;
@@ -235,8 +260,10 @@ inline void Streamed_run::count_flips()
       }
       return count;
     },
-    releases(triangles));
-  m_map.release();
+    [&](std::size_t begin, std::size_t end) {
+      triangles.release(begin, end);
+      m_map.release();
+    });
 }
 
 } // namespace internal

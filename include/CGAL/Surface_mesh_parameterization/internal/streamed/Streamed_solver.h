@@ -7,6 +7,7 @@
 #include <CGAL/Multigrid/Iteration_control.h>
 #include <CGAL/Surface_mesh_parameterization/internal/streamed/Streamed_levels.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <string>
@@ -30,8 +31,8 @@ struct Row_sums
   }
 };
 
-// The flexible conjugate gradient method on levels in files, as `Multigrid::minimize_energy()`, with
-// the passes over the rows put together: one with the matrix, and two without, a step.
+// The flexible conjugate gradient method on levels in files, as `Multigrid::minimize_energy()`,
+// with the passes over the rows put together: one with the matrix, and two without, a step.
 class Streamed_solver
 {
 public:
@@ -163,11 +164,12 @@ Streamed_solver::minimize(std::size_t l, const Streamed_map& z, const Multigrid:
       }
       return parts;
     }, releases(z, p, q, r)).first.real();
-    if(control.watches_changes()) {
-      for(const Complex& value : p)
-        largest = (std::max)(largest, std::abs(value));
-      p.release();
-    }
+    if(control.watches_changes())
+      for(std::size_t i = 0; i < n; ++i) {
+        largest = (std::max)(largest, std::abs(p[i]));
+        if(i % 65536 == 0)
+          p.release(0, i);
+      }
     const double decrease = 0.5 * std::norm(slope) / curvature;
     control.step(control.report().energy - decrease, decrease, std::abs(alpha) * largest, observe);
   }

@@ -182,9 +182,9 @@ void for_each_result(const Mesh_block& block, const Decimated_block& decimated,
     if(!block.owns(of_block))
       continue;
     const auto& value = decimated.cotangents.value;
-    put_triangle(Streamed_mesh::Triangle_indices{block.global(of_block[0]), block.global(of_block[1]),
-                                                 block.global(of_block[2])},
-                 Three_numbers{value[3 * t], value[3 * t + 1], value[3 * t + 2]});
+    const Streamed_mesh::Triangle_indices of_whole
+      = {block.global(of_block[0]), block.global(of_block[1]), block.global(of_block[2])};
+    put_triangle(of_whole, Three_numbers{value[3 * t], value[3 * t + 1], value[3 * t + 2]});
   }
 }
 
