@@ -440,10 +440,12 @@ TEST(Aligned_charts, have_straight_borders_whatever_the_surface)
 {
   Random random(seed + 5);
   SMT::Texture_atlas_options options = small_texture();
-  for(const Indexed_triangle_mesh& mesh :
-      {with_noise(torus(40, 20), 0.01, seed), with_noise(sphere(4), 0.02, seed),
-       with_hills(irregular_grid(30, 30, seed), 3., seed), cylinder(60, 20),
-       with_holes(with_noise(torus(40, 20), 0.01, seed), 3, seed)}) {
+  std::vector<Indexed_triangle_mesh> surfaces = {with_noise(sphere(is_sanitized ? 2 : 4), 0.02, seed)};
+  if(!is_sanitized)
+    surfaces.insert(surfaces.end(), {with_noise(torus(40, 20), 0.01, seed),
+                                     with_hills(irregular_grid(30, 30, seed), 3., seed), cylinder(60, 20),
+                                     with_holes(with_noise(torus(40, 20), 0.01, seed), 3, seed)});
+  for(const Indexed_triangle_mesh& mesh : surfaces) {
     options.is_aligned = true;
     const SMT::Texture_atlas_result result = SMT::build_texture_atlas(mesh, options);
     ASSERT_EQ(result.error, "");
