@@ -34,6 +34,8 @@ typedef CGAL::Simple_cartesian<double>::Point_2 Point_2;
 
 class Very_large_chart : public Very_large_runs
 {
+protected:
+  void test_against_memory(SMP::Conformal_method method);
 };
 
 // The map of the chart in memory, in the unit square.
@@ -89,35 +91,40 @@ std::vector<Named_mesh> charts()
 }
 
 // At full convergence, from 1 to more than 16 blocks.
-TEST_F(Very_large_chart, is_that_in_memory)
+void Very_large_chart::test_against_memory(SMP::Conformal_method method)
 {
   for(const Named_mesh& chart : charts()) {
     SCOPED_TRACE(chart.name);
     const std::size_t n = chart.mesh.points.size();
     const Indexed_triangle_mesh mesh = shuffled(chart.mesh, 3);
     write_records(mesh, input());
+    // Of points twice the energy is that of slivers: so small a tolerance is out of reach.
+    const double tolerance = chart.name == "duplicate points" ? 1e-8 : 1e-11;
     SMP::HLSCM_options in_memory;
-    in_memory.tolerance = 1e-11;
+    in_memory.method = method;
+    in_memory.tolerance = tolerance;
     in_memory.coarsest_size = 200;
     const SMP::Conformal_map expected = expected_map(mesh, in_memory);
-    if(expected.error != SMP::OK) // points twice: so small a tolerance is out of reach
-      continue;
+    ASSERT_EQ(expected.error, SMP::OK) << expected.report.message;
     for(const auto& [block, gathered] : {std::make_pair(n, n), std::make_pair(n, n / 2),
                                          std::make_pair(n / 3, n / 2), std::make_pair(n / 17, n / 5)}) {
       SCOPED_TRACE(std::to_string(block) + " vertices a block, in memory " + std::to_string(gathered));
-      const Report report = map(options(block, gathered, 1e-11));
+      Options o = options(block, gathered, tolerance);
+      o.solver.method = method;
+      const Report report = map(o);
       ASSERT_EQ(report.error, SMP::OK) << report.message;
       const Mapped_ply mapped = read_mapped_ply(output, n, mesh.triangles.size());
       EXPECT_EQ(mapped.mesh.points, mesh.points);
       EXPECT_EQ(mapped.mesh.triangles, mesh.triangles);
-      ASSERT_EQ(report.solver.pins.size(), 2u);
+      EXPECT_EQ(report.solver.method, expected.report.method);
+      ASSERT_EQ(report.solver.pins.size(), expected.report.pins.size());
       for(const SMP::HLSCM_pin& pin : report.solver.pins) {
         const auto &p = expected.report.pins[0], &q = expected.report.pins[1];
         EXPECT_TRUE(pin.vertex == p.vertex || pin.vertex == q.vertex);
         EXPECT_NEAR(mapped.uv[pin.vertex].x(), pin.u, 1e-12);
       }
-      EXPECT_LT(difference(mapped.uv, expected.uv), 1e-6);
-      EXPECT_NEAR(report.solver.energy, expected.report.energy, 1e-8 * expected.report.energy + 1e-12);
+      EXPECT_LT(difference(mapped.uv, expected.uv), std::sqrt(0.1 * tolerance));
+      EXPECT_NEAR(report.solver.energy, expected.report.energy, 1e3 * tolerance * expected.report.energy + 1e-12);
       EXPECT_EQ(report.flipped_faces, number_of_flips(mesh, mapped.uv));
       EXPECT_EQ(report.flipped_faces, number_of_flips(mesh, expected.uv));
       EXPECT_EQ(report.solver.borders, expected.report.borders);
@@ -126,6 +133,13 @@ TEST_F(Very_large_chart, is_that_in_memory)
       EXPECT_FALSE(fs::exists(work()));
     }
   }
+}
+
+TEST_F(Very_large_chart, is_that_in_memory) { test_against_memory(SMP::Conformal_method::HLSCM); }
+
+TEST_F(Very_large_chart, is_that_in_memory_without_pins)
+{
+  test_against_memory(SMP::Conformal_method::SPECTRAL);
 }
 
 // At the tolerances in use the energy is within them of the minimum, and the iterations are hardly more
@@ -187,8 +201,9 @@ TEST_F(Very_large_chart, does_not_depend_on_the_number_of_threads)
 TEST_F(Very_large_chart, takes_all_records)
 {
   Indexed_triangle_mesh mesh = curved_charts(2)[1].mesh;
+  const auto rounded = [](volatile float x) { return double(x); }; // g++ 12 -O3 leaves some as they are
   for(auto& p : mesh.points)
-    p = Point_3(float(p.x()), float(p.y()), float(p.z()));
+    p = Point_3(rounded(p.x()), rounded(p.y()), rounded(p.z()));
   const std::size_t n = mesh.points.size(), faces = mesh.triangles.size();
   const Options o = options(n / 3, n / 2, 1e-3);
   write_records(mesh, input());
