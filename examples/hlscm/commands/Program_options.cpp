@@ -124,7 +124,7 @@ void add_very_large(CLI::App& run, Program_options& o)
   run.add_option("--memory", o.memory,
                  "map a chart that is too large for the memory in that much of it, such as 4G: blocks of "
                  "it wait in files; IN must be binary PLY or OBJ, one surface of triangles without "
-                 "handles, and OUT .ply")
+                 "handles, OUT .ply, and the method hlscm or spectral")
       ->transform(CLI::AsSizeValue(false))
       ->type_name("SIZE");
   run.add_flag("--resume", o.is_resumed,
