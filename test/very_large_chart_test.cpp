@@ -100,17 +100,21 @@ void Very_large_chart::test_against_memory(SMP::Conformal_method method)
     const std::size_t n = chart.mesh.points.size();
     const Indexed_triangle_mesh mesh = shuffled(chart.mesh, 3);
     write_records(mesh, input());
-    // Of points twice the energy is that of slivers: so small a tolerance is out of reach.
-    const double tolerance = chart.name == "duplicate points" ? 1e-8 : 1e-11;
+    const bool is_free = method == SMP::Conformal_method::SPECTRAL;
+    if(is_free && chart.name == "sphere with holes") // the map folds: what is left is rounding
+      continue;
+    // Of points twice the energy is that of slivers, and a spiral can be unrolled: there so small a
+    // tolerance is out of reach.
+    const bool is_rounded = chart.name == "duplicate points" || (is_free && chart.name == "spiral");
+    const double tolerance = is_rounded ? 1e-8 : 1e-11;
+    // Its two borders are alike, and so are the two smallest eigenvalues.
+    const bool is_doubtful = is_free && chart.name == "cylinder";
     SMP::HLSCM_options in_memory;
     in_memory.method = method;
     in_memory.tolerance = tolerance;
     in_memory.coarsest_size = 200;
     const SMP::Conformal_map expected = expected_map(mesh, in_memory);
     ASSERT_EQ(expected.error, SMP::OK) << expected.report.message;
-    const bool is_free = method == SMP::Conformal_method::SPECTRAL;
-    if(is_free && chart.name == "sphere with holes") // the map folds: what is left is rounding
-      continue;
     for(const auto& [block, gathered] : {std::make_pair(n, n), std::make_pair(n, n / 2),
                                          std::make_pair(n / 3, n / 2), std::make_pair(n / 17, n / 5)}) {
       SCOPED_TRACE(std::to_string(block) + " vertices a block, in memory " + std::to_string(gathered));
@@ -128,7 +132,7 @@ void Very_large_chart::test_against_memory(SMP::Conformal_method method)
         EXPECT_TRUE(pin.vertex == p.vertex || pin.vertex == q.vertex);
         EXPECT_NEAR(mapped.uv[pin.vertex].x(), pin.u, 1e-12);
       }
-      EXPECT_LT(difference(mapped.uv, expected.uv), std::sqrt(0.1 * tolerance));
+      EXPECT_LT(difference(mapped.uv, expected.uv), is_doubtful ? 1e-4 : std::sqrt(0.1 * tolerance));
       // The unit square sees the largest uv, the quotient their squares.
       const auto measured = [&](const std::vector<Point_2>& uv, double energy) {
         return is_free ? border_quotient(mesh, uv, energy) : energy;
@@ -137,7 +141,8 @@ void Very_large_chart::test_against_memory(SMP::Conformal_method method)
       EXPECT_NEAR(measured(mapped.uv, report.solver.energy), least,
                   (tolerance > 1e-11 ? 1e-4 : 1e-8) * least + 1e-12);
       EXPECT_EQ(report.flipped_faces, number_of_flips(mesh, mapped.uv));
-      EXPECT_EQ(report.flipped_faces, number_of_flips(mesh, expected.uv));
+      if(!is_doubtful)
+        EXPECT_EQ(report.flipped_faces, number_of_flips(mesh, expected.uv));
       EXPECT_EQ(report.solver.borders, expected.report.borders);
       EXPECT_EQ(report.levels_in_files > 0, gathered < n);
       EXPECT_GE(report.blocks, gathered < n ? n / (std::max)(block, std::size_t(200)) : 1u);
@@ -158,7 +163,7 @@ TEST_F(Very_large_chart, is_that_in_memory_without_pins)
 void Very_large_chart::count_iterations(SMP::Conformal_method method)
 {
   std::vector<Named_mesh> all = curved_charts(1);
-  all = {all[2], all[3], all[9]};
+  all = {all[2], all[3], all[method == SMP::Conformal_method::SPECTRAL ? 8 : 9]}; // 9 folds without
   if(!is_sanitized)
     all.push_back(large_charts(8)[1]);
   std::size_t iterations = 0, expected_iterations = 0;
