@@ -10,6 +10,7 @@
 
 #include <support/bad_surfaces.h>
 #include <support/binary_ply.h>
+#include <support/border_quotient.h>
 #include <support/chart_generators.h>
 
 #include <gtest/gtest.h>
@@ -113,9 +114,11 @@ struct Expected
   SMP::Conformal_map map;
   Uv uv;
 
-  Expected(const Indexed_triangle_mesh& mesh, double tolerance)
+  Expected(const Indexed_triangle_mesh& mesh, double tolerance,
+           SMP::Conformal_method method = SMP::Conformal_method::HLSCM)
   {
     SMP::HLSCM_options options;
+    options.method = method;
     options.tolerance = tolerance;
     options.coarsest_size = 200;
     options.threads = 1;
@@ -193,46 +196,127 @@ TEST(Distributed_chart, is_that_in_memory)
   }
 }
 
+double quotient_of(const Indexed_triangle_mesh& mesh, const Uv& uv, double energy)
+{
+  std::vector<CGAL::Simple_cartesian<double>::Point_2> points;
+  for(const auto& p : uv)
+    points.emplace_back(p[0], p[1]);
+  return border_quotient(mesh, points, energy);
+}
+
+// Without pins it is that of least energy for its border, the same in memory.
+TEST(Distributed_chart, is_that_in_memory_without_pins)
+{
+  for(const Named_mesh& chart : charts()) {
+    if(chart.name != "hills" && chart.name != "hills with holes" && chart.name != "dome"
+       && chart.name != "long strip")
+      continue;
+    SCOPED_TRACE(chart.name);
+    const std::size_t n = chart.mesh.points.size();
+    const Indexed_triangle_mesh mesh = shuffled(chart.mesh, 3);
+    const Expected expected(mesh, 1e-11, SMP::Conformal_method::SPECTRAL);
+    ASSERT_EQ(expected.map.error, SMP::OK) << expected.map.report.message;
+    for(const auto& [block, gathered] : {std::make_pair(n, n), std::make_pair(n / 4, n / 2),
+                                         std::make_pair(n / 17, n / 8)}) {
+      SCOPED_TRACE(std::to_string(block) + " vertices a block, in memory "
+                   + std::to_string(gathered));
+      Options options = options_of(block, gathered, 1e-11);
+      options.solver.method = SMP::Conformal_method::SPECTRAL;
+      const Mapped found = map(mesh, options);
+      const Report& report = found.report;
+      ASSERT_EQ(report.error, SMP::OK) << report.message;
+      EXPECT_LT(difference(found.uv, expected.uv), 1e-6);
+      const double least = quotient_of(mesh, expected.uv, expected.map.report.energy);
+      EXPECT_NEAR(quotient_of(mesh, found.uv, report.solver.energy), least, 1e-8 * least);
+      EXPECT_EQ(report.flipped_faces, number_of_flips(mesh, expected.uv));
+      EXPECT_EQ(report.levels_in_files > 0, gathered < n);
+      EXPECT_EQ(report.solver.method, "spectral");
+      EXPECT_TRUE(report.solver.pins.empty());
+    }
+  }
+}
+
+// There its preconditioner has two pins.
+TEST(Distributed_chart, leaves_a_plane_as_it_is_without_pins)
+{
+  const Indexed_triangle_mesh mesh = shuffled(irregular_grid(50, 30, 4), 3);
+  Options options = options_of(300, 400, 1e-6);
+  options.solver.method = SMP::Conformal_method::SPECTRAL;
+  const Mapped found = map(mesh, options);
+  ASSERT_EQ(found.report.error, SMP::OK) << found.report.message;
+  EXPECT_EQ(found.report.flipped_faces, 0u);
+  double least = 1e9, most = 0.;
+  for(const auto& t : mesh.triangles)
+    for(int c = 0; c < 3; ++c) {
+      const auto v = t[c], w = t[(c + 1) % 3];
+      const double length = std::hypot(found.uv[v][0] - found.uv[w][0], found.uv[v][1] - found.uv[w][1]);
+      const double ratio = length / std::sqrt(squared_distance(mesh.points[v], mesh.points[w]));
+      least = (std::min)(least, ratio);
+      most = (std::max)(most, ratio);
+    }
+  EXPECT_LT(most / least, 1.001);
+}
+
 // At the tolerances in use the energy is within them of the minimum, and the iterations are hardly
 // more than in memory.
-TEST(Distributed_chart, needs_no_more_iterations)
+void count_iterations(SMP::Conformal_method method)
 {
+  const bool is_free = method == SMP::Conformal_method::SPECTRAL;
   std::vector<Named_mesh> all = curved_charts(1);
-  all = {all[2], all[3], all[9], large_charts(8)[1]};
+  all = {all[2], all[3], all[is_free ? 8 : 9], large_charts(8)[1]}; // 9 folds without pins
   std::size_t iterations = 0, expected_iterations = 0;
   for(const Named_mesh& chart : all) {
     SCOPED_TRACE(chart.name);
     const std::size_t n = chart.mesh.points.size();
     const Indexed_triangle_mesh mesh = shuffled(chart.mesh, 3);
-    const double least = Expected(mesh, 1e-9).map.report.energy;
+    const auto measured = [&](const Uv& uv, double energy) {
+      return is_free ? quotient_of(mesh, uv, energy) : energy;
+    };
+    const Expected best(mesh, 1e-9, method);
+    const double least = measured(best.uv, best.map.report.energy);
     for(const double tolerance : {1e-2, 1e-4}) {
       SCOPED_TRACE(tolerance);
-      const Mapped found = map(mesh, options_of(n / 5, n / 20, tolerance));
+      Options options = options_of(n / 5, n / 20, tolerance);
+      options.solver.method = method;
+      const Mapped found = map(mesh, options);
       ASSERT_EQ(found.report.error, SMP::OK) << found.report.message;
-      EXPECT_LE(found.report.solver.energy, (1. + tolerance) * least + 1e-13);
+      EXPECT_LE(measured(found.uv, found.report.solver.energy), (1. + tolerance) * least + 1e-13);
       iterations += found.report.solver.iterations;
-      expected_iterations += Expected(mesh, tolerance).map.report.iterations;
+      expected_iterations += Expected(mesh, tolerance, method).map.report.iterations;
     }
   }
   EXPECT_LE(double(iterations), 1.3 * double(expected_iterations))
     << iterations << " and " << expected_iterations;
 }
 
+TEST(Distributed_chart, needs_no_more_iterations)
+{
+  count_iterations(SMP::Conformal_method::HLSCM);
+}
+
+TEST(Distributed_chart, needs_no_more_iterations_without_pins)
+{
+  count_iterations(SMP::Conformal_method::SPECTRAL);
+}
+
 // The levels are the same; what differs is the order of sums.
 TEST(Distributed_chart, is_the_same_for_any_number_of_ranks)
 {
   const Indexed_triangle_mesh mesh = shuffled(with_noise(irregular_grid(90, 70, 4), 0.2, 5), 8);
-  const Options options = options_of(700, 300, 1e-9);
-  const Mapped alone = map(mesh, options, MPI_COMM_SELF), together = map(mesh, options);
-  ASSERT_EQ(together.report.error, SMP::OK) << together.report.message;
-  ASSERT_EQ(alone.report.solver.levels.size(), together.report.solver.levels.size());
-  for(std::size_t l = 0; l < alone.report.solver.levels.size(); ++l) {
-    const auto &a = alone.report.solver.levels[l], &b = together.report.solver.levels[l];
-    EXPECT_EQ(a.vertices, b.vertices);
-    EXPECT_EQ(a.iterations, b.iterations);
+  for(const auto method : {SMP::Conformal_method::HLSCM, SMP::Conformal_method::SPECTRAL}) {
+    Options options = options_of(700, 300, 1e-9);
+    options.solver.method = method;
+    const Mapped alone = map(mesh, options, MPI_COMM_SELF), together = map(mesh, options);
+    ASSERT_EQ(together.report.error, SMP::OK) << together.report.message;
+    ASSERT_EQ(alone.report.solver.levels.size(), together.report.solver.levels.size());
+    for(std::size_t l = 0; l < alone.report.solver.levels.size(); ++l) {
+      const auto &a = alone.report.solver.levels[l], &b = together.report.solver.levels[l];
+      EXPECT_EQ(a.vertices, b.vertices);
+      EXPECT_EQ(a.iterations, b.iterations);
+    }
+    EXPECT_EQ(alone.report.blocks, together.report.blocks);
+    EXPECT_LT(difference(alone.uv, together.uv), 1e-7);
   }
-  EXPECT_EQ(alone.report.blocks, together.report.blocks);
-  EXPECT_LT(difference(alone.uv, together.uv), 1e-7);
 }
 
 class Distributed_file : public testing::Test
@@ -457,6 +541,9 @@ TEST(Distributed_chart, is_refused_in_a_sentence)
   EXPECT_TRUE(contains(message(mesh), "all vertices lie in one point"));
   EXPECT_TRUE(contains(message(Indexed_triangle_mesh()), "no faces"));
   EXPECT_TRUE(contains(message(bipyramid(8)), "closed"));
+  Options direct = options_of(200, 100, 1e-2);
+  direct.solver.method = SMP::Conformal_method::DIRECT;
+  EXPECT_TRUE(contains(map(grid(9, 9), direct).report.message, "needs the whole chart in memory"));
   Options impossible = options_of(200, 100, 0.);
   EXPECT_TRUE(contains(map(grid(9, 9), impossible).report.message, "tolerance must be positive"));
 }

@@ -331,7 +331,7 @@ void test_best_coefficients()
                                                                  b = Matrix::Random(1, n);
       const Matrix energy = std::pow(10., 6. * random.real()) * a * a.adjoint();
       const Matrix norm = b.adjoint() * b; // of rank 1: most of a mass is 0
-      internal::Small_matrix<Value> e = {}, m = {};
+      Small_matrix<Value, 3> e = {}, m = {};
       for(int r = 0; r < n; ++r)
         for(int c = 0; c < n; ++c) {
           e[r][c] = energy(r, c);

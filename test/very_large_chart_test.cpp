@@ -9,6 +9,7 @@
 
 #include <support/bad_surfaces.h>
 #include <support/binary_ply.h>
+#include <support/border_quotient.h>
 #include <support/chart_generators.h>
 #include <support/very_large_runs.h>
 
@@ -34,6 +35,9 @@ typedef CGAL::Simple_cartesian<double>::Point_2 Point_2;
 
 class Very_large_chart : public Very_large_runs
 {
+protected:
+  void test_against_memory(SMP::Conformal_method method);
+  void count_iterations(SMP::Conformal_method method);
 };
 
 // The map of the chart in memory, in the unit square.
@@ -89,37 +93,57 @@ std::vector<Named_mesh> charts()
 }
 
 // At full convergence, from 1 to more than 16 blocks.
-TEST_F(Very_large_chart, is_that_in_memory)
+void Very_large_chart::test_against_memory(SMP::Conformal_method method)
 {
   for(const Named_mesh& chart : charts()) {
     SCOPED_TRACE(chart.name);
     const std::size_t n = chart.mesh.points.size();
     const Indexed_triangle_mesh mesh = shuffled(chart.mesh, 3);
     write_records(mesh, input());
+    const bool is_free = method == SMP::Conformal_method::SPECTRAL;
+    if(is_free && chart.name == "sphere with holes") // the map folds: what is left is rounding
+      continue;
+    // Of points twice the energy is that of slivers, and a spiral can be unrolled: there so small a
+    // tolerance is out of reach.
+    const bool is_rounded = chart.name == "duplicate points" || (is_free && chart.name == "spiral");
+    const double tolerance = is_rounded ? 1e-8 : 1e-11;
+    // Its two borders are alike, and so are the two smallest eigenvalues.
+    const bool is_doubtful = is_free && chart.name == "cylinder";
     SMP::HLSCM_options in_memory;
-    in_memory.tolerance = 1e-11;
+    in_memory.method = method;
+    in_memory.tolerance = tolerance;
     in_memory.coarsest_size = 200;
     const SMP::Conformal_map expected = expected_map(mesh, in_memory);
-    if(expected.error != SMP::OK) // points twice: so small a tolerance is out of reach
-      continue;
+    ASSERT_EQ(expected.error, SMP::OK) << expected.report.message;
     for(const auto& [block, gathered] : {std::make_pair(n, n), std::make_pair(n, n / 2),
                                          std::make_pair(n / 3, n / 2), std::make_pair(n / 17, n / 5)}) {
       SCOPED_TRACE(std::to_string(block) + " vertices a block, in memory " + std::to_string(gathered));
-      const Report report = map(options(block, gathered, 1e-11));
+      Options o = options(block, gathered, tolerance);
+      o.solver.method = method;
+      const Report report = map(o);
       ASSERT_EQ(report.error, SMP::OK) << report.message;
       const Mapped_ply mapped = read_mapped_ply(output, n, mesh.triangles.size());
       EXPECT_EQ(mapped.mesh.points, mesh.points);
       EXPECT_EQ(mapped.mesh.triangles, mesh.triangles);
-      ASSERT_EQ(report.solver.pins.size(), 2u);
+      EXPECT_EQ(report.solver.method, expected.report.method);
+      ASSERT_EQ(report.solver.pins.size(), expected.report.pins.size());
       for(const SMP::HLSCM_pin& pin : report.solver.pins) {
         const auto &p = expected.report.pins[0], &q = expected.report.pins[1];
         EXPECT_TRUE(pin.vertex == p.vertex || pin.vertex == q.vertex);
         EXPECT_NEAR(mapped.uv[pin.vertex].x(), pin.u, 1e-12);
       }
-      EXPECT_LT(difference(mapped.uv, expected.uv), 1e-6);
-      EXPECT_NEAR(report.solver.energy, expected.report.energy, 1e-8 * expected.report.energy + 1e-12);
+      EXPECT_LT(difference(mapped.uv, expected.uv), is_doubtful ? 1e-4 : std::sqrt(0.1 * tolerance));
+      // The unit square sees the largest uv, the quotient their squares.
+      const auto measured = [&](const std::vector<Point_2>& uv, double energy) {
+        return is_free ? border_quotient(mesh, uv, energy) : energy;
+      };
+      const double least = measured(expected.uv, expected.report.energy);
+      EXPECT_NEAR(measured(mapped.uv, report.solver.energy), least,
+                  (tolerance > 1e-11 ? 1e-4 : 1e-8) * least + 1e-12);
       EXPECT_EQ(report.flipped_faces, number_of_flips(mesh, mapped.uv));
-      EXPECT_EQ(report.flipped_faces, number_of_flips(mesh, expected.uv));
+      if(!is_doubtful) {
+        EXPECT_EQ(report.flipped_faces, number_of_flips(mesh, expected.uv));
+      }
       EXPECT_EQ(report.solver.borders, expected.report.borders);
       EXPECT_EQ(report.levels_in_files > 0, gathered < n);
       EXPECT_GE(report.blocks, gathered < n ? n / (std::max)(block, std::size_t(200)) : 1u);
@@ -128,12 +152,19 @@ TEST_F(Very_large_chart, is_that_in_memory)
   }
 }
 
+TEST_F(Very_large_chart, is_that_in_memory) { test_against_memory(SMP::Conformal_method::HLSCM); }
+
+TEST_F(Very_large_chart, is_that_in_memory_without_pins)
+{
+  test_against_memory(SMP::Conformal_method::SPECTRAL);
+}
+
 // At the tolerances in use the energy is within them of the minimum, and the iterations are hardly more
 // than in memory: on one chart numbers differ by chance, all together do not.
-TEST_F(Very_large_chart, needs_no_more_iterations)
+void Very_large_chart::count_iterations(SMP::Conformal_method method)
 {
   std::vector<Named_mesh> all = curved_charts(1);
-  all = {all[2], all[3], all[9]};
+  all = {all[2], all[3], all[method == SMP::Conformal_method::SPECTRAL ? 8 : 9]}; // 9 folds without
   if(!is_sanitized)
     all.push_back(large_charts(8)[1]);
   std::size_t iterations = 0, expected_iterations = 0;
@@ -141,15 +172,24 @@ TEST_F(Very_large_chart, needs_no_more_iterations)
     SCOPED_TRACE(chart.name);
     write_records(chart.mesh, input());
     const std::size_t n = chart.mesh.points.size();
+    // In the square of the distance of the pins, or in the size of the border.
+    const auto measured = [&](const SMP::HLSCM_report& report, const std::vector<Point_2>& uv) {
+      const auto& p = report.pins;
+      return p.empty() ? border_quotient(chart.mesh, uv, report.energy)
+                       : report.energy / (std::pow(p[1].u - p[0].u, 2) + std::pow(p[1].v - p[0].v, 2));
+    };
     SMP::HLSCM_options in_memory;
+    in_memory.method = method;
     in_memory.tolerance = 1e-9;
     in_memory.coarsest_size = n / 15;
-    const double least = SMP::conformal_map(chart.mesh, in_memory).report.energy;
+    const SMP::Conformal_map best = SMP::conformal_map(chart.mesh, in_memory);
+    const double least = measured(best.report, best.uv);
     for(const double tolerance : {1e-2, 1e-4}) {
       in_memory.tolerance = tolerance;
       const std::size_t expected = SMP::conformal_map(chart.mesh, in_memory).report.iterations;
       for(const std::size_t blocks : {1, 16}) {
         Options o = options(n / blocks, n / 3, tolerance);
+        o.solver.method = method;
         o.solver.coarsest_size = in_memory.coarsest_size;
         const Report report = map(o);
         ASSERT_EQ(report.error, SMP::OK) << report.message;
@@ -157,15 +197,45 @@ TEST_F(Very_large_chart, needs_no_more_iterations)
           << tolerance << ", blocks " << report.blocks;
         iterations += report.solver.iterations;
         expected_iterations += expected;
-        const auto& p = report.solver.pins; // the unit is their distance
-        const double energy = report.solver.energy / (std::pow(p[1].u - p[0].u, 2)
-                                                      + std::pow(p[1].v - p[0].v, 2));
+        const double energy = measured(
+          report.solver, read_mapped_ply(output, n, chart.mesh.triangles.size()).uv);
         EXPECT_LE(energy, (1. + tolerance) * least);
         EXPECT_GE(energy, (1. - 1e-8) * least);
       }
     }
   }
   EXPECT_LE(double(iterations), 1.3 * double(expected_iterations));
+}
+
+TEST_F(Very_large_chart, needs_no_more_iterations) { count_iterations(SMP::Conformal_method::HLSCM); }
+
+TEST_F(Very_large_chart, needs_no_more_iterations_without_pins)
+{
+  count_iterations(SMP::Conformal_method::SPECTRAL);
+}
+
+// A plane stays as it is: there no map with two pins has any energy, nor one without.
+TEST_F(Very_large_chart, leaves_a_plane_as_it_is_without_pins)
+{
+  const Indexed_triangle_mesh mesh = with_jagged_border(irregular_grid(50, 30, 4), 0.4, 5);
+  write_records(mesh, input());
+  const std::size_t n = mesh.points.size();
+  Options o = options(n / 6, n / 4, 1e-6);
+  o.solver.method = SMP::Conformal_method::SPECTRAL;
+  const Report report = map(o);
+  ASSERT_EQ(report.error, SMP::OK) << report.message;
+  EXPECT_EQ(report.flipped_faces, 0u);
+  const std::vector<Point_2> uv = read_mapped_ply(output, n, mesh.triangles.size()).uv;
+  double least = 1e9, most = 0.;
+  for(const auto& t : mesh.triangles)
+    for(int c = 0; c < 3; ++c) {
+      const auto v = t[c], w = t[(c + 1) % 3];
+      const double ratio = std::sqrt(squared_distance(uv[v], uv[w])
+                                     / squared_distance(mesh.points[v], mesh.points[w]));
+      least = (std::min)(least, ratio);
+      most = (std::max)(most, ratio);
+    }
+  EXPECT_LT(most / least, 1.001);
 }
 
 TEST_F(Very_large_chart, does_not_depend_on_the_number_of_threads)
@@ -175,20 +245,29 @@ TEST_F(Very_large_chart, does_not_depend_on_the_number_of_threads)
   write_records(mesh, input());
   Options o = options(mesh.points.size() / 3, mesh.points.size() / 4, 1e-2);
   ASSERT_EQ(map(o).error, SMP::OK);
-  const std::string first = output;
-  for(const unsigned int threads : {2, 3}) {
-    o.solver.threads = threads;
-    ASSERT_EQ(map(o).error, SMP::OK);
-    EXPECT_TRUE(output == first) << threads << " threads";
-  }
+  std::string first = output;
+  const auto expect_same = [&] {
+    for(const unsigned int threads : {1, 2, 3}) {
+      o.solver.threads = threads;
+      ASSERT_EQ(map(o).error, SMP::OK);
+      EXPECT_TRUE(output == first) << threads << " threads";
+    }
+  };
+  expect_same();
+  o.solver.method = SMP::Conformal_method::SPECTRAL;
+  ASSERT_EQ(map(o).error, SMP::OK);
+  ASSERT_FALSE(output == first);
+  first = output;
+  expect_same();
 }
 
 // Floats, the other order of bytes, vertices that no face has.
 TEST_F(Very_large_chart, takes_all_records)
 {
   Indexed_triangle_mesh mesh = curved_charts(2)[1].mesh;
+  const auto rounded = [](volatile float x) { return double(x); }; // g++ 12 -O3 leaves some as they are
   for(auto& p : mesh.points)
-    p = Point_3(float(p.x()), float(p.y()), float(p.z()));
+    p = Point_3(rounded(p.x()), rounded(p.y()), rounded(p.z()));
   const std::size_t n = mesh.points.size(), faces = mesh.triangles.size();
   const Options o = options(n / 3, n / 2, 1e-3);
   write_records(mesh, input());
@@ -225,6 +304,13 @@ TEST_F(Very_large_chart, refuses_bad_surfaces)
     return std::string();
   };
   EXPECT_EQ(error(sphere(5), "the surface is closed"), "");
+  write_records(hills, input());
+  for(const auto method : {SMP::Conformal_method::CASCADIC, SMP::Conformal_method::LSCM,
+                           SMP::Conformal_method::DIRECT}) {
+    Options o = options(n, n, 1e-2);
+    o.solver.method = method;
+    EXPECT_EQ(error_in_failure(map(o), "needs the whole chart in memory"), "");
+  }
   std::vector<bool> is_kept(60 * 40, true);
   is_kept[77] = false;
   EXPECT_EQ(error(without_vertices(torus(60, 40), is_kept), "the surface has genus 1"), "");

@@ -3,6 +3,7 @@
 
 // `parameterize --memory`: the map of `parameterize`, and what is left when it does not come to an end.
 
+#include <support/is_sanitized.h>
 #include <support/program_runs.h>
 
 #include <gtest/gtest.h>
@@ -10,6 +11,8 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <set>
 #include <sstream>
@@ -24,6 +27,21 @@ using namespace program_test;
 
 // Hills for which a megabyte of memory is not enough: two levels in files.
 std::string hills() { return ply(grid(60, hilly), "binary_little_endian"); }
+
+// Of the texture coordinates of two files of so many vertices.
+double largest_difference(const std::string& a, const std::string& b, std::size_t vertices)
+{
+  EXPECT_EQ(a.size(), b.size());
+  const std::size_t begin = a.find("end_header\n") + 11;
+  double most = a.size() == b.size() ? 0. : 1.;
+  for(std::size_t v = 0; v < vertices && a.size() == b.size(); ++v) {
+    double uv[2], others[2];
+    std::memcpy(uv, a.data() + begin + 48 * v + 24, sizeof(uv));
+    std::memcpy(others, b.data() + begin + 48 * v + 24, sizeof(uv));
+    most = std::max({most, std::abs(uv[0] - others[0]), std::abs(uv[1] - others[1])});
+  }
+  return most;
+}
 
 class Very_large_program : public Program
 {
@@ -47,14 +65,7 @@ TEST_F(Very_large_program, writes_the_map_of_the_one_in_memory)
   const std::size_t begin = out.find("end_header\n") + 11;
   EXPECT_EQ(out.substr(0, begin), in_memory.substr(0, begin));
   const std::size_t vertices = found["vertices"];
-  double most = 0;
-  for(std::size_t v = 0; v < vertices; ++v) {
-    double uv[2], expected_uv[2];
-    std::memcpy(uv, out.data() + begin + 48 * v + 24, sizeof(uv));
-    std::memcpy(expected_uv, in_memory.data() + begin + 48 * v + 24, sizeof(uv));
-    most = std::max({most, std::abs(uv[0] - expected_uv[0]), std::abs(uv[1] - expected_uv[1])});
-  }
-  EXPECT_LT(most, 1e-5);
+  EXPECT_LT(largest_difference(out, in_memory, vertices), 1e-5);
   EXPECT_TRUE(out.substr(begin + 48 * vertices) == in_memory.substr(begin + 48 * vertices));
   EXPECT_EQ(names(), (std::set<std::string>{"in.ply", "out.ply", "report.json"}));
 }
@@ -122,6 +133,49 @@ TEST_F(Very_large_program, refuses_damaged_obj_files)
     EXPECT_EQ(outcome.err.rfind("hlscm: error: " + in + ": ", 0), 0u) << outcome.err;
     EXPECT_EQ(names(), std::set<std::string>{"in.obj"});
   }
+}
+
+TEST_F(Very_large_program, maps_without_pins)
+{
+  const std::string in = write("in.ply", hills());
+  const Texts options = {"--tolerance", "1e-9", "--method", "spectral"};
+  const Json expected = report(in, options);
+  const std::string in_memory = read_file(path("out.ply"));
+  Texts out_of_core = options;
+  out_of_core.insert(out_of_core.end(), {"--memory", "1M"});
+  const Json found = report(in, out_of_core);
+  EXPECT_GE(found["levels_in_files"], 1);
+  EXPECT_EQ(found["method"], "spectral");
+  EXPECT_EQ(found["pins"].size(), 0u);
+  EXPECT_LT(largest_difference(read_file(path("out.ply")), in_memory, found["vertices"]), 1e-5);
+  const Outcome outcome = parameterize(in, "out.ply", out_of_core);
+  EXPECT_EQ(outcome.out.find("\npins"), std::string::npos) << outcome.out;
+}
+
+// The peak is that of --memory, of what passes through, and of the program itself; the manual says
+// how much that is. It has nothing to do with time.
+TEST_F(Very_large_program, keeps_to_its_memory)
+{
+  if(test_support::is_sanitized) { // what they need has no bound
+    return;
+  }
+  // A shell in between: a process starts with the peak of the one that it comes from.
+  const auto peak_mb = [this](const std::string& in, const std::string& options) {
+    const std::string command = "'" HLSCM_PROGRAM "' parameterize '" + in + "' -o '" + path("out.ply")
+                                + "' --report '" + path("report.json") + "' --quiet --threads 2 "
+                                + options + "; exit $?";
+    EXPECT_EQ(std::system(command.c_str()), 0) << command;
+    return double(Json::parse(read_file(path("report.json")))["peak_memory_mb"]);
+  };
+  const double itself = peak_mb(write("small.ply", ply(grid(12, hilly), "binary_little_endian")),
+                                "--memory 16M");
+  const std::string in = write("in.ply", ply(grid(700, hilly), "binary_little_endian"));
+  constexpr double memory = 16, passing = 40;
+  for(const char* method : {"hlscm", "spectral"}) {
+    EXPECT_LT(peak_mb(in, std::string("--memory 16M --method ") + method), itself + memory + passing)
+      << method;
+  }
+  EXPECT_GT(peak_mb(in, ""), itself + 4 * (memory + passing)); // it would need more
 }
 
 // SIGKILL at some moment, and the same run again; what was there before is there until it is done.

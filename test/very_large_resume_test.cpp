@@ -124,6 +124,39 @@ TEST_F(Very_large_resume, goes_on_when_it_was_killed)
   EXPECT_GT(most, 1u);
 }
 
+// The levels are those of either method: a run can go on from them by the other one.
+TEST_F(Very_large_resume, goes_on_without_pins)
+{
+  const Indexed_triangle_mesh mesh = curved_charts(4)[3].mesh;
+  write_records(mesh, input());
+  Options o = options(mesh.points.size() / 4, mesh.points.size() / 10, 1e-3);
+  ASSERT_EQ(map(o).error, SMP::OK);
+  const std::string pinned = output;
+  o.solver.method = SMP::Conformal_method::SPECTRAL;
+  ASSERT_EQ(map(o).error, SMP::OK);
+  const std::string expected = output;
+  for(const double part : {0.3, 0.65, 0.8}) {
+    SCOPED_TRACE(part);
+    o.solver.progress = [part](double done) { return done < part; };
+    o.resumes = false;
+    ASSERT_TRUE(map(o).solver.cancelled);
+    o.solver.progress = nullptr;
+    o.resumes = true;
+    const Report report = map(o);
+    ASSERT_EQ(report.error, SMP::OK) << report.message;
+    EXPECT_TRUE(output == expected);
+    EXPECT_EQ(report.finished_before > 1, part > 0.6); // then all levels are there
+  }
+  o.solver.progress = [](double done) { return done < 0.8; };
+  ASSERT_TRUE(map(o).solver.cancelled);
+  o.solver.progress = nullptr;
+  o.solver.method = SMP::Conformal_method::HLSCM;
+  const Report report = map(o);
+  ASSERT_EQ(report.error, SMP::OK) << report.message;
+  EXPECT_GT(report.finished_before, 1u);
+  EXPECT_TRUE(output == pinned);
+}
+
 TEST_F(Very_large_resume, has_its_folder_for_itself)
 {
   write_records(grid(30, 30), input());

@@ -4,6 +4,7 @@
 // `mpirun -n 4 hlscm-mpi parameterize IN.ply -o OUT.ply`: the map of a chart by several processes,
 // on one machine or many that see the same files.
 
+#include "commands/Very_large_report.h"
 #include "common/Interruption.h"
 #include "common/Program_error.h"
 #include "writing/Output_files.h"
@@ -15,9 +16,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
-#include <nlohmann/json.hpp>
+#include <map>
 #include <optional>
-#include <sstream>
 #include <string>
 
 namespace {
@@ -45,6 +45,12 @@ std::optional<int> parse(int argc, char** argv, bool is_first, Options& options)
   run->add_option("-o,--output", options.output, "the same with texture coordinates, .ply")
       ->required();
   run->add_option("--report", options.report, "a report as JSON");
+  const std::map<std::string, SMP::Conformal_method> methods
+      = {{"hlscm", SMP::Conformal_method::HLSCM}, {"spectral", SMP::Conformal_method::SPECTRAL}};
+  run->add_option("--method", options.library.solver.method,
+                  "hlscm: under two pins that are far from each other (default); spectral: without "
+                  "pins, by an eigenvalue problem")
+      ->transform(CLI::CheckedTransformer(methods).description("hlscm|spectral"));
   run->add_option("--tolerance", options.library.solver.tolerance,
                   "the energy is at most this part above its minimum (default 0.01)")
       ->check(CLI::PositiveNumber);
@@ -75,49 +81,27 @@ std::optional<int> parse(int argc, char** argv, bool is_first, Options& options)
   return std::nullopt;
 }
 
-std::string to_json(const Report& report, const Options& options)
+hlscm::Very_large_report of_run(const Report& report, const Options& options)
 {
-  using Json = nlohmann::ordered_json;
-  const SMP::HLSCM_report& s = report.solver;
-  Json ranks = Json::array(), levels = Json::array();
-  for(const SMP::Rank_report& rank : report.ranks) {
-    ranks.push_back({{"vertices", rank.vertices},
-                     {"peak_memory_mb", double(rank.peak_memory) / 1048576.},
-                     {"bytes_sent", rank.bytes_sent},
-                     {"messages", rank.messages}});
-  }
-  for(const auto& level : s.levels) {
-    levels.push_back({{"vertices", level.vertices}, {"iterations", level.iterations}});
-  }
-  const Json json = {{"input", options.input},
-                     {"output", options.output},
-                     {"tolerance", options.library.solver.tolerance},
-                     {"vertices", s.vertices},
-                     {"faces", s.faces},
-                     {"borders", s.borders},
-                     {"blocks", report.blocks},
-                     {"distributed_levels", report.levels_in_files},
-                     {"levels_finished_before", report.finished_before},
-                     {"level_table", levels},
-                     {"iterations", s.iterations},
-                     {"energy", s.energy},
-                     {"energy_gap_estimate", s.energy_gap_estimate},
-                     {"flips", report.flipped_faces},
-                     {"mollified_faces", s.mollified_faces},
-                     {"seconds",
-                      {{"sort", report.seconds_sort},
-                       {"decimate", s.seconds_hierarchy},
-                       {"levels_in_memory", s.seconds_operators},
-                       {"solve", s.seconds_solve},
-                       {"total", s.seconds_total}}},
-                     {"ranks", ranks},
-                     {"warnings", s.warnings}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return {report, options.input, options.output, options.library.solver.tolerance, true};
 }
 
-void print(const Report& report)
+std::string to_json(const Report& report, const Options& options)
+{
+  nlohmann::ordered_json json = of_run(report, options).to_json();
+  for(const SMP::Rank_report& rank : report.ranks) {
+    json["ranks"].push_back({{"vertices", rank.vertices},
+                             {"peak_memory_mb", double(rank.peak_memory) / 1048576.},
+                             {"bytes_sent", rank.bytes_sent},
+                             {"messages", rank.messages}});
+  }
+  return hlscm::text_of(json);
+}
+
+void print(const Report& report, const Options& options)
 {
   const SMP::HLSCM_report& s = report.solver;
+  const hlscm::Very_large_report said = of_run(report, options);
   std::size_t memory = 0, bytes = 0, messages = 0;
   for(const SMP::Rank_report& rank : report.ranks) {
     memory = std::max(memory, rank.peak_memory);
@@ -125,17 +109,9 @@ void print(const Report& report)
     messages += rank.messages;
   }
   std::cout << s.vertices << " vertices, " << s.faces << " faces, " << report.ranks.size()
-            << " ranks\nlevels: " << s.levels.size() << ", " << report.levels_in_files
-            << " of them distributed, "
-            << (report.finished_before > 0
-                    ? std::to_string(report.finished_before) + " from an earlier run, "
-                    : std::string())
-            << "the finest in " << report.blocks << " blocks\n"
-            << s.iterations << " iterations, energy " << s.energy << ", about "
-            << s.energy_gap_estimate << " above the minimum, " << report.flipped_faces
-            << " flipped faces\nseconds: " << s.seconds_total << " = sort " << report.seconds_sort
-            << " + decimate " << s.seconds_hierarchy << " + levels in memory "
-            << s.seconds_operators << " + solve " << s.seconds_solve
+            << " ranks\nlevels: " << said.levels() << '\n'
+            << s.method << ", " << s.iterations << " iterations, energy " << said.energy() << ", "
+            << report.flipped_faces << " flipped faces\nseconds: " << said.seconds(2)
             << "\nof a rank: " << memory / 1048576 << " MB of memory at most; sent "
             << bytes / 1000000 << " MB in " << messages << " messages\n";
 }
@@ -211,7 +187,7 @@ int run(Options& options, bool is_first)
       std::cerr << "hlscm-mpi: warning: " << options.input << ": " << warning << '\n';
     }
     if(!options.is_quiet) {
-      print(report);
+      print(report, options);
     }
   }
   return 0;

@@ -4,6 +4,8 @@
 #ifndef HLSCM_TEST_SUPPORT_MESH_GENERATORS_H
 #define HLSCM_TEST_SUPPORT_MESH_GENERATORS_H
 
+#include <support/is_sanitized.h>
+
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
 #include <CGAL/number_utils.h>
 
@@ -16,19 +18,6 @@
 #include <vector>
 
 namespace test_support {
-
-// Whether sanitizers make tests ten times as slow: then long ones take fewer or smaller meshes.
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool is_sanitized = true;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-constexpr bool is_sanitized = true;
-#else
-constexpr bool is_sanitized = false;
-#endif
-#else
-constexpr bool is_sanitized = false;
-#endif
 
 using CGAL::Indexed_mesh::Indexed_triangle_mesh;
 using CGAL::Indexed_mesh::Triangle_indices;

@@ -124,7 +124,7 @@ void add_very_large(CLI::App& run, Program_options& o)
   run.add_option("--memory", o.memory,
                  "map a chart that is too large for the memory in that much of it, such as 4G: blocks of "
                  "it wait in files; IN must be binary PLY or OBJ, one surface of triangles without "
-                 "handles, and OUT .ply")
+                 "handles, OUT .ply, and the method hlscm or spectral")
       ->transform(CLI::AsSizeValue(false))
       ->type_name("SIZE");
   run.add_flag("--resume", o.is_resumed,
@@ -135,7 +135,7 @@ void add_very_large(CLI::App& run, Program_options& o)
       ->type_name("DIR");
 }
 
-// The only map of a chart beyond the memory is that of hlscm under its own pins.
+// The maps of a chart beyond the memory are that of hlscm under its own pins, and that without.
 void check_very_large(const CLI::App& run, const Program_options& o)
 {
   if(o.memory == 0) {
@@ -350,8 +350,10 @@ void check(const Program_options& o)
   if(extension_of(o.output) != ".obj" && extension_of(o.output) != ".ply") {
     throw CLI::ValidationError("--output", "\"" + o.output + "\" ends neither in .obj nor in .ply");
   }
-  if(o.memory > 0 && (o.method != SMP::Conformal_method::HLSCM || extension_of(o.output) != ".ply")) {
-    throw CLI::ValidationError("--memory", "it maps by --method hlscm and writes .ply");
+  const bool is_possible_in_files
+      = o.method == SMP::Conformal_method::HLSCM || o.method == SMP::Conformal_method::SPECTRAL;
+  if(o.memory > 0 && (!is_possible_in_files || extension_of(o.output) != ".ply")) {
+    throw CLI::ValidationError("--memory", "it maps by --method hlscm or spectral and writes .ply");
   }
   const bool is_low_stretch = !o.method;
   const char* only = o.is_from_uv ? "--from-uv" : o.is_one_to_one ? "--one-to-one"

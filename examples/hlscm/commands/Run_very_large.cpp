@@ -3,6 +3,7 @@
 
 #include "commands/Run_report.h"
 #include "commands/Very_large.h"
+#include "commands/Very_large_report.h"
 #include "common/Interruption.h"
 #include "common/Program_error.h"
 #include "common/Progress_bar.h"
@@ -11,11 +12,9 @@
 
 #include <CGAL/Surface_mesh_parameterization/map_very_large_chart.h>
 
-#include <cmath>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -29,16 +28,15 @@ namespace {
 
 using Report = SMP::Very_large_chart_report;
 
-std::string rounded(double value, int digits)
+Very_large_report of_run(const Report& report, const Program_options& options)
 {
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(digits) << value;
-  return text.str();
+  return {report, options.input, options.output, options.library.tolerance, false};
 }
 
 std::string to_table(const Report& report, const Program_options& options)
 {
   const SMP::HLSCM_report& s = report.solver;
+  const Very_large_report said = of_run(report, options);
   std::ostringstream text;
   const auto add = [&text](const char* name, const std::string& what) {
     text << std::left << std::setw(12) << name << what << '\n';
@@ -47,31 +45,18 @@ std::string to_table(const Report& report, const Program_options& options)
   add("input", options.input + ": " + number(s.vertices) + " vertices, " + number(s.faces)
                    + " faces, " + number(s.borders) + (s.borders == 1 ? " border" : " borders"));
   add("method", s.method + ", " + number(s.iterations) + " iterations on the finest level, converged");
-  std::string levels;
-  for(const auto& level : s.levels) {
-    levels += (levels.empty() ? "" : ", ") + number(level.vertices);
-  }
-  add("levels", number(s.levels.size()) + " (vertices: " + levels + "), "
-                    + number(report.levels_in_files) + " of them in files, "
-                    + (report.finished_before > 0
-                           ? number(report.finished_before) + " from an earlier run, "
-                           : std::string())
-                    + "the finest in " + number(report.blocks)
-                    + (report.blocks == 1 ? " block" : " blocks"));
+  add("levels", said.levels());
   std::string pins;
   for(const auto& pin : s.pins) {
     pins += (pins.empty() ? "vertex " : ", vertex ") + number(pin.vertex) + " at ("
           + rounded(pin.u, 4) + ", " + rounded(pin.v, 4) + ")";
   }
-  add("pins", pins);
-  std::ostringstream energy;
-  energy << s.energy << ", about " << s.energy_gap_estimate << " above the minimum";
-  add("energy", energy.str());
+  if(!pins.empty()) {
+    add("pins", pins);
+  }
+  add("energy", said.energy());
   add("flips", number(report.flipped_faces) + " of " + number(s.faces) + " faces");
-  add("seconds", rounded(s.seconds_total, 2) + " = sort " + rounded(report.seconds_sort, 2)
-                     + " + decimate " + rounded(s.seconds_hierarchy, 2) + " + levels in memory "
-                     + rounded(s.seconds_operators, 2) + " + solve " + rounded(s.seconds_solve, 2)
-                     + "; write " + rounded(report.seconds_write, 2));
+  add("seconds", said.seconds(2) + "; write " + rounded(report.seconds_write, 2));
   add("memory", rounded(peak_memory_mb(), 0) + " MB at most");
   add("files", rounded(1e-6 * double(report.bytes_of_files), 0) + " MB at most; from disk "
                    + rounded(1e-6 * double(report.bytes_read), 0) + " MB, to disk "
@@ -82,47 +67,13 @@ std::string to_table(const Report& report, const Program_options& options)
 
 std::string to_json(const Report& report, const Program_options& options)
 {
-  using Json = nlohmann::ordered_json;
-  const SMP::HLSCM_report& s = report.solver;
-  Json pins = Json::array(), levels = Json::array();
-  for(const auto& pin : s.pins) {
-    pins.push_back({{"index", pin.vertex}, {"uv", {pin.u, pin.v}}});
-  }
-  for(const auto& level : s.levels) {
-    levels.push_back({{"vertices", level.vertices}, {"iterations", level.iterations}});
-  }
-  const Json json = {{"input", options.input},
-                     {"output", options.output},
-                     {"method", s.method},
-                     {"tolerance", options.library.tolerance},
-                     {"vertices", s.vertices},
-                     {"faces", s.faces},
-                     {"borders", s.borders},
-                     {"pins", pins},
-                     {"levels", s.levels.size()},
-                     {"levels_in_files", report.levels_in_files},
-                     {"levels_finished_before", report.finished_before},
-                     {"level_table", levels},
-                     {"blocks", report.blocks},
-                     {"iterations", s.iterations},
-                     {"converged", s.converged},
-                     {"energy", s.energy},
-                     {"energy_gap_estimate", s.energy_gap_estimate},
-                     {"flips", report.flipped_faces},
-                     {"mollified_faces", s.mollified_faces},
-                     {"seconds",
-                      {{"sort", report.seconds_sort},
-                       {"decimate", s.seconds_hierarchy},
-                       {"levels_in_memory", s.seconds_operators},
-                       {"solve", s.seconds_solve},
-                       {"total", s.seconds_total},
-                       {"write", report.seconds_write}}},
-                     {"peak_memory_mb", peak_memory_mb()},
-                     {"bytes_of_files", report.bytes_of_files},
-                     {"bytes_read", report.bytes_read},
-                     {"bytes_written", report.bytes_written},
-                     {"warnings", s.warnings}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  nlohmann::ordered_json json = of_run(report, options).to_json();
+  json["seconds"]["write"] = report.seconds_write;
+  json["peak_memory_mb"] = peak_memory_mb();
+  json["bytes_of_files"] = report.bytes_of_files;
+  json["bytes_read"] = report.bytes_read;
+  json["bytes_written"] = report.bytes_written;
+  return text_of(json);
 }
 
 // What an earlier run has left is beside the output.

@@ -45,15 +45,29 @@ public:
   /// Returns the entries.
   const std::vector<Entry>& entries() const { return m_entries; }
 
-  /// Returns \f$ x^H B y \f$.
-  template <class V>
-  typename Value_traits<V>::Inner inner_product(const std::vector<V>& x,
-                                                const std::vector<V>& y) const
+  /// Returns \f$ \sum_i b_i \f$.
+  double total() const { return m_total; }
+
+  /// Returns \f$ x^H B y \f$ for arrays of numbers.
+  template <class Array>
+  auto inner_product(const Array& x, const Array& y) const
   {
-    typedef Value_traits<typename Value_traits<V>::Double> Traits;
-    typename Value_traits<V>::Inner sum = 0.;
+    typedef Value_traits<typename Array::value_type> Value;
+    typedef Value_traits<typename Value::Double> Traits;
+    typename Value::Inner sum = 0.;
     for(const Entry& e : m_entries)
       sum += Traits::product(e.value * Traits::from(x[e.row]), Traits::from(y[e.row]));
+    return sum;
+  }
+
+  /// Returns \f$ \sum_i b_i x_i \f$.
+  template <class Array>
+  auto weighted_sum(const Array& x) const
+  {
+    typedef Value_traits<typename Value_traits<typename Array::value_type>::Double> Traits;
+    auto sum = Traits::zero();
+    for(const Entry& e : m_entries)
+      sum += e.value * Traits::from(x[e.row]);
     return sum;
   }
 
@@ -61,11 +75,7 @@ public:
   template <class V>
   void remove_mean(std::vector<V>& x) const
   {
-    typedef Value_traits<typename Value_traits<V>::Double> Traits;
-    typename Value_traits<V>::Double sum = Traits::zero();
-    for(const Entry& e : m_entries)
-      sum += e.value * Traits::from(x[e.row]);
-    const V mean = Value_traits<V>::from(sum / m_total);
+    const V mean = Value_traits<V>::from(weighted_sum(x) / m_total);
     for_each_index(x.size(), [&](std::size_t i) { x[i] -= mean; });
   }
 
@@ -74,41 +84,37 @@ private:
   double m_total = 0.;
 };
 
-namespace internal {
-
-// A vector of the iteration and its product with H.
-template <class V>
-struct Vector_and_product
+/// \ingroup PkgHLSCMMultigrid
+/// The products of up to three vectors: \f$ x_i^H H x_j \f$ and \f$ x_i^H B x_j \f$.
+template <class Inner>
+struct Rayleigh_products
 {
-  typedef typename Value_traits<V>::Inner Inner;
-  typedef typename Value_traits<V>::Scalar Scalar;
+  Small_matrix<Inner, 3> energy = {}; ///< those by \f$ H \f$
+  Small_matrix<Inner, 3> norm = {};   ///< those by \f$ B \f$
 
-  std::vector<V> x, hx;
-
-  explicit Vector_and_product(std::size_t n) : x(n), hx(n) {}
-
-  void scale(const Inner& factor)
+  /// Sets the products of the first `count` vectors to what these functions return for i <= j.
+  template <class Energy, class Norm>
+  static Rayleigh_products of(int count, const Energy& energy_of, const Norm& norm_of)
   {
-    const Scalar s(factor);
-    for(std::vector<V>* v : {&x, &hx})
-      for_each_index(v->size(), [&](std::size_t i) { (*v)[i] *= s; });
-  }
-  void add_scaled(const Inner& s, const Vector_and_product& other)
-  {
-    Multigrid::add_scaled(Scalar(s), other.x, x);
-    Multigrid::add_scaled(Scalar(s), other.hx, hx);
+    Rayleigh_products result;
+    for(int i = 0; i < count; ++i)
+      for(int j = i; j < count; ++j) {
+        result.energy[i][j] = energy_of(i, j);
+        result.norm[i][j] = norm_of(i, j);
+        result.energy[j][i] = Value_traits<Inner>::adjoint(result.energy[i][j]);
+        result.norm[j][i] = Value_traits<Inner>::adjoint(result.norm[i][j]);
+      }
+    return result;
   }
 };
 
-// Of up to three vectors
-template <class Inner>
-using Small_matrix = Multigrid::Small_matrix<Inner, 3>;
+namespace internal {
 
 // The coefficients y of least y^H E y / y^H N y with y_0 >= 0, where E is definite and N semidefinite;
 // none if E is nearly singular.
 template <class Inner>
-std::vector<Inner> best_coefficients(int n, Small_matrix<Inner> energy,
-                                     const Small_matrix<Inner>& norm)
+std::vector<Inner> best_coefficients(int n, Small_matrix<Inner, 3> energy,
+                                     const Small_matrix<Inner, 3>& norm)
 {
   typedef Value_traits<Inner> Traits;
   constexpr double nearly_singular = 1e-10;
@@ -123,7 +129,7 @@ std::vector<Inner> best_coefficients(int n, Small_matrix<Inner> energy,
     for(int j = 0; j < n; ++j)
       energy[i][j] *= unit[i] * unit[j];
   // W^H E W = 1 for the columns of W, and the largest eigenvalue of W^H N W is what is looked for.
-  Small_matrix<Inner> w = diagonalize(n, energy), reduced = {};
+  Small_matrix<Inner, 3> w = diagonalize(n, energy), reduced = {};
   for(int j = 0; j < n; ++j) {
     if(!(std::real(energy[j][j]) > nearly_singular))
       return {};
@@ -135,7 +141,7 @@ std::vector<Inner> best_coefficients(int n, Small_matrix<Inner> energy,
       for(int k = 0; k < n; ++k)
         for(int l = 0; l < n; ++l)
           reduced[i][j] += Traits::adjoint(w[k][i]) * norm[k][l] * w[l][j];
-  const Small_matrix<Inner> u = diagonalize(n, reduced);
+  const Small_matrix<Inner, 3> u = diagonalize(n, reduced);
   int best = 0;
   for(int j = 1; j < n; ++j)
     if(std::real(reduced[j][j]) > std::real(reduced[best][best]))
@@ -151,78 +157,104 @@ std::vector<Inner> best_coefficients(int n, Small_matrix<Inner> energy,
   return y;
 }
 
-// The combination of the first `count` vectors with the smallest quotient, by its coefficients;
-// none if the vectors are linearly dependent.
+// The vectors of the iteration in memory.
+//
+// A model of `RayleighVectors`.
 template <class V>
-std::vector<typename Value_traits<V>::Inner>
-best_combination(const std::array<const Vector_and_product<V>*, 3>& vectors, int count,
-                 const Diagonal_mass& mass)
+class Stored_rayleigh_vectors
 {
+public:
   typedef typename Value_traits<V>::Inner Inner;
-  Small_matrix<Inner> energy = {}, norm = {};
-  for(int i = 0; i < count; ++i)
-    for(int j = i; j < count; ++j) {
-      energy[i][j] = inner_product(vectors[i]->x, vectors[j]->hx);
-      norm[i][j] = mass.inner_product(vectors[i]->x, vectors[j]->x);
-      energy[j][i] = Value_traits<Inner>::adjoint(energy[i][j]);
-      norm[j][i] = Value_traits<Inner>::adjoint(norm[i][j]);
-    }
-  return best_coefficients(count, energy, norm);
-}
 
-// The iteration of `minimize_rayleigh_quotient()`.
-template <class V>
-Iteration_report optimal_gradients(const Iteration_parts<V>& parts, const Diagonal_mass& mass,
-                                   std::vector<V>& x, const Energy_stop& stop)
-{
-  typedef Vector_and_product<V> Pair;
-  typedef typename Value_traits<V>::Real Real;
-  const std::size_t n = x.size();
-  Pair current(n), residual(n), direction(n);
-  std::vector<V> r(n);
-  bool has_direction = false;
-  current.x.swap(x);
-  mass.remove_mean(current.x);
-  parts.apply(current.x, current.hx);
-  const auto normalize = [&](Pair& pair) {
-    pair.scale(1. / std::sqrt(std::real(mass.inner_product(pair.x, pair.x))));
-  };
-  normalize(current);
-  Iteration_control control(stop, 0.5 * std::real(inner_product(current.x, current.hx)));
-  while(control.goes_on()) {
-    const double quotient = 2. * control.report().energy;
-    r = current.hx;
-    for(const Diagonal_mass::Entry& e : mass.entries())
-      r[e.row] -= Real(quotient * e.value) * current.x[e.row];
-    parts.precondition(r, residual.x);
-    mass.remove_mean(residual.x);
-    parts.apply(residual.x, residual.hx);
-    std::vector<typename Pair::Inner> y;
-    for(int count = has_direction ? 3 : 2; y.empty() && count > 1; --count)
-      y = best_combination<V>({&current, &residual, &direction}, count, mass);
-    if(y.empty()) { // the residual is 0, or no longer above rounding
-      control.end(true);
-      break;
-    }
-    // The part of the step that is not along the vector itself is the next direction.
-    if(y.size() == 3) {
-      direction.scale(y[2]);
-      direction.add_scaled(y[1], residual);
-    } else {
-      std::swap(direction, residual);
-      direction.scale(y[1]);
-    }
-    has_direction = true;
-    current.scale(y[0]);
-    current.add_scaled(1., direction);
-    normalize(current);
-    const double energy = 0.5 * std::real(inner_product(current.x, current.hx));
-    const double change = control.watches_changes() ? largest_entry(direction.x) : 0.;
-    control.step(energy, (std::max)(0., control.report().energy - energy), change, parts.observe);
+  // `x` is the first of them; it is given back by the destructor.
+  Stored_rayleigh_vectors(const Iteration_parts<V>& parts, const Diagonal_mass& mass,
+                          std::vector<V>& x)
+    : m_parts(parts), m_mass(mass), m_result(x), m_map(x.size()), m_residual(x.size())
+    , m_direction(x.size()), m_r(x.size())
+  {
+    m_map.x.swap(x);
   }
-  x.swap(current.x);
-  return control.report();
-}
+  Stored_rayleigh_vectors(const Stored_rayleigh_vectors&) = delete;
+  Stored_rayleigh_vectors& operator=(const Stored_rayleigh_vectors&) = delete;
+  ~Stored_rayleigh_vectors() { m_result.swap(m_map.x); }
+
+  double begin()
+  {
+    m_mass.remove_mean(m_map.x);
+    m_parts.apply(m_map.x, m_map.hx);
+    return normalize();
+  }
+
+  void set_residual(double quotient)
+  {
+    typedef typename Value_traits<V>::Real Real;
+    m_r = m_map.hx;
+    for(const Diagonal_mass::Entry& e : m_mass.entries())
+      m_r[e.row] -= Real(quotient * e.value) * m_map.x[e.row];
+    m_parts.precondition(m_r, m_residual.x);
+    m_mass.remove_mean(m_residual.x);
+    m_parts.apply(m_residual.x, m_residual.hx);
+  }
+
+  Rayleigh_products<Inner> products(int count) const
+  {
+    const Pair* const pairs[] = {&m_map, &m_residual, &m_direction};
+    return Rayleigh_products<Inner>::of(
+      count, [&](int i, int j) { return inner_product(pairs[i]->x, pairs[j]->hx); },
+      [&](int i, int j) { return m_mass.inner_product(pairs[i]->x, pairs[j]->x); });
+  }
+
+  double step(const std::vector<Inner>& y)
+  {
+    if(y.size() == 3) {
+      m_direction.scale(y[2]);
+      m_direction.add_scaled(y[1], m_residual);
+    } else {
+      std::swap(m_direction, m_residual);
+      m_direction.scale(y[1]);
+    }
+    m_map.scale(y[0]);
+    m_map.add_scaled(1., m_direction);
+    return normalize();
+  }
+
+  double largest_change() const { return largest_entry(m_direction.x); }
+
+private:
+  // A vector and its product with H.
+  struct Pair
+  {
+    typedef typename Value_traits<V>::Scalar Scalar;
+
+    std::vector<V> x, hx;
+
+    explicit Pair(std::size_t n) : x(n), hx(n) {}
+
+    void scale(const Inner& factor)
+    {
+      const Scalar s(factor);
+      for(std::vector<V>* v : {&x, &hx})
+        for_each_index(v->size(), [&](std::size_t i) { (*v)[i] *= s; });
+    }
+    void add_scaled(const Inner& s, const Pair& other)
+    {
+      Multigrid::add_scaled(Scalar(s), other.x, x);
+      Multigrid::add_scaled(Scalar(s), other.hx, hx);
+    }
+  };
+
+  double normalize()
+  {
+    m_map.scale(1. / std::sqrt(std::real(m_mass.inner_product(m_map.x, m_map.x))));
+    return std::real(inner_product(m_map.x, m_map.hx));
+  }
+
+  const Iteration_parts<V>& m_parts;
+  const Diagonal_mass& m_mass;
+  std::vector<V>& m_result;
+  Pair m_map, m_residual, m_direction;
+  std::vector<V> m_r;
+};
 
 } // namespace internal
 
@@ -230,18 +262,50 @@ Iteration_report optimal_gradients(const Iteration_parts<V>& parts, const Diagon
 \ingroup PkgHLSCMMultigrid
 
 Minimizes the Rayleigh quotient \f$ x^H H x / x^H B x \f$ over the vectors with \f$ \sum b_i x_i = 0
-\f$ by the locally optimal preconditioned conjugate gradient method (Knyazev 2001), from the given
-`x`: each step takes the best combination of the vector, its preconditioned residual and the last
-direction. \f$ H \f$ must be semidefinite with the constants as kernel.
+\f$ by the locally optimal preconditioned conjugate gradient method (Knyazev 2001): each step takes
+the best combination of the vector, its preconditioned residual and the last direction. \f$ H \f$
+must be semidefinite with the constants as kernel.
+
+\tparam RayleighVectors is a model of the concept `RayleighVectors`
+\param vectors these three vectors
+\param stop when to stop, where the energy is \f$ \frac12 x^H H x = \lambda / 2 \f$
+\param observe `observe(part)` is told after each step how far the iteration has come, in [0, 1];
+       returning false stops it
+*/
+template <class RayleighVectors>
+Iteration_report minimize_rayleigh_quotient(RayleighVectors& vectors, const Energy_stop& stop,
+                                            Blocked_execution::Function_ref<bool(double)> observe)
+{
+  typedef typename RayleighVectors::Inner Inner;
+  Iteration_control control(stop, 0.5 * vectors.begin());
+  for(int count = 2; control.goes_on(); count = 3) { // there is no direction in the first step
+    vectors.set_residual(2. * control.report().energy);
+    const Rayleigh_products<Inner> products = vectors.products(count);
+    std::vector<Inner> y;
+    for(int n = count; y.empty() && n > 1; --n)
+      y = internal::best_coefficients(n, products.energy, products.norm);
+    if(y.empty()) { // the residual is 0, or no longer above rounding
+      control.end(true);
+      break;
+    }
+    const double energy = 0.5 * vectors.step(y);
+    const double change = control.watches_changes() ? vectors.largest_change() : 0.;
+    control.step(energy, (std::max)(0., control.report().energy - energy), change, observe);
+  }
+  return control.report();
+}
+
+/*!
+\ingroup PkgHLSCMMultigrid
+
+The same for vectors in memory, from the given `x`.
 
 \param apply \f$ H \f$, a model of `MultigridOperator`: `apply(x, y)` sets y to \f$ H x \f$
 \param mass \f$ B \f$
 \param x the vector; in the end \f$ x^H B x = 1 \f$
 \param precondition `precondition(r, w)` sets w to an approximation of \f$ H^{-1} r \f$ up to a
        constant
-\param stop when to stop, where the energy is \f$ \frac12 x^H H x = \lambda / 2 \f$
-\param observe `observe(part)` is told after each step how far the iteration has come, in [0, 1];
-       returning false stops it
+\param stop, observe as above
 
 Seven vectors beside `x`; one product with the matrix, one preconditioning a step.
 */
@@ -251,7 +315,9 @@ Iteration_report minimize_rayleigh_quotient(const Apply& apply, const Diagonal_m
                                             const Precondition& precondition,
                                             const Energy_stop& stop, const Observe& observe)
 {
-  return internal::optimal_gradients<V>({apply, precondition, observe}, mass, x, stop);
+  const internal::Iteration_parts<V> parts = {apply, precondition, observe};
+  internal::Stored_rayleigh_vectors<V> vectors(parts, mass, x);
+  return minimize_rayleigh_quotient(vectors, stop, parts.observe);
 }
 
 } // namespace Multigrid

@@ -21,8 +21,9 @@ struct Very_large_chart_report;
 /// The options of `map_very_large_chart()`.
 struct Very_large_chart_options
 {
-  /// What the solver is told: `tolerance`, `uv_tolerance`, `maximal_iterations`, `level_ratio`,
-  /// `coarsest_size`, `angular_defect_bound`, `threads` and `progress`; others do not count.
+  /// What the solver is told: `method`, `HLSCM` or `SPECTRAL`, `tolerance`, `uv_tolerance`,
+  /// `maximal_iterations`, `level_ratio`, `coarsest_size`, `angular_defect_bound`, `threads` and
+  /// `progress`; others do not count.
   HLSCM_options solver;
   /// Bytes of memory that it should do with. Beside blocks and the levels in memory, a bit a vertex
   /// and the border count; the system's own copies of files do not.

@@ -71,8 +71,7 @@ Distributed_chart_report map_parts(MPI_Comm comm, const Very_large_chart_options
   std::optional<Kept_levels> kept;
   try {
     begin_petsc();
-    if(!(options.solver.tolerance > 0.))
-      refuse("the tolerance must be positive");
+    check_options(options.solver);
     const std::size_t bytes = petsc_bytes(), messages = petsc_messages();
     work(ranks, [&](Mesh_part part) {
       std::vector<std::array<double, 2>> uv;
@@ -118,8 +117,8 @@ Distributed_chart_report map_parts(MPI_Comm comm, const Very_large_chart_options
 \ingroup PkgHLSCMParameterizer
 
 Computes the least squares conformal map of a chart that is distributed over the ranks of MPI: that
-of `conformal_map()` with its two far border pins, to the same tolerance, moved into the unit
-square. All ranks decimate blocks of the surface and share the finer levels, on which PETSc
+of `conformal_map()` with its two far border pins, or without pins if the method is
+`Conformal_method::SPECTRAL`, to the same tolerance, moved into the unit square. All ranks decimate blocks of the surface and share the finer levels, on which PETSc
 iterates; rank 0 has the coarser ones.
 
 \param comm the ranks, all of which call this

@@ -23,7 +23,8 @@ namespace Surface_mesh_parameterization {
 \ingroup PkgHLSCMParameterizer
 
 Computes the least squares conformal map of a chart that is too large for the memory: that of
-`conformal_map()` with its two far border pins, to the same tolerance, by the same hierarchy. It is
+`conformal_map()` with its two far border pins, or without pins if the method is
+`Conformal_method::SPECTRAL`, to the same tolerance, by the same hierarchy. It is
 cut along a space-filling curve into blocks that are decimated one after the other, level by level,
 until a level fits; the others are in files, over which each iteration makes five passes.
 
@@ -56,8 +57,7 @@ map_very_large_chart(const std::string& input, const std::function<void(std::str
   const Blocked_execution::Thread_scope threads(options.solver.threads);
   Very_large_chart_report report;
   try {
-    if(!(options.solver.tolerance > 0.))
-      internal::refuse("the tolerance must be positive");
+    internal::check_options(options.solver);
     internal::Streamed_run run(input, options, report);
     try {
       run.map();

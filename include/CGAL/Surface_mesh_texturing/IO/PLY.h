@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_TEXTURING_IO_PLY_H
 
 #include <CGAL/Indexed_mesh/Polygon_soup.h>
+#include <CGAL/Indexed_mesh/ply_header.h>
 #include <CGAL/Surface_mesh_texturing/IO/Textured_model.h>
 #include <CGAL/Surface_mesh_texturing/internal/writing/Byte_output.h>
 
@@ -19,23 +20,6 @@
 namespace CGAL {
 namespace Surface_mesh_texturing {
 namespace internal {
-
-inline void put_ply_header(Byte_output& out, std::size_t vertices, std::size_t faces,
-                           std::string_view corner_type = "uchar")
-{
-  out.put("ply\nformat binary_little_endian 1.0\n"
-          "comment texture_u, texture_v are the texture coordinates; s, t are the same, rounded\n"
-          "element vertex ");
-  out.put_text(vertices);
-  out.put(
-    "\nproperty double x\nproperty double y\nproperty double z\n"
-    "property double texture_u\nproperty double texture_v\nproperty float s\nproperty float t\n"
-    "element face ");
-  out.put_text(faces);
-  out.put("\nproperty list ");
-  out.put(corner_type);
-  out.put(" int vertex_indices\nend_header\n");
-}
 
 inline void put_ply_header_with_corners(Byte_output& out, std::size_t vertices, std::size_t faces,
                                         std::string_view corner_type)
@@ -98,7 +82,7 @@ inline bool write_PLY(std::ostream& os, const Textured_triangle_mesh& mesh)
     return false;
   const std::vector<Vertex_index> vertex = vertices_of_wedges(mesh);
   internal::Byte_output out(os);
-  internal::put_ply_header(out, mesh.uv.size(), mesh.wedges.size());
+  out.put(Indexed_mesh::ply_header_with_uv(mesh.uv.size(), mesh.wedges.size()));
   for(std::size_t w = 0; w < mesh.uv.size(); ++w) {
     const auto& p = mesh.points[vertex[w]];
     const auto& uv = mesh.uv[w];
@@ -160,7 +144,8 @@ inline bool write_PLY(std::ostream& os, const Indexed_mesh::Polygon_soup& soup)
   const std::string_view corner_type = is_small ? "uchar" : "uint";
   internal::Byte_output out(os);
   if(has_vertices)
-    internal::put_ply_header(out, soup.points.size(), soup.number_of_faces(), corner_type);
+    out.put(Indexed_mesh::ply_header_with_uv(soup.points.size(), soup.number_of_faces(),
+                                             corner_type));
   else
     internal::put_ply_header_with_corners(out, soup.points.size(), soup.number_of_faces(),
                                           corner_type);

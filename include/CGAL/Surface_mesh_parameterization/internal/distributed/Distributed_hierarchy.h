@@ -47,6 +47,8 @@ public:
   // Of the finest level, those that no earlier rank has.
   const std::vector<Indexed_mesh::Triangle_indices>& triangles() const { return m_triangles; }
 
+  bool is_free() const { return !profile_of(m_options.solver.method).has_pins; }
+
   // Tells how much is done; ends the work of all ranks if the first is told to stop.
   void tell(double part)
   {
@@ -236,7 +238,7 @@ inline void Distributed_hierarchy::add_level(bool is_finest, const Distributed_m
     m_pins = far_border_pins(m_ranks, mesh, rows);
     report_pins(mesh);
   }
-  m_levels.emplace_back(m_ranks.comm(), mesh, m_pins, rows);
+  m_levels.emplace_back(m_ranks.comm(), mesh, m_pins, is_free(), rows);
 }
 
 // Returns what is left of the mesh, and the way to it.
@@ -326,7 +328,8 @@ inline void Distributed_hierarchy::report_pins(const Distributed_mesh& mesh)
     m_finest_pins.push_back(pin.vertex);
     const std::vector<std::uint32_t> source = m_ranks.values_at<std::uint32_t>(
       {pin.vertex}, mesh.begin, [&mesh](std::size_t i) { return mesh.source[i]; });
-    m_report.solver.pins.push_back({source[0], pin.value.real(), pin.value.imag()});
+    if(!is_free())
+      m_report.solver.pins.push_back({source[0], pin.value.real(), pin.value.imag()});
   }
 }
 
@@ -367,7 +370,7 @@ inline void Distributed_hierarchy::gather(bool is_finest, Distributed_mesh& mesh
 inline void Distributed_hierarchy::complete_report()
 {
   HLSCM_report& report = m_report.solver;
-  report.method = "hlscm";
+  report.method = profile_of(m_options.solver.method).name;
   const bool is_first = m_ranks.rank() == 0;
   m_report.levels_in_files = m_levels.size();
   report.borders = m_ranks.broadcast(is_first ? m_gathered->number_of_borders() : 0);

@@ -104,46 +104,51 @@ inline Pins far_border_pins(Ranks& ranks, const Distributed_mesh& mesh,
 
 // A level that all ranks share: what PETSc's cycle needs of it.
 //
-// With pins E(z) is a function of the others, E = energy_of_pins + 1/2 z^H H z - Re f^H z, where z,
+// With pins that have values E(z) is a function of the others, E = energy_of_pins + 1/2 z^H H z - Re f^H z, where z,
 // f and the rows and columns of H but for its diagonal are 0 at pins.
 struct Distributed_level
 {
   Petsc_matrix matrix;           // H
-  Petsc_matrix prolongation;     // from the coarser level; 0 at pins
+  Petsc_matrix prolongation;     // from the coarser level; 0 at pins that have values
   Petsc_vector inverse_diagonal; // of the smoother; 0 at pins
   Petsc_vector pinned;           // the values of the pins, 0 elsewhere
   Petsc_vector right_side;       // f
   double energy_of_pins = 0.;
   std::size_t size = 0;          // of all ranks
-  std::vector<std::uint32_t> own_pins;
+  std::size_t first, own;        // the vertices of this rank
+  std::vector<std::uint32_t> pins, own_pins; // of all vertices, of this rank's
+  Multigrid::Diagonal_mass mass; // of the border vertices of this rank
 
-  Distributed_level(MPI_Comm comm, const Distributed_mesh& mesh, const Pins& pins,
+  // For a map without pins, all rows stay: see `hold_pins()`.
+  Distributed_level(MPI_Comm comm, const Distributed_mesh& mesh, const Pins& of_level, bool is_free,
                     const Conformal_row_collector& rows)
     : matrix(rows.rows().matrix(comm, mesh.points.size())), size(mesh.number_of_vertices())
+    , first(mesh.first), own(mesh.points.size()), mass(own_border_mass(mesh, rows))
   {
     check(MatCreateVecs(matrix, pinned.put(), right_side.put()));
     check(VecSet(pinned, 0.));
+    check(VecSet(right_side, 0.));
     inverse_diagonal = vector_like(pinned);
-    std::vector<PetscInt> own;
     {
-      Petsc_part values(pinned), inverse(inverse_diagonal);
+      Petsc_part inverse(inverse_diagonal);
       std::copy(rows.inverse_diagonal().begin(), rows.inverse_diagonal().end(), inverse.begin());
-      for(const Pin& pin : pins)
-        if(mesh.is_own(pin.vertex)) {
-          own_pins.push_back(pin.vertex - std::uint32_t(mesh.first));
-          own.push_back(PetscInt(pin.vertex));
-          values[own_pins.back()] = pin.value;
-          inverse[own_pins.back()] = 0.;
-        }
     }
-    check(MatMult(matrix, pinned, right_side));
-    PetscScalar product;
-    check(VecDot(right_side, pinned, &product));
-    energy_of_pins = 0.5 * product.real();
-    check(VecScale(right_side, -1.));
-    clear_pins(right_side);
-    check(MatSetOption(matrix, MAT_KEEP_NONZERO_PATTERN, PETSC_TRUE));
-    check(MatZeroRowsColumns(matrix, PetscInt(own.size()), own.data(), 1., nullptr, nullptr));
+    for(const Pin& pin : of_level)
+      pins.push_back(pin.vertex);
+    if(!is_free)
+      pin_rows(of_level);
+  }
+
+  // No correction of a cycle moves the first `number` pins.
+  void hold_pins(std::size_t number)
+  {
+    pins.resize(number);
+    Petsc_part inverse(inverse_diagonal);
+    for(const std::uint32_t v : pins)
+      if(v >= first && v - first < own) {
+        own_pins.push_back(std::uint32_t(v - first));
+        inverse[own_pins.back()] = 0.;
+      }
   }
 
   void clear_pins(Vec x) const
@@ -151,6 +156,42 @@ struct Distributed_level
     Petsc_part part(x);
     for(const std::uint32_t pin : own_pins)
       part[pin] = 0.;
+  }
+
+private:
+  // Half the lengths of the border edges at the vertices of this rank.
+  static Multigrid::Diagonal_mass own_border_mass(const Distributed_mesh& mesh,
+                                                  const Conformal_row_collector& rows)
+  {
+    const Multigrid::Diagonal_mass of_mesh
+      = border_mass(rows.border(), [&mesh](std::uint32_t v) { return mesh.point(v); });
+    auto entries = of_mesh.entries();
+    for(auto& entry : entries)
+      entry.row -= std::uint32_t(mesh.first);
+    return Multigrid::Diagonal_mass(std::move(entries));
+  }
+
+  // Takes the pins out of the matrix.
+  void pin_rows(const Pins& of_level)
+  {
+    hold_pins(of_level.size());
+    {
+      Petsc_part values(pinned);
+      for(const Pin& pin : of_level)
+        if(pin.vertex >= first && pin.vertex - first < own)
+          values[pin.vertex - first] = pin.value;
+    }
+    check(MatMult(matrix, pinned, right_side));
+    PetscScalar product;
+    check(VecDot(right_side, pinned, &product));
+    energy_of_pins = 0.5 * product.real();
+    check(VecScale(right_side, -1.));
+    clear_pins(right_side);
+    std::vector<PetscInt> rows;
+    for(const std::uint32_t pin : own_pins)
+      rows.push_back(PetscInt(first + pin));
+    check(MatSetOption(matrix, MAT_KEEP_NONZERO_PATTERN, PETSC_TRUE));
+    check(MatZeroRowsColumns(matrix, PetscInt(rows.size()), rows.data(), 1., nullptr, nullptr));
   }
 };
 

@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_DISTRIBUTED_DISTRIBUTED_RUN_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_DISTRIBUTED_DISTRIBUTED_RUN_H
 
-#include <CGAL/Surface_mesh_parameterization/internal/distributed/Distributed_solver.h>
+#include <CGAL/Surface_mesh_parameterization/internal/distributed/Distributed_rayleigh_vectors.h>
 #include <CGAL/Surface_mesh_parameterization/internal/streamed/Iteration_goals.h>
 #include <CGAL/Surface_mesh_parameterization/internal/streamed/Ply_chart.h>
 #include <CGAL/Surface_mesh_parameterization/self_overlap.h>
@@ -141,6 +141,8 @@ public:
       map_in_memory();
     else
       map_distributed();
+    if(m_hierarchy.is_free())
+      turn_map();
     place_map();
     count_flips();
     HLSCM_report& report = m_report.solver;
@@ -216,6 +218,7 @@ private:
   void map_distributed();
   void conclude(const Multigrid::Iteration_report& result);
   Bbox_2 box_of(const std::vector<Complex>& z) const;
+  void turn_map();
   void place_map();
   void count_flips();
 
@@ -258,6 +261,7 @@ inline void Distributed_run::map_distributed()
   coarse_stop.tolerance = m_options.solver.tolerance;
   coarse_stop.maximal_iterations = 2;
   Petsc_vector coarse = solver.vector(0);
+  std::size_t pins = 0;
   m_ranks.together([&] {
     if(m_ranks.rank() != 0)
       return;
@@ -265,7 +269,12 @@ inline void Distributed_run::map_distributed()
     const auto z = m_hierarchy.gathered().map(coarse_stop, [](double) { return true; }, ignored);
     Petsc_part values(coarse);
     std::copy(z.begin(), z.end(), values.begin());
+    pins = m_hierarchy.gathered().number_of_pins();
   });
+  pins = m_ranks.broadcast(pins);
+  if(m_hierarchy.is_free())
+    for(Distributed_level& level : m_hierarchy.levels())
+      level.hold_pins(pins);
   Multigrid::Iteration_report result;
   Petsc_vector z;
   for(std::size_t l = 1; l <= finest; ++l) {
@@ -274,8 +283,12 @@ inline void Distributed_run::map_distributed()
     double extent = 0.;
     if(l == finest)
       extent = longer_side(box_of(values_of(solver.with_pins(l, z))));
-    result = solver.minimize(
-      l, z, l == finest ? energy_stop(m_options.solver, extent) : coarse_stop, observe);
+    const auto stop = l == finest ? energy_stop(m_options.solver, extent) : coarse_stop;
+    if(m_hierarchy.is_free()) {
+      Distributed_rayleigh_vectors vectors(m_ranks, solver, l, z);
+      result = Multigrid::minimize_rayleigh_quotient(vectors, stop, observe);
+    } else
+      result = solver.minimize(l, z, stop, observe);
     m_report.solver.levels[m_report.solver.levels.size() - 1 - finest + l].iterations
       = result.iterations;
     if(result.cancelled)
@@ -296,6 +309,18 @@ inline Bbox_2 Distributed_run::box_of(const std::vector<Complex>& z) const
     box += Bbox_2(value.real(), value.imag(), value.real(), value.imag());
   return Bbox_2(m_ranks.least(box.xmin()), m_ranks.least(box.ymin()), m_ranks.largest(box.xmax()),
                 m_ranks.largest(box.ymax()));
+}
+
+// A map without pins as in memory: the second of the two far vertices on the right of the first.
+inline void Distributed_run::turn_map()
+{
+  std::array<Complex, 2> at;
+  for(int i = 0; i < 2; ++i)
+    at[i] = m_ranks.values_at<Complex>({m_hierarchy.finest_pins()[i]}, m_hierarchy.begin(),
+                                       [this](std::size_t v) { return m_map[v]; })[0];
+  const Complex turn = turn_to_axis(at[1] - at[0]);
+  for(Complex& value : m_map)
+    value *= turn;
 }
 
 inline void Distributed_run::place_map()

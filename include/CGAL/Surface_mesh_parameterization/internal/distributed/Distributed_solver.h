@@ -55,6 +55,17 @@ public:
   Multigrid::Iteration_report minimize(std::size_t l, Vec z, const Multigrid::Energy_stop& stop,
                                        const Observe& observe);
 
+  // Sets u to the result of one cycle on the right-hand side r of level l.
+  void precondition(std::size_t l, Vec r, Vec u) const;
+
+  // x^H y
+  static Complex product(Vec x, Vec y)
+  {
+    PetscScalar result;
+    check(VecDot(y, x, &result));
+    return result;
+  }
+
   double energy(std::size_t l, Vec z) const
   {
     const Petsc_vector r = residual(l, z);
@@ -89,14 +100,6 @@ private:
   double energy(std::size_t l, Vec z, Vec r) const
   {
     return level(l).energy_of_pins - 0.5 * (product(z, r) + product(z, level(l).right_side)).real();
-  }
-
-  // x^H y
-  static Complex product(Vec x, Vec y)
-  {
-    PetscScalar result;
-    check(VecDot(y, x, &result));
-    return result;
   }
 
   void minimize_on_patch(Vec z, const std::vector<PetscInt>& patch);
@@ -195,11 +198,7 @@ inline void Distributed_solver::set_cycle(KSP solver, std::size_t l)
   check(PCShellSetApply(shell, solve_gathered));
 }
 
-// As `Multigrid::minimize_energy()`.
-template <class Observe>
-Multigrid::Iteration_report
-Distributed_solver::minimize(std::size_t l, Vec z, const Multigrid::Energy_stop& stop,
-                             const Observe& observe)
+inline void Distributed_solver::precondition(std::size_t l, Vec r, Vec u) const
 {
   PC cycle = nullptr;
   check(KSPGetPC(m_cycle, &cycle));
@@ -208,12 +207,21 @@ Distributed_solver::minimize(std::size_t l, Vec z, const Multigrid::Energy_stop&
     check(PCMGGetCoarseSolve(cycle, &coarse));
     check(KSPGetPC(coarse, &cycle));
   }
+  check(PCApply(cycle, r, u));
+  level(l).clear_pins(u);
+}
+
+// As `Multigrid::minimize_energy()`.
+template <class Observe>
+Multigrid::Iteration_report
+Distributed_solver::minimize(std::size_t l, Vec z, const Multigrid::Energy_stop& stop,
+                             const Observe& observe)
+{
   const Petsc_vector r = residual(l, z), p = vector(l), q = vector(l), u = vector(l);
   Multigrid::Iteration_control control(stop, energy(l, z, r));
   double curvature = 0.;
   while(control.goes_on()) {
-    check(PCApply(cycle, r, u));
-    level(l).clear_pins(u);
+    precondition(l, r, u);
     if(curvature > 0.) // make the direction H-orthogonal to the last one
       check(VecAXPY(u, -product(q, u) / curvature, p));
     check(VecSwap(p, u));
@@ -268,7 +276,7 @@ void Distributed_solver::relax_flips(
     check(ISGetIndices(around, &vertices));
     std::vector<PetscInt> free(vertices, vertices + count);
     check(ISRestoreIndices(around, &vertices));
-    for(const std::uint32_t pin : m_hierarchy.finest_pins())
+    for(const std::uint32_t pin : level(finest).pins)
       free.erase(std::remove(free.begin(), free.end(), PetscInt(pin)), free.end());
     if(is_too_large(free.size()))
       return;

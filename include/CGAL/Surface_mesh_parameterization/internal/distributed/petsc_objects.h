@@ -81,8 +81,10 @@ public:
   Petsc_part& operator=(const Petsc_part&) = delete;
   ~Petsc_part() { VecRestoreArray(m_vector, &m_values); }
 
+  typedef PetscScalar value_type;
+
   std::size_t size() const { return std::size_t(m_size); }
-  PetscScalar& operator[](std::size_t i) { return m_values[i]; }
+  PetscScalar& operator[](std::size_t i) const { return m_values[i]; }
   PetscScalar* begin() { return m_values; }
   PetscScalar* end() { return m_values + m_size; }
 

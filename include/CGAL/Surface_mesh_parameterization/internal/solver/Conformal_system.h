@@ -92,6 +92,13 @@ border_mass(const Surface_mesh_multiresolution::Mesh_level& level,
   return Multigrid::Diagonal_mass(std::move(entries));
 }
 
+// What turns a vector onto the positive u axis.
+inline std::complex<double> turn_to_axis(const std::complex<double>& direction)
+{
+  const double length = std::abs(direction);
+  return length > 0. ? std::conj(direction) / length : std::complex<double>(1.);
+}
+
 // What a system has beside the operators of its levels.
 struct System_parts
 {
@@ -274,11 +281,9 @@ inline double Conformal_system::fit_to_surface(std::size_t l, Vector& z) const
   for(const auto& t : level.mesh.triangles)
     area += 0.5 * (std::conj(z[t[1]] - z[t[0]]) * (z[t[2]] - z[t[0]])).imag();
   const Complex origin = z[level.position(pins[0].vertex)];
-  const Complex direction = z[level.position(pins[1].vertex)] - origin;
-  const double length = std::abs(direction);
   const double stretch = area > 0. ? std::sqrt(surface_area / area) : scale;
   const double unit = area > 0. ? stretch / scale : 1.;
-  const Complex turn = length > 0. ? std::conj(direction) / length : Complex(1.);
+  const Complex turn = turn_to_axis(z[level.position(pins[1].vertex)] - origin);
   const Complex factor = unit * turn;
   if(std::isfinite(unit))
     for(Complex& value : z)

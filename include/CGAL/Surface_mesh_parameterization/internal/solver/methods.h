@@ -13,6 +13,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <optional>
 #include <type_traits>
 
 namespace CGAL {
@@ -105,6 +106,9 @@ inline Multigrid::Gap_estimate estimate_for(const Multigrid::Schedule& schedule)
 // 100,000 triangles that can be unrolled, factorization and iteration end between 1e-15 and 2e-13.
 constexpr double rounded_energy = 3e-13;
 
+// How near the coarsest level of a free map comes to its minimum if there are finer ones.
+constexpr double tolerance_of_coarsest = 1e-3;
+
 // Conjugate gradients on one level, preconditioned by a cycle over those below, with pins or, for a
 // free map, by the quotient of energy and border. Levels below the finest are only starting points:
 // two steps are enough, since their minimisers differ from the finest one anyway.
@@ -141,7 +145,7 @@ public:
                                                Conformal_vector& z) const
   {
     Multigrid::Energy_stop stop;
-    stop.tolerance = system.finest() == 0 ? run.options().tolerance : 1e-3;
+    stop.tolerance = system.finest() == 0 ? run.options().tolerance : tolerance_of_coarsest;
     stop.maximal_iterations = maximal_iterations(run.options(), 500);
     return minimize(system, 0, stop, z, [](double) { return true; });
   }
@@ -273,22 +277,19 @@ inline bool is_without_energy(double energy, double size)
   return !(energy > 1e-12 * size * size);
 }
 
-// Takes the second pin out of the preconditioner. In a plane, where there is a map without energy,
-// it is needed: with one pin the matrix would be singular.
-inline bool release_second_pin(Conformal_system& system, const Conformal_vector& z)
+// Takes the second of two pins out of the preconditioner, where z is the map of the coarsest level
+// under both. In a plane, where there is a map without energy, it is needed: with one pin the matrix
+// would be singular. Returns whether it is; nothing if the matrix cannot be factorized at all.
+inline std::optional<bool> is_second_pin_needed(Conformal_hierarchy& hierarchy, const Pins& pins,
+                                                const Conformal_vector& z)
 {
-  Conformal_hierarchy& hierarchy = system.hierarchy;
-  const auto v = system.pins[1].vertex;
-  system.needs_second_pin
-    = is_without_energy(hierarchy.coarsest().energy(z), Multigrid::extent(z));
-  if(system.needs_second_pin)
+  if(is_without_energy(hierarchy.coarsest().energy(z), Multigrid::extent(z)))
     return true;
-  hierarchy.release(v);
+  hierarchy.release(pins[1].vertex);
   if(hierarchy.factorize_coarsest())
-    return true;
-  system.needs_second_pin = true;
-  hierarchy.pin(v);
-  return hierarchy.factorize_coarsest();
+    return false;
+  hierarchy.pin(pins[1].vertex);
+  return hierarchy.factorize_coarsest() ? std::optional<bool>(true) : std::nullopt;
 }
 
 // The free map: the map under two pins is only the first guess on the coarsest level.
@@ -298,11 +299,15 @@ inline Conformal_vector map_without_pins(Conformal_system& system, Run_control& 
   if(!system.needs_second_pin)
     system.hierarchy.pin(system.pins[1].vertex);
   Conformal_vector z = map_of_coarsest(system, run);
-  if(run.status().is_ok() && !release_second_pin(system, z))
-    run.status().fail(ERROR_CANNOT_SOLVE_LINEAR_SYSTEM,
-                      "the matrix of the coarsest level cannot be factorized");
   if(!run.status().is_ok())
     return z;
+  const auto is_needed = is_second_pin_needed(system.hierarchy, system.pins, z);
+  if(!is_needed) {
+    run.status().fail(ERROR_CANNOT_SOLVE_LINEAR_SYSTEM,
+                      "the matrix of the coarsest level cannot be factorized");
+    return z;
+  }
+  system.needs_second_pin = *is_needed;
   const auto result = iteration.improve_coarsest(system, run, z);
   run.report().levels[0].iterations = result.iterations;
   if(system.finest() == 0)

@@ -85,7 +85,8 @@ public:
                     const Run_state& state)
   {
     std::vector<const Mapped_file*> files
-      = {&coarse.stencils.file(), &coarse.triangles.file(), &coarse.cotangents.file()};
+      = {&coarse.stencils.file(), &coarse.triangles.file(), &coarse.cotangents.file(),
+         &level.border_mass.file()};
     level.matrix.for_each_array([&files](auto& array, const char*) {
       files.push_back(&array.file());
     });
@@ -121,6 +122,7 @@ public:
   {
     Streamed_level level;
     level.matrix.open(m_folder, level_name(k) + "_");
+    open(level_name(k), "border_mass", level.border_mass);
     if(has_mesh(k + 1))
       open(level_name(k), "prolongation", level.stencils);
     auto values = m_folder.values(level_name(k));

@@ -70,7 +70,7 @@ public:
     return result;
   }
 
-  // The map by nested iteration; `stop` is for the finest level.
+  // The map by nested iteration; `stop` is for the finest level, its lengths for a map of extent 1.
   template <class Observe>
   Vector map(const Multigrid::Energy_stop& stop, const Observe& observe,
              Multigrid::Iteration_report& report);
@@ -79,6 +79,9 @@ public:
   // method, one if it has brought the residual to a quarter: the level below the finest one of a
   // K-cycle. Entries of f at pins do not count.
   void correct(const std::vector<std::complex<float>>& f, std::vector<std::complex<float>>& u);
+
+  // Those of the preconditioner; of a map without pins one may be less, after `map()`.
+  std::size_t number_of_pins() const { return m_pins.size(); }
 
   double energy(const Vector& z) const { return m_hierarchy.finest().energy(z); }
 
@@ -90,6 +93,18 @@ public:
 
 private:
   std::size_t finest() const { return m_hierarchy.number_of_levels() - 1; }
+  bool is_free() const { return m_options.method == Conformal_method::SPECTRAL; }
+
+  template <class Observe>
+  Multigrid::Iteration_report minimize(std::size_t l, const Multigrid::Energy_stop& stop,
+                                       const Observe& observe, Vector& z)
+  {
+    return is_free() ? m_hierarchy.minimize_without_pins(l, m_masses[l], Multigrid::Schedule(),
+                                                         stop, observe, z)
+                     : m_hierarchy.minimize(l, Multigrid::Schedule(), stop, observe, z);
+  }
+  template <class Observe>
+  Multigrid::Iteration_report free_coarsest(double tolerance, const Observe& observe, Vector& z);
 
   HLSCM_options m_options;
   Half_cotangents m_cotangents;
@@ -98,6 +113,7 @@ private:
   std::vector<std::size_t> m_faces; // of the levels
   Pins m_pins;
   Conformal_hierarchy m_hierarchy;
+  std::vector<Multigrid::Diagonal_mass> m_masses; // of the borders of the levels
 };
 
 inline void Gathered_hierarchy::build(const Pins& pins)
@@ -114,9 +130,11 @@ inline void Gathered_hierarchy::build(const Pins& pins)
   levels.coarsest_size = m_options.coarsest_size;
   m_hierarchy.set_levels(SMM::build_hierarchy(std::move(m_chart.mesh), pm, levels));
   m_faces.resize(number_of_levels());
+  m_masses.resize(number_of_levels());
   m_hierarchy.set_cotangents(std::move(m_cotangents));
   m_hierarchy.build_operators({}, [this](std::size_t l) {
     auto& mesh = m_hierarchy.levels()[l].mesh;
+    m_masses[l] = border_mass(m_hierarchy.levels()[l], m_chart.borders);
     m_faces[l] = mesh.triangles.size();
     mesh.points = std::vector<Chart::Mesh::Point_3>();
     if(l != finest()) // only the finest faces will be asked for
@@ -143,15 +161,40 @@ Gathered_hierarchy::map(const Multigrid::Energy_stop& stop, const Observe& obser
     refuse("the matrix of the coarsest level cannot be factorized",
            ERROR_CANNOT_SOLVE_LINEAR_SYSTEM);
   report.converged = finest() == 0;
-  Multigrid::Energy_stop coarse_stop = stop;
-  coarse_stop.maximal_iterations = 2; // a starting point for the next level
+  if(is_free())
+    report = free_coarsest(stop.tolerance, observe, z);
   for(std::size_t l = 1; l <= finest(); ++l) {
     z = m_hierarchy.prolonged(l, z);
-    m_hierarchy.set_pins(l, m_pins, z);
-    report = m_hierarchy.minimize(l, Multigrid::Schedule(), l == finest() ? stop : coarse_stop,
-                                  observe, z);
+    if(!is_free())
+      m_hierarchy.set_pins(l, m_pins, z);
+    Multigrid::Energy_stop stop_here = stop;
+    if(l < finest())
+      stop_here.maximal_iterations = 2; // a starting point for the next level
+    else if(is_free()) {
+      const double extent = Multigrid::extent(z);
+      stop_here.negligible_energy *= extent * extent;
+      stop_here.change_tolerance *= extent;
+    }
+    report = minimize(l, stop_here, observe, z);
   }
   return z;
+}
+
+// From the map of the coarsest level under two pins.
+template <class Observe>
+Multigrid::Iteration_report
+Gathered_hierarchy::free_coarsest(double tolerance, const Observe& observe, Vector& z)
+{
+  const auto is_needed = is_second_pin_needed(m_hierarchy, m_pins, z);
+  if(!is_needed)
+    refuse("the matrix of the coarsest level cannot be factorized",
+           ERROR_CANNOT_SOLVE_LINEAR_SYSTEM);
+  if(!*is_needed)
+    m_pins.pop_back();
+  Multigrid::Energy_stop stop;
+  stop.tolerance = finest() == 0 ? tolerance : tolerance_of_coarsest;
+  stop.maximal_iterations = maximal_iterations(m_options, 500);
+  return minimize(0, stop, observe, z);
 }
 
 inline void Gathered_hierarchy::correct(const std::vector<std::complex<float>>& f,

@@ -21,6 +21,16 @@ namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
 
+// Refuses what cannot be done beyond the memory of one process.
+inline void check_options(const HLSCM_options& options)
+{
+  if(!(options.tolerance > 0.))
+    refuse("the tolerance must be positive");
+  if(options.method != Conformal_method::HLSCM && options.method != Conformal_method::SPECTRAL)
+    refuse(std::string("the method ") + profile_of(options.method).name
+           + " needs the whole chart in memory; the methods hlscm and spectral do not");
+}
+
 // When the iteration on the finest level ends, as for a chart in memory, for a map of that extent.
 inline Multigrid::Energy_stop energy_stop(const HLSCM_options& options, double extent)
 {

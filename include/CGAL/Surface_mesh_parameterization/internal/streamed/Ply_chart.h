@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_STREAMED_PLY_CHART_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_STREAMED_PLY_CHART_H
 
+#include <CGAL/Indexed_mesh/ply_header.h>
 #include <CGAL/Surface_mesh_parameterization/internal/stored/Ply_records.h>
 #include <CGAL/Surface_mesh_parameterization/internal/streamed/Streamed_mesh.h>
 
@@ -107,13 +108,7 @@ void write_mapped_ply(const Ply_records& ply, const Uv& uv,
                       const std::function<void(std::string_view)>& put)
 {
   constexpr std::size_t slab = std::size_t(1) << 18;
-  put("ply\nformat binary_little_endian 1.0\n"
-      "comment texture_u, texture_v are the texture coordinates; s, t are the same, rounded\n"
-      "element vertex " + std::to_string(ply.number_of_vertices())
-      + "\nproperty double x\nproperty double y\nproperty double z\n"
-        "property double texture_u\nproperty double texture_v\nproperty float s\nproperty float t\n"
-        "element face " + std::to_string(ply.number_of_faces())
-      + "\nproperty list uchar int vertex_indices\nend_header\n");
+  put(Indexed_mesh::ply_header_with_uv(ply.number_of_vertices(), ply.number_of_faces()));
   std::string bytes;
   const auto add = [&bytes](auto value) {
     char copy[sizeof(value)];

@@ -49,7 +49,7 @@ public:
     : m_options(options), m_report(report), m_input(input)
     , m_folder(options.work_folder, identity(), options.resumes), m_finished(m_folder)
   {
-    m_report.solver.method = "hlscm";
+    m_report.solver.method = profile_of(options.solver.method).name;
     m_report.solver.faces = m_input.number_of_triangles();
     m_report.solver.vertices = m_input.number_of_used();
   }
@@ -73,6 +73,7 @@ public:
     return (std::min)(m_options.memory / 4, std::size_t(400) << 20);
   }
   const Pins& pins() const { return m_state.pins; } // of the coarsest of all
+  const std::vector<std::uint32_t>& finest_pins() const { return m_finest_pins; }
   const Mapped_array<Streamed_mesh::Triangle_indices>& triangles() const { return m_triangles; }
   const Mapped_array<std::uint32_t>& rank() const { return m_rank; } // of the input's vertices
 
@@ -133,6 +134,7 @@ private:
   Finished_levels m_finished;
   Run_state m_state;    // of the level that is being worked on
   std::vector<Streamed_level> m_levels;
+  std::vector<std::uint32_t> m_finest_pins;
   std::unique_ptr<Gathered_hierarchy> m_gathered;
   Mapped_array<Streamed_mesh::Triangle_indices> m_triangles;
   Mapped_array<std::uint32_t> m_rank;
@@ -141,7 +143,7 @@ private:
 // Of the input's bytes and of what the levels depend on.
 inline std::string Streamed_hierarchy::identity() const
 {
-  constexpr int format = 1; // of the files in the folder
+  constexpr int format = 2; // of the files in the folder
   std::ostringstream text;
   text.precision(17);
   text << format << ' ' << m_input.records().checksum() << ' ' << most_gathered() << ' '
@@ -262,9 +264,13 @@ inline void Streamed_hierarchy::decimate(std::size_t k, Streamed_mesh& mesh,
                                    [&mesh](std::uint32_t v) { return mesh.points[v]; });
   }
   level.pins = m_state.pinned();
-  for(const std::uint32_t pin : level.pins)
-    level.matrix.pin(pin);
   level.matrix.save_border(m_folder, prefix);
+  const Multigrid::Diagonal_mass mass = border_mass(
+    level.matrix.border(), [&mesh](std::uint32_t v) { return mesh.points[v]; });
+  level.border_mass = m_folder.create<Multigrid::Diagonal_mass::Entry>(prefix + "border_mass",
+                                                                       mass.entries().size());
+  std::copy(mass.entries().begin(), mass.entries().end(), level.border_mass.begin());
+  mesh.points.release();
   const double ratio = m_options.solver.level_ratio > 1. ? m_options.solver.level_ratio : 4.;
   Block_collector collector(m_folder, prefix, mesh.number_of_vertices());
   for(std::size_t b = 0; b < blocks; ++b) {
@@ -358,13 +364,12 @@ inline void Streamed_hierarchy::complete_report()
   for(const Streamed_level& level : m_levels)
     report.levels.push_back({level.size(), 0, 0, 0., 0, 0});
   report.levels.back().faces = report.faces;
-  const std::vector<std::uint32_t> pins
-    = m_levels.empty() ? m_state.pinned() : m_levels.back().pins;
+  m_finest_pins = m_levels.empty() ? m_state.pinned() : m_levels.back().pins;
   for(std::size_t v = 0; v < m_rank.size(); ++v) {
     if(v % 65536 == 0)
       m_rank.release(0, v);
-    for(std::size_t i = 0; i < pins.size(); ++i)
-      if(m_rank[v] == pins[i])
+    for(std::size_t i = 0; i < m_finest_pins.size(); ++i)
+      if(m_rank[v] == m_finest_pins[i] && profile_of(m_options.solver.method).has_pins)
         report.pins.push_back({v, m_state.pins[i].value.real(), m_state.pins[i].value.imag()});
   }
   m_rank.release();

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_STREAMED_STREAMED_LEVELS_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_STREAMED_STREAMED_LEVELS_H
 
+#include <CGAL/Multigrid/Rayleigh_quotient.h>
 #include <CGAL/Multigrid/Schedule.h>
 #include <CGAL/Surface_mesh_parameterization/internal/streamed/Gathered_hierarchy.h>
 #include <CGAL/Surface_mesh_parameterization/internal/streamed/Streamed_matrix.h>
@@ -23,14 +24,31 @@ namespace internal {
 
 typedef std::complex<float> Rounded;
 
-// A level in files: its matrix, the way from the next coarser level, and its pins.
+// A level in files: its matrix, the way from the next coarser level, its border and its pins.
 struct Streamed_level
 {
+  // What a step of the smoother multiplies residuals by; pinned vertices do not move.
+  struct Inverse_diagonal
+  {
+    const float* values;
+    std::size_t first_pin, last_pin;
+
+    float operator[](std::size_t i) const
+    {
+      return i == first_pin || i == last_pin ? 0.f : values[i];
+    }
+  };
+
   Streamed_matrix matrix;
   Mapped_array<Streamed_stencil> stencils; // sources are vertices of the coarser level
-  std::vector<std::uint32_t> pins;
+  Mapped_array<Multigrid::Diagonal_mass::Entry> border_mass;
+  std::vector<std::uint32_t> pins;         // one or two
 
   std::size_t size() const { return matrix.size(); }
+  Inverse_diagonal inverse_diagonal() const
+  {
+    return {matrix.inverse_diagonal().data(), pins.front(), pins.back()};
+  }
 
   // Calls `use(i, value)` for all rows with what vertex i gets of a coarse vector, and
   // `release(begin, end)` for what was used.
@@ -170,7 +188,7 @@ inline void Streamed_levels::smooth(std::size_t l, unsigned int steps)
     return;
   Level& level = at(l);
   const Streamed_matrix& h = level.files->matrix;
-  const auto& inverse = h.inverse_diagonal();
+  const Streamed_level::Inverse_diagonal inverse = level.files->inverse_diagonal();
   const bool starts_at_zero = level.is_zero;
   float weight = 2.f / 3.f;
   if(starts_at_zero)

@@ -37,7 +37,7 @@ inline double inverse_diagonal_of(const Multigrid::Matrix_row& row)
 // The Hermitian matrix of the conformal energy of a streamed mesh, in files. A row has an entry for
 // each triangle at its vertex v, that of the corner after v: these are all neighbours but one at
 // the border. That one, and the imaginary parts, which only border edges have, are in memory.
-// Rows of pins are not taken out.
+// Pins are not in it.
 class Streamed_matrix
 {
 public:
@@ -54,9 +54,6 @@ public:
 
   // Appends the rows of a block; blocks come in their order.
   void add_block(const Mesh_block& block);
-
-  // Pinned vertices do not move in a smoother.
-  void pin(std::uint32_t v) { m_inverse_diagonal[v] = 0.f; }
 
   // Calls `use(array, name)` for all files.
   template <class Use>

@@ -8,7 +8,7 @@
 #include <CGAL/Surface_mesh_parameterization/Very_large_chart_options.h>
 #include <CGAL/Surface_mesh_parameterization/internal/streamed/Iteration_goals.h>
 #include <CGAL/Surface_mesh_parameterization/internal/streamed/Streamed_hierarchy.h>
-#include <CGAL/Surface_mesh_parameterization/internal/streamed/Streamed_solver.h>
+#include <CGAL/Surface_mesh_parameterization/internal/streamed/Streamed_rayleigh_vectors.h>
 #include <CGAL/Surface_mesh_parameterization/self_overlap.h>
 
 #include <algorithm>
@@ -133,6 +133,8 @@ private:
   Streamed_map map_in_memory();
   Streamed_map map_in_files();
   Streamed_map iterate();
+  bool is_free() const { return !profile_of(m_options.solver.method).has_pins; }
+  void turn_map();
   void conclude(const Multigrid::Iteration_report& result);
   void count_flips();
 
@@ -162,6 +164,8 @@ inline void Streamed_run::map()
   m_hierarchy.build();
   Blocked_execution::Stopwatch watch;
   m_map = m_hierarchy.levels().empty() ? map_in_memory() : map_in_files();
+  if(is_free())
+    turn_map();
   m_square.emplace(box_of(m_map));
   m_square->move_report(m_report.solver);
   count_flips();
@@ -169,6 +173,17 @@ inline void Streamed_run::map()
   m_report.solver.seconds_total = m_report.seconds_sort + m_report.solver.seconds_hierarchy
                                 + m_report.solver.seconds_operators
                                 + m_report.solver.seconds_solve;
+}
+
+// A map without pins as in memory: the second of the two far vertices on the right of the first.
+inline void Streamed_run::turn_map()
+{
+  const std::vector<std::uint32_t>& pins = m_hierarchy.finest_pins();
+  const Complex turn = turn_to_axis(m_map[pins[1]] - m_map[pins[0]]);
+  stream_rows(m_map.size(), [&](std::size_t begin, std::size_t end) {
+    for(std::size_t i = begin; i < end; ++i)
+      m_map[i] *= turn;
+  }, releases(m_map));
 }
 
 inline void Streamed_run::conclude(const Multigrid::Iteration_report& result)
@@ -219,6 +234,8 @@ inline Streamed_map Streamed_run::iterate()
   coarse_stop.tolerance = m_options.solver.tolerance;
   coarse_stop.maximal_iterations = 2;
   const auto coarsest = gathered.map(coarse_stop, observe, result);
+  for(Streamed_level& level : levels)
+    level.pins.resize(gathered.number_of_pins());
   const Complex* coarse = coarsest.data();
   Streamed_map z;
   for(std::size_t l = 1; l <= levels.size(); ++l) {
@@ -227,14 +244,18 @@ inline Streamed_map Streamed_run::iterate()
     levels[l - 1].prolong(
       coarse, [&fine](std::size_t i, const Complex& value) { fine[i] = value; }, releases(fine));
     const Pins& pins = m_hierarchy.pins();
-    for(std::size_t i = 0; i < pins.size(); ++i)
+    for(std::size_t i = 0; i < pins.size() && !is_free(); ++i)
       fine[levels[l - 1].pins[i]] = pins[i].value;
     z = std::move(fine);
     folder.remove("map" + std::to_string(l - 1));
     coarse = z.data();
     const auto stop = l == levels.size()
                         ? energy_stop(m_options.solver, longer_side(box_of(z))) : coarse_stop;
-    result = solver.minimize(l, z, stop, observe);
+    if(is_free()) {
+      Streamed_rayleigh_vectors vectors(folder, solver, l, z);
+      result = Multigrid::minimize_rayleigh_quotient(vectors, stop, observe);
+    } else
+      result = solver.minimize(l, z, stop, observe);
     m_report.solver.levels[gathered.number_of_levels() + l - 1].iterations = result.iterations;
     if(result.cancelled)
       break;

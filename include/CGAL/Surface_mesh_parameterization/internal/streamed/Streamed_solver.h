@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,18 @@ struct Row_sums
     return {a.first + b.first, a.second + b.second};
   }
 };
+
+// Alone: no step of an iteration in use waits for it.
+inline double largest_entry(const Streamed_map& p)
+{
+  double largest = 0.;
+  for(std::size_t i = 0; i < p.size(); ++i) {
+    largest = (std::max)(largest, std::abs(p[i]));
+    if(i % 65536 == 0)
+      p.release(0, i);
+  }
+  return largest;
+}
 
 // The flexible conjugate gradient method on levels in files, as `Multigrid::minimize_energy()`,
 // with the passes over the rows put together: one with the matrix, and two without, a step.
@@ -54,7 +67,8 @@ public:
     }, releases(z)).first.real();
   }
 
-private:
+  const Streamed_level& level(std::size_t l) const { return m_levels[l - 1]; }
+
   // Calls `use(i, (H x)_i)`; the sums of conj(x_i) (H x)_i, and of what it returns.
   template <class Use, class Release>
   static Row_sums apply(const Streamed_matrix& h, const Streamed_map& x, const Use& use,
@@ -76,12 +90,11 @@ private:
       });
   }
 
-  // The preconditioned residual is `scale` times the solution of the cycle.
-  double precondition(std::size_t l, const Streamed_map& r, double squared_norm)
+  // The right-hand side of the cycle on level l becomes r / norm; 0 if the norm is 0.
+  const Streamed_levels::Vector& set_right_side(std::size_t l, const Streamed_map& r, double norm)
   {
-    const double norm = std::sqrt(squared_norm);
     const float down = norm > 0. ? float(1. / norm) : 0.f;
-    auto& f = m_cycle.right_side(l);
+    const auto& f = m_cycle.right_side(l);
     stream_rows(
       r.size(),
       [&](std::size_t begin, std::size_t end) {
@@ -89,11 +102,20 @@ private:
           f[i] = Rounded(r[i] * double(down));
       },
       releases(r, f));
-    m_cycle.start_at_zero(l);
-    Multigrid::cycle(m_cycle, Multigrid::Schedule(), l);
-    return norm;
+    return f;
   }
 
+  // The preconditioned right-hand side, whose entries at pins do not count.
+  const Streamed_levels::Vector& run_cycle(std::size_t l)
+  {
+    for(const std::uint32_t pin : level(l).pins)
+      m_cycle.right_side(l)[pin] = 0.f;
+    m_cycle.start_at_zero(l);
+    Multigrid::cycle(m_cycle, Multigrid::Schedule(), l);
+    return m_cycle.solution(l);
+  }
+
+private:
   Work_folder& m_folder;
   std::vector<Streamed_level>& m_levels;
   Streamed_levels& m_cycle;
@@ -128,8 +150,9 @@ Streamed_solver::minimize(std::size_t l, const Streamed_map& z, const Multigrid:
   Multigrid::Iteration_control control(stop, energy);
   double curvature = 0.;
   while(control.goes_on()) {
-    const double scale = precondition(l, r, squared_norm);
-    const auto& u = m_cycle.solution(l);
+    const double scale = std::sqrt(squared_norm);
+    set_right_side(l, r, scale);
+    const auto& u = run_cycle(l);
     Complex c = 0.;
     if(curvature > 0.) // make the direction H-orthogonal to the last one
       c = -scale / curvature * sum_rows<Row_sums>(n, [&](std::size_t begin, std::size_t end) {
@@ -154,7 +177,6 @@ Streamed_solver::minimize(std::size_t l, const Streamed_map& z, const Multigrid:
       break;
     }
     const Complex alpha = slope / curvature;
-    double largest = 0.;
     squared_norm = sum_rows<Row_sums>(n, [&](std::size_t begin, std::size_t end) {
       Row_sums parts;
       for(std::size_t i = begin; i < end; ++i) {
@@ -164,12 +186,7 @@ Streamed_solver::minimize(std::size_t l, const Streamed_map& z, const Multigrid:
       }
       return parts;
     }, releases(z, p, q, r)).first.real();
-    if(control.watches_changes())
-      for(std::size_t i = 0; i < n; ++i) {
-        largest = (std::max)(largest, std::abs(p[i]));
-        if(i % 65536 == 0)
-          p.release(0, i);
-      }
+    const double largest = control.watches_changes() ? largest_entry(p) : 0.;
     const double decrease = 0.5 * std::norm(slope) / curvature;
     control.step(control.report().energy - decrease, decrease, std::abs(alpha) * largest, observe);
   }

@@ -4,11 +4,14 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_STREAMED_BORDER_PINS_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_STREAMED_BORDER_PINS_H
 
+#include <CGAL/Multigrid/Rayleigh_quotient.h>
 #include <CGAL/Surface_mesh_parameterization/internal/solver/Pins.h>
 #include <CGAL/Surface_mesh_parameterization/internal/streamed/Streamed_matrix.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -60,6 +63,23 @@ Pins far_border_pins(const std::vector<Border_entry>& entries, const Point& poin
   for(Pin& pin : pins)
     pin.vertex = border.source[pin.vertex];
   return pins;
+}
+
+// Half the lengths of the two border edges of each border vertex: see `border_mass()` of a level in
+// memory. Its row has an imaginary part for each of them.
+template <class Point>
+Multigrid::Diagonal_mass border_mass(const std::vector<Border_entry>& entries, const Point& point)
+{
+  std::vector<Multigrid::Diagonal_mass::Entry> masses;
+  for(const Border_entry& entry : entries) {
+    if(entry.im == 0.)
+      continue;
+    if(masses.empty() || masses.back().row != entry.row)
+      masses.push_back({entry.row, 0.});
+    const Three_numbers &p = point(entry.row), &q = point(entry.column);
+    masses.back().value += 0.5 * std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+  }
+  return Multigrid::Diagonal_mass(std::move(masses));
 }
 
 } // namespace internal
