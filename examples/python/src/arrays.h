@@ -134,6 +134,13 @@ inline Textured_triangle_mesh to_textured(const py::array& points, const py::arr
           to_triangles(uv_triangles, "uv_faces")};
 }
 
+/// The same as Python passes it: vertices, faces, uv and uv_faces.
+typedef std::array<py::array, 4> Textured_arrays;
+inline Textured_triangle_mesh to_textured(const Textured_arrays& a)
+{
+  return to_textured(a[0], a[1], a[2], a[3]);
+}
+
 // To numpy: an array is a view of what the library returned, which it keeps alive.
 
 /// An array of `shape` on the memory of a vector whose entries consist of numbers of type T.
