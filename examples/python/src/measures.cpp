@@ -104,7 +104,7 @@ Certified_map certified(const Indexed_triangle_mesh& mesh, const std::vector<Poi
     return result;
   }
   SMP::visit_overlapping_faces(view, [&result](const auto& a, const auto& b) {
-    const auto [f, g] = std::minmax(std::uint32_t(a.position), std::uint32_t(b.position));
+    const auto [f, g] = std::minmax({std::uint32_t(a.position), std::uint32_t(b.position)});
     result.overlapping.push_back({f, g});
     return true;
   });

@@ -32,11 +32,12 @@ export class Orbit {
     });
   }
 
-  /** Looks at a sphere as a whole. */
-  lookAt(center, radius) {
+  /** Looks at a sphere as a whole, on a screen of a width to its height. */
+  lookAt(center, radius, aspect) {
     this.target = center;
     this.radius = radius;
-    this.distance = (1.15 * radius) / Math.sin((this.fieldOfView * Math.PI) / 360);
+    const half = Math.tan((this.fieldOfView * Math.PI) / 360) * Math.min(1, aspect);
+    this.distance = (1.15 * radius) / Math.sin(Math.atan(half));
   }
 
   rotate(right, up) {

@@ -86,7 +86,7 @@ class Viewer {
     if (this.firstPicture < 0 && this.stream.numberOfTriangles > 0) {
       this.firstPicture = this.feed.received;
       const { center, radius } = this.surface.sphere(this.stream);
-      this.camera.lookAt(center, radius);
+      this.camera.lookAt(center, radius, this.canvas.width / this.canvas.height);
     }
     const { eye, direction } = this.camera;
     const half = Math.tan((FIELD_OF_VIEW * Math.PI) / 360), { width, height } = this.canvas;
