@@ -21,7 +21,51 @@
 #include <thread>
 #include <utility>
 
+#include <dlfcn.h>
+
 namespace hlscm_python {
+
+/// Lets OpenBLAS, if that is CHOLMOD's BLAS, use one thread as long as there is such an object: how it
+/// adds up depends on the number of its threads, and the threads are the library's own. numpy may use
+/// the same OpenBLAS, so its number of threads is what it was afterwards.
+class Blas_scope
+{
+public:
+  Blas_scope()
+  {
+    const std::lock_guard<std::mutex> lock(s_mutex);
+    if(s_users++ > 0)
+      return;
+    const auto threads = find_function<int()>("openblas_get_num_threads");
+    const auto set_threads = find_function<void(int)>("openblas_set_num_threads");
+    if(threads == nullptr || set_threads == nullptr)
+      return;
+    s_threads = threads();
+    set_threads(1);
+  }
+  ~Blas_scope()
+  {
+    const std::lock_guard<std::mutex> lock(s_mutex);
+    if(--s_users > 0 || s_threads == 0)
+      return;
+    find_function<void(int)>("openblas_set_num_threads")(s_threads);
+    s_threads = 0;
+  }
+  Blas_scope(const Blas_scope&) = delete;
+  Blas_scope& operator=(const Blas_scope&) = delete;
+
+private:
+  // A function of what is loaded, or null
+  template <class Function>
+  static Function* find_function(const char* name)
+  {
+    return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
+  }
+
+  static inline std::mutex s_mutex;
+  static inline int s_users = 0;
+  static inline int s_threads = 0; // before, 0 if they were not changed
+};
 
 /// What is told the progress of a computation: the user's callable, if there is one, and the
 /// interpreter, which may have been interrupted by Ctrl-C. What they raise ends the computation.
@@ -100,6 +144,7 @@ template <class Work>
 auto run(unsigned int threads, const Work& work)
 {
   const py::gil_scoped_release others_run;
+  const Blas_scope blas;
   const unsigned int processors = (std::max)(1u, std::thread::hardware_concurrency());
   const CGAL::Blocked_execution::Thread_scope scope(
     threads == 0 ? 0 : (std::min)(threads, processors));

@@ -3,6 +3,7 @@
 """Progress, interruption, threads of Python, and memory."""
 
 import concurrent.futures
+import ctypes
 import os
 import signal
 import subprocess
@@ -136,6 +137,24 @@ class Threads(unittest.TestCase):
             together = [future.result() for future in [pool.submit(f) for f in work]]
         for i, result in enumerate(together):
             np.testing.assert_array_equal(result, alone[i % 4])
+
+    def test_blas_of_others_keeps_its_threads(self):
+        try:
+            blas = ctypes.CDLL("libopenblas.so.0")
+        except OSError:
+            self.skipTest("there is no OpenBLAS")
+        chart = meshes.hills(30, seed=1)
+        kept = blas.openblas_get_num_threads()
+        try:
+            for number in (2, 1):
+                blas.openblas_set_num_threads(number)
+                with concurrent.futures.ThreadPoolExecutor(4) as pool:
+                    maps = list(pool.map(lambda _: hlscm.parameterize(*chart, method="direct"), range(8)))
+                self.assertEqual(blas.openblas_get_num_threads(), number)
+                for uv in maps:
+                    np.testing.assert_array_equal(uv, maps[0])
+        finally:
+            blas.openblas_set_num_threads(kept)
 
     def test_threads_share_objects(self):
         chart = meshes.hills(40, seed=3)
