@@ -210,7 +210,7 @@ test("a slow model is drawn early, and ends as the native reader has it", async 
 test("a budget of triangles holds at any time, and follows the eye", async () => {
   allowed = Infinity;
   await openPage(model, { budget: 6000, isDark: true });
-  await browser.until("hlscm?.viewer?.drawing.numberOfTriangles > 0");
+  await browser.until("hlscm.viewer.drawing.numberOfTriangles > 0");
   const most = () => browser.evaluate(`(async () => {
     let most = 0;
     for (let i = 0; i < 60; ++i) {
