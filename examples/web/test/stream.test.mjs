@@ -176,16 +176,22 @@ test("a selection is within its budget, without cracks, and finer near the eye",
   // What is out of sight is coarser than at the same distance before the eye.
   const middle = [0.5, 0.5, 0.1];
   selection.choose(stream, { eye: middle, direction: [1, 0, 0], cosine: Math.SQRT1_2 }, 8000);
-  const { positions } = stream;
+  const { positions, parents, vertices } = stream;
+  const base = stream.numberOfWedges - stream.numberOfSplits;
+  parents.forEach((parent, i) => { // a vertex comes with what it comes from
+    assert.ok(!selection.isNeeded[vertices[base + i]] || selection.isNeeded[vertices[parent]]);
+  });
   const before = [0, 0]; // triangles on either side
   for (let t = 0; t < selection.numberOfTriangles; ++t) {
     ++before[positions[3 * selection.triangles[3 * t]] > middle[0] ? 1 : 0];
   }
   assert.ok(before[1] > 2 * before[0]);
+  assert.equal(selection.list(stream, selection.isNeeded, selection.numberOfTriangles - 1), false);
 });
 
 test("a slow model is drawn early, and ends as the native reader has it", async () => {
   const others = ["index.html", "stream.wasm"].map((name) => readFileSync(join(site, name)).length);
+  assert.ok(others[0] + others[1] < EARLY / 1.4, `page and reader have ${others} bytes`);
   allowed = Math.min(model.length / 10 | 0, EARLY - others[0] - others[1]);
   await openPage(model);
   await browser.until("hlscm.viewer.drawing.numberOfTriangles > 0");
