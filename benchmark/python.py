@@ -4,12 +4,13 @@
 """What the Python module costs over C++: time and peak memory of a call beside the program hlscm on
 the same chart, a row for each command.
 
-Usage: benchmark/python.py BUILD_DIR [SIDE [REPEAT]]
+Usage: benchmark/python.py BUILD_DIR [SIDE [REPEAT [COMMAND...]]]
 
 The chart is a square of SIDE x SIDE vertices (708: a million faces) with hills and noise. Seconds are
-those of the computation, without reading and writing, medians of REPEAT runs (5) of either in turn;
-memory is the peak of the process, that of the module with the arrays of the chart, which the program
-has as well. BUILD_DIR was built with HLSCM_BUILD_PYTHON; python3 must be the one it was built for.
+those of the computation, without reading and writing, medians of REPEAT runs (5) of either in turn,
+all of them or those of the COMMANDs. `outside_percent` is the part of a call that is not in the library,
+by the report of the same call, which does not depend on what else runs on the machine. Memory is the
+peak of the process, that of the module with the arrays of the chart, which the program has as well. BUILD_DIR was built with HLSCM_BUILD_PYTHON; python3 must be the one it was built for.
 """
 
 import csv
@@ -21,15 +22,15 @@ import sys
 import tempfile
 from pathlib import Path
 
-# The arguments of the program and the keys of the seconds in its report, and the call
+# The arguments of the program and the keys of the seconds in its report, and the report of the call
 COMMANDS = {
     "parameterize": (["parameterize", "{chart}", "-o", "{out}.obj"], ["total"],
-                     "hlscm.parameterize(vertices, faces)"),
+                     "hlscm.parameterize(vertices, faces, full=True)[1]"),
     "parameterize, one thread": (["parameterize", "{chart}", "-o", "{out}.obj", "--threads", "1"],
-                                 ["total"], "hlscm.parameterize(vertices, faces, threads=1)"),
+                                 ["total"], "hlscm.parameterize(vertices, faces, threads=1, full=True)[1]"),
     "low-stretch": (["parameterize", "{chart}", "-o", "{out}.obj", "--method", "low-stretch"],
-                    ["total"], "hlscm.low_stretch(vertices, faces)"),
-    "atlas": (["atlas", "{chart}", "-o", "{out}"], ["atlas"], "hlscm.atlas(vertices, faces)"),
+                    ["total"], "hlscm.low_stretch(vertices, faces, full=True)[1]"),
+    "atlas": (["atlas", "{chart}", "-o", "{out}"], ["atlas"], "hlscm.atlas(vertices, faces, full=True).report"),
     "nothing": (["info", "{chart}"], [], "None"),
 }
 
@@ -39,8 +40,9 @@ import numpy as np
 import hlscm
 vertices, faces = np.load(sys.argv[1]), np.load(sys.argv[2])
 start = time.perf_counter()
-result = {call}
-print(time.perf_counter() - start)
+report = {call}
+seconds = time.perf_counter() - start
+print(seconds, 100 * (1 - report["seconds"] / seconds) if report else 0)
 """
 
 
@@ -87,7 +89,8 @@ def run_module(build, folder, call):
     environment = {**os.environ, "PYTHONPATH": str(build / "python")}
     printed, peak = run([sys.executable, "-c", CALL.replace("{call}", call), folder / "vertices.npy",
                          folder / "faces.npy"], environment)
-    return float(printed), peak
+    seconds, outside = map(float, printed.split())
+    return seconds, outside, peak
 
 
 def main():
@@ -98,17 +101,19 @@ def main():
     side = int(sys.argv[2]) if len(sys.argv) > 2 else 708
     repeat = int(sys.argv[3]) if len(sys.argv) > 3 else 5
     writer = csv.writer(sys.stdout, lineterminator="\n")
-    writer.writerow(["command", "faces", "program_seconds", "module_seconds", "program_mb", "module_mb"])
+    writer.writerow(["command", "faces", "program_seconds", "module_seconds", "outside_percent", "program_mb",
+                     "module_mb"])
     with tempfile.TemporaryDirectory() as work:
         # By a process of its own: the peak of this one would count as that of those it starts.
         subprocess.run([sys.executable, __file__, "--chart", str(side), work], check=True)
         faces = 2 * (side - 1) ** 2
-        for name, (words, keys, call) in COMMANDS.items():
+        for name in sys.argv[4:] or COMMANDS:
+            words, keys, call = COMMANDS[name]
             runs = [(*run_program(build, Path(work), words, keys), *run_module(build, Path(work), call))
                     for _ in range(repeat)]
-            seconds, mb, module_seconds, module_mb = (statistics.median(c) for c in zip(*runs))
-            writer.writerow([name, faces, f"{seconds:.3f}", f"{module_seconds:.3f}", f"{mb:.1f}",
-                             f"{module_mb:.1f}"])
+            seconds, mb, module_seconds, outside, module_mb = (statistics.median(c) for c in zip(*runs))
+            writer.writerow([name, faces, f"{seconds:.3f}", f"{module_seconds:.3f}", f"{outside:.2f}",
+                             f"{mb:.1f}", f"{module_mb:.1f}"])
             sys.stdout.flush()
 
 

@@ -277,6 +277,18 @@ def streams():
                   "million splits a second in WebAssembly", "native"], lines)
 
 
+def python():
+    """The Python module beside the program."""
+    lines = []
+    for row in read("python.csv"):
+        more = (float(row["module_mb"]) - float(row["program_mb"])) * 1e6 / float(row["faces"])
+        lines.append([row["command"], f"{int(row['faces']):,}", row["program_seconds"],
+                      row["module_seconds"], row["outside_percent"], row["program_mb"],
+                      row["module_mb"], f"{more:.0f}"])
+    return table(["command", "faces", "program, s", "module, s", "outside the library, %", "program, MB",
+                  "module, MB", "bytes more a face"], lines)
+
+
 COMPILED = {"cgal_lscm": "example, CGAL's `LSCM_parameterizer_3`",
             "hlscm": "example, `HLSCM_parameterizer_3`, `CGAL::HLSCM`",
             "hlscm_compiled": "the same, `CGAL::HLSCM_compiled`",
@@ -489,7 +501,7 @@ def memory_of_commands():
 
 TABLES = {table.__name__: table for table in (
     million_faces, ratios, scaling, growth, stages, stages_two_threads, atlases,
-    atlases_beside_paper, atlases_short, live, levels, streams, compile_time, reading, low_stretch,
+    atlases_beside_paper, atlases_short, live, levels, streams, python, compile_time, reading, low_stretch,
     one_to_one, equation_peers, signals, light_models, which_map, full_pages, full_pages_peer, ranks,
     interfaces,
     memory_of_commands)}

@@ -8,6 +8,8 @@
 
 #include <CGAL/Surface_mesh_parameterization/Map_certificate.h>
 #include <CGAL/Surface_mesh_parameterization/repair_flipped_faces.h>
+#include <CGAL/Surface_mesh_parameterization/conformal_map.h>
+
 
 #include <gtest/gtest.h>
 
@@ -104,6 +106,15 @@ TEST(Repair, mends_the_maps_of_all_methods)
         for(const auto& pin : run.report.pins)
           EXPECT_EQ(run.uv[pin.vertex], Complex(pin.u, pin.v)) << where;
         mended += r.flipped_before;
+        // The same of arrays, whose edges are added up in another order
+        const SMP::Conformal_map map = SMP::conformal_map(mesh, options);
+        ASSERT_EQ(map.error, SMP::OK);
+        ASSERT_TRUE(map.report.flip_repair.has_value());
+        EXPECT_EQ(map.report.flip_repair->flipped_before, r.flipped_before) << where;
+        EXPECT_TRUE(map.report.flip_repair->unmended_faces.empty()) << where;
+        EXPECT_NEAR(map.report.energy, run.report.energy, 1e-9 * energy) << where;
+        for(std::size_t v = 0; v < map.uv.size(); ++v)
+          EXPECT_NEAR(std::abs(Complex(map.uv[v].x(), map.uv[v].y()) - run.uv[v]), 0., 1e-9) << where;
       }
     }
   EXPECT_GT(mended, 10u); // or this test would not test anything

@@ -151,6 +151,16 @@ TEST(Surface_multigrid, finds_the_solution_of_a_factorization)
       ASSERT_TRUE(report.is_ok()) << report.error;
       ASSERT_TRUE(solver.solve(b, y).is_ok());
       expect_solution(matrix, is_fixed, f, given, Eigen::VectorXd::Map(y.data(), n), 1e-8);
+      // The same where others have its arrays, such as scipy
+      typedef std::decay_t<decltype(matrix)> Matrix;
+      const Eigen::Map<const Matrix> map(matrix.rows(), matrix.cols(), matrix.nonZeros(),
+                                         matrix.outerIndexPtr(), matrix.innerIndexPtr(),
+                                         matrix.valuePtr());
+      std::vector<double> z = start;
+      report = solver.set_matrix(map, is_fixed);
+      ASSERT_TRUE(report.is_ok()) << report.error;
+      ASSERT_TRUE(solver.solve(b, z).is_ok());
+      EXPECT_EQ(z, y);
       // Where it begins at the solution there is nothing to do.
       solver.options().tolerance = 1e-9;
       EXPECT_EQ(solver.solve(b, x).iterations, 0u);

@@ -26,6 +26,14 @@ typedef SMP::HLSCM_parameterizer_3<Surface_mesh> Parameterizer;
 typedef Parameterizer::Point_2 Point_2;
 typedef std::vector<std::complex<double>> Parameters;
 
+inline std::vector<CGAL::Simple_cartesian<double>::Point_2> to_points(const Parameters& uv)
+{
+  std::vector<CGAL::Simple_cartesian<double>::Point_2> points;
+  for(const std::complex<double>& z : uv)
+    points.emplace_back(z.real(), z.imag());
+  return points;
+}
+
 // The map p -> f(x + iy) of a planar mesh.
 template <class F>
 Parameters map_of(const Indexed_triangle_mesh& mesh, const F& f)

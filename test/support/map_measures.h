@@ -8,6 +8,10 @@
 
 #include <support/conformal_maps.h>
 
+#include <CGAL/Surface_mesh_parameterization/Map_certificate.h>
+
+#include <gtest/gtest.h>
+
 #include <complex>
 #include <iterator>
 #include <vector>
@@ -18,10 +22,13 @@ using namespace test_support;
 
 typedef std::complex<double> Complex;
 
+// As a graph and as arrays: both have to say the same.
 inline bool has_overlap(const Indexed_triangle_mesh& arrays, const Parameters& uv)
 {
   Surface_mesh mesh = to_surface_mesh(arrays);
-  return SMP::has_global_overlap(mesh, to_uv_map(mesh, uv));
+  const bool result = SMP::has_global_overlap(mesh, to_uv_map(mesh, uv));
+  EXPECT_EQ(SMP::certify_map(arrays, to_points(uv)).overlaps, result);
+  return result;
 }
 
 inline std::size_t number_of_flipped_faces(const Indexed_triangle_mesh& arrays, const Parameters& uv)

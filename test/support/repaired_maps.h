@@ -56,6 +56,10 @@ inline Certified certify(const Indexed_triangle_mesh& arrays, const Parameters& 
   EXPECT_EQ(result.certificate.flipped_faces, result.flipped.size());
   EXPECT_EQ(result.certificate.degenerate_faces, result.degenerate.size());
   EXPECT_EQ(result.certificate.overlaps, !result.overlapping.empty());
+  const SMP::Map_certificate of_arrays = SMP::certify_map(arrays, to_points(uv));
+  EXPECT_EQ(of_arrays.flipped_faces, result.certificate.flipped_faces);
+  EXPECT_EQ(of_arrays.degenerate_faces, result.certificate.degenerate_faces);
+  EXPECT_EQ(of_arrays.overlaps, result.certificate.overlaps);
   return result;
 }
 

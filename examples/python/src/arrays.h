@@ -54,6 +54,15 @@ template <class T, class Use>
 void for_each_entry(const py::array& a, const Use& use)
 {
   const char* data = static_cast<const char*>(a.data());
+  const py::ssize_t columns = a.shape(1);
+  if(a.strides(1) == py::ssize_t(sizeof(T)) && a.strides(0) == columns * py::ssize_t(sizeof(T))
+     && reinterpret_cast<std::uintptr_t>(data) % alignof(T) == 0) { // as usual: quicker so
+    const T* value = reinterpret_cast<const T*>(data);
+    for(std::size_t i = 0; i < std::size_t(a.shape(0)); ++i)
+      for(std::size_t j = 0; j < std::size_t(columns); ++j)
+        use(i, j, *value++);
+    return;
+  }
   for(py::ssize_t i = 0; i < a.shape(0); ++i)
     for(py::ssize_t j = 0; j < a.shape(1); ++j) {
       T value; // what is not aligned, too
@@ -77,12 +86,11 @@ std::vector<Point> to_points(const py::array& a, const char* name)
 {
   check_shape(a, Columns, name);
   typedef std::array<double, Columns> Row;
+  static_assert(sizeof(Point) == sizeof(Row));
   std::vector<Point> points(std::size_t(a.shape(0)));
-  const auto set = [&points](std::size_t i, std::size_t j, double x) {
-    Row row;
-    std::memcpy(&row, &points[i], sizeof(Row));
-    row[j] = x;
-    std::memcpy(static_cast<void*>(&points[i]), &row, sizeof(Row));
+  char* bytes = reinterpret_cast<char*>(points.data());
+  const auto set = [bytes](std::size_t i, std::size_t j, double x) {
+    std::memcpy(bytes + i * sizeof(Row) + j * sizeof(double), &x, sizeof(double));
   };
   if(has_type<double>(a))
     for_each_entry<double>(a, set);
@@ -132,6 +140,13 @@ inline Textured_triangle_mesh to_textured(const py::array& points, const py::arr
 {
   return {to_points<Point_3, 3>(points, "vertices"), to_triangles(triangles, "faces"), to_uv(uv),
           to_triangles(uv_triangles, "uv_faces")};
+}
+
+/// The same as Python passes it: vertices, faces, uv and uv_faces.
+typedef std::array<py::array, 4> Textured_arrays;
+inline Textured_triangle_mesh to_textured(const Textured_arrays& a)
+{
+  return to_textured(a[0], a[1], a[2], a[3]);
 }
 
 // To numpy: an array is a view of what the library returned, which it keeps alive.

@@ -24,39 +24,36 @@ namespace SMM = CGAL::Surface_mesh_multigrid;
 
 template <class Value>
 using Array = py::array_t<Value, py::array::c_style | py::array::forcecast>;
+typedef Array<std::int32_t> Indices;
 
-// A square matrix of compressed rows as Eigen's; the columns of a row ascend.
+// A square matrix of compressed rows where numpy has it.
 template <class Value>
-Eigen::SparseMatrix<Value, Eigen::RowMajor, int>
-to_matrix(std::size_t n, const Array<std::int64_t>& starts, const Array<std::int64_t>& columns,
-          const Array<Value>& values)
+using Matrix_map = Eigen::Map<const Eigen::SparseMatrix<Value, Eigen::RowMajor, std::int32_t>>;
+
+// Throws what is wrong with the arrays of such a matrix, whose columns ascend in each row.
+template <class Value>
+void check_matrix(std::size_t n, const Indices& starts, const Indices& columns,
+                  const Array<Value>& values)
 {
   const auto entries = std::int64_t(values.size());
   const auto fail = [](const std::string& sentence) {
     throw Bad_input(Mesh_status::BAD_OPTIONS, sentence);
   };
   if(starts.ndim() != 1 || columns.ndim() != 1 || values.ndim() != 1
-     || std::int64_t(starts.size()) != std::int64_t(n) + 1 || columns.size() != values.size()
-     || entries > std::int64_t((std::numeric_limits<int>::max)()))
+     || std::int64_t(starts.size()) != std::int64_t(n) + 1 || columns.size() != values.size())
     fail("the arrays of the sparse matrix do not fit each other or the vertices");
-  const std::int64_t* start = starts.data();
-  const std::int64_t* column = columns.data();
+  const std::int32_t* start = starts.data();
+  const std::int32_t* column = columns.data();
   if(start[0] != 0 || start[n] != entries)
     fail("the rows of the sparse matrix are not all of its entries");
   for(std::size_t i = 0; i < n; ++i) {
     if(start[i] > start[i + 1] || start[i] < 0 || start[i + 1] > entries)
       fail("row " + std::to_string(i) + " of the sparse matrix ends before it begins");
-    for(std::int64_t e = start[i]; e < start[i + 1]; ++e)
-      if(column[e] < 0 || column[e] >= std::int64_t(n) || (e > start[i] && column[e] <= column[e - 1]))
+    for(std::int32_t e = start[i]; e < start[i + 1]; ++e)
+      if(column[e] < 0 || std::size_t(column[e]) >= n || (e > start[i] && column[e] <= column[e - 1]))
         fail("the columns of row " + std::to_string(i)
              + " of the sparse matrix do not exist or do not ascend");
   }
-  Eigen::SparseMatrix<Value, Eigen::RowMajor, int> matrix{Eigen::Index(n), Eigen::Index(n)};
-  matrix.resizeNonZeros(Eigen::Index(entries));
-  std::copy(start, start + n + 1, matrix.outerIndexPtr());
-  std::copy(column, column + entries, matrix.innerIndexPtr());
-  std::copy(values.data(), values.data() + entries, matrix.valuePtr());
-  return matrix;
 }
 
 /// The levels of a surface, and the matrix on it that was set last.
@@ -71,11 +68,13 @@ public:
     : m_solver(std::move(hierarchy)), m_threads(threads)
   {}
 
-  void set_matrix(const Array<std::int64_t>& starts, const Array<std::int64_t>& columns,
-                  const Array<Value>& values, const std::optional<py::array_t<bool>>& fixed)
+  void set_matrix(const Indices& starts, const Indices& columns, const Array<Value>& values,
+                  const std::optional<py::array_t<bool>>& fixed)
   {
     const Exclusive::Use use(m_exclusive);
-    const auto matrix = to_matrix<Value>(size(), starts, columns, values);
+    check_matrix<Value>(size(), starts, columns, values);
+    const auto n = Eigen::Index(size());
+    const Matrix_map<Value> matrix(n, n, values.size(), starts.data(), columns.data(), values.data());
     std::vector<bool> is_fixed;
     for(py::ssize_t i = 0; fixed && i < fixed->size(); ++i)
       is_fixed.push_back(fixed->at(i));

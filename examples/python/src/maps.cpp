@@ -51,41 +51,11 @@ struct Conformal_choice
     options.maximal_iterations = maximal_iterations;
     options.uv_tolerance = uv_tolerance;
     options.time_limit = time_limit;
+    if(repairs_flips)
+      options.repair_flips = SMP::Flip_repairer();
     return options;
   }
 };
-
-// Repairs flipped faces of a map, pins apart, and says so in its report, as parameterizers do.
-void repair(const Indexed_triangle_mesh& mesh, const std::function<bool(double)>& progress,
-            SMP::Conformal_map& map)
-{
-  std::vector<bool> is_pinned(map.uv.size(), false);
-  for(const SMP::HLSCM_pin& pin : map.report.pins)
-    is_pinned[pin.vertex] = true;
-  SMP::Flip_repair_options repair_options;
-  repair_options.progress = progress;
-  map.report.flip_repair = SMP::repair_flipped_faces(mesh, map.uv, is_pinned, repair_options);
-  const std::size_t left = map.report.flip_repair->unmended_faces.size();
-  if(left > 0)
-    map.report.warnings.push_back(std::to_string(left) + " flipped faces could not be repaired");
-}
-
-// The map of a chart, with the pins, if there are any.
-SMP::Conformal_map map_chart(Indexed_triangle_mesh mesh,
-                             const std::optional<std::vector<SMP::HLSCM_pin>>& pins,
-                             SMP::HLSCM_options options, bool repairs_flips)
-{
-  constexpr double share = 0.8; // of the map, in the progress of both
-  const Indexed_triangle_mesh kept = repairs_flips ? mesh : Indexed_triangle_mesh();
-  const std::function<bool(double)> progress = options.progress;
-  if(repairs_flips)
-    options.progress = [&progress](double part) { return progress(share * part); };
-  SMP::Conformal_map map = pins ? SMP::conformal_map(std::move(mesh), *pins, options)
-                                : SMP::conformal_map(std::move(mesh), options);
-  if(repairs_flips && map.error == SMP::OK && !map.report.cancelled)
-    repair(kept, [&progress](double part) { return progress(share + (1. - share) * part); }, map);
-  return map;
-}
 
 // CGAL's code for a wrong parameter does not say whether that is the mesh.
 Mesh_status status_of(const SMP::Conformal_map& map, const Indexed_triangle_mesh& mesh)
@@ -116,7 +86,8 @@ py::tuple parameterize(const py::array& points, const py::array& triangles, bool
     pins = to_pins(pinned, places);
   SMP::Conformal_map map = run(threads, progress, [&](const auto& function) {
     options.progress = function;
-    return map_chart(std::move(mesh), pins, options, choice.repairs_flips);
+    return pins ? SMP::conformal_map(std::move(mesh), *pins, options)
+                : SMP::conformal_map(std::move(mesh), options);
   });
   if(map.error != SMP::OK || map.report.cancelled)
     throw Bad_input(status_of(map, to_mesh(points, triangles)), map.report.message);
@@ -132,12 +103,6 @@ py::tuple unwrap(const py::array& points, const py::array& triangles, const Numb
   options.solver = choice.options();
   options.pins = to_pins(pinned, places);
   options.no_seams = no_seams;
-  if(choice.repairs_flips)
-    options.map = [](const Indexed_triangle_mesh& component, const std::vector<SMP::HLSCM_pin>& pins,
-                     const SMP::HLSCM_options& solver) {
-      typedef std::optional<std::vector<SMP::HLSCM_pin>> Wanted;
-      return map_chart(component, pins.empty() ? Wanted() : Wanted(pins), solver, true);
-    };
   SMT::Surface_map map = run(threads, progress, [&](const auto& function) {
     options.solver.progress = function;
     return SMT::map_surface(mesh, options);

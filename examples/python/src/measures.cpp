@@ -12,7 +12,6 @@
 #include <CGAL/Indexed_mesh/border_loops.h>
 #include <CGAL/Indexed_mesh/surface_of_soup.h>
 #include <CGAL/Indexed_mesh/weld_points.h>
-#include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/Distortion_measures.h>
 #include <CGAL/Surface_mesh_parameterization/Map_certificate.h>
 #include <CGAL/Surface_mesh_parameterization/Signal_metric.h>
@@ -20,12 +19,11 @@
 #include <CGAL/Surface_mesh_parameterization/repair_flipped_faces.h>
 #include <CGAL/Surface_mesh_texturing/surface_signals.h>
 
-#include <boost/property_map/function_property_map.hpp>
-
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -82,24 +80,6 @@ py::tuple distortion(const py::array& points, const py::array& triangles, const 
                         to_dict(summary));
 }
 
-typedef CGAL::Surface_mesh<Point_3> Mesh;
-
-// The mesh as CGAL's, with vertices and faces in their order.
-Mesh to_surface_mesh(const Indexed_triangle_mesh& arrays)
-{
-  Mesh mesh;
-  for(const Point_3& p : arrays.points)
-    mesh.add_vertex(p);
-  for(const Triangle_indices& t : arrays.triangles)
-    mesh.add_face(Mesh::Vertex_index(t[0]), Mesh::Vertex_index(t[1]), Mesh::Vertex_index(t[2]));
-  return mesh;
-}
-
-std::vector<std::uint32_t> to_numbers(const std::vector<Mesh::Face_index>& faces)
-{
-  return std::vector<std::uint32_t>(faces.begin(), faces.end());
-}
-
 struct Certified_map
 {
   std::vector<std::uint32_t> flipped, degenerate;
@@ -107,28 +87,29 @@ struct Certified_map
   bool overlaps = false;
 };
 
-Certified_map certified(const Indexed_triangle_mesh& arrays, const std::vector<Point_2>& uv,
+Certified_map certified(const Indexed_triangle_mesh& mesh, const std::vector<Point_2>& uv,
                         bool names_overlaps)
 {
-  const Mesh mesh = to_surface_mesh(arrays);
-  const auto uv_map = boost::make_function_property_map<Mesh::Vertex_index, Point_2>(
-    [&uv](Mesh::Vertex_index v) { return uv[v]; });
+  const SMP::Uv_arrays view(mesh, uv);
   Certified_map result;
-  std::vector<Mesh::Face_index> faces;
-  SMP::flipped_faces(mesh, uv_map, std::back_inserter(faces));
-  result.flipped = to_numbers(faces);
-  faces.clear();
-  SMP::degenerate_faces(mesh, uv_map, std::back_inserter(faces));
-  result.degenerate = to_numbers(faces);
+  for(std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const CGAL::Orientation sign = SMP::orientation_of(view.triangle(t));
+    if(sign == CGAL::RIGHT_TURN)
+      result.flipped.push_back(t);
+    else if(sign == CGAL::COLLINEAR)
+      result.degenerate.push_back(t);
+  }
   if(!names_overlaps) {
-    result.overlaps = SMP::has_global_overlap(mesh, uv_map);
+    result.overlaps = SMP::has_global_overlap(view);
     return result;
   }
-  std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
-  SMP::overlapping_faces(mesh, uv_map, std::back_inserter(pairs));
-  for(const auto& [f, g] : pairs)
-    result.overlapping.push_back({std::uint32_t(f), std::uint32_t(g)});
-  result.overlaps = !pairs.empty();
+  SMP::visit_overlapping_faces(view, [&result](const auto& a, const auto& b) {
+    const auto [f, g] = std::minmax({std::uint32_t(a.position), std::uint32_t(b.position)});
+    result.overlapping.push_back({f, g});
+    return true;
+  });
+  std::sort(result.overlapping.begin(), result.overlapping.end());
+  result.overlaps = !result.overlapping.empty();
   return result;
 }
 

@@ -59,6 +59,7 @@ PYBIND11_MODULE(_hlscm, m)
     }
   });
   m.attr("__version__") = HLSCM_VERSION;
+  bind_atlases(m);
   bind_equations(m);
   bind_levels(m);
   bind_maps(m);

@@ -8,6 +8,7 @@
 
 namespace hlscm_python {
 
+void bind_atlases(pybind11::module_& m);
 void bind_equations(pybind11::module_& m);
 void bind_levels(pybind11::module_& m);
 void bind_maps(pybind11::module_& m);

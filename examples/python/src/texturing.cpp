@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "arrays.h"
-#include "metrics.h"
 #include "module.h"
 #include "options.h"
 #include "running.h"
@@ -15,7 +14,7 @@
 #include <CGAL/Surface_mesh_texturing/bake_colors.h>
 #include <CGAL/Surface_mesh_texturing/bake_displacement.h>
 #include <CGAL/Surface_mesh_texturing/bake_normal_map.h>
-#include <CGAL/Surface_mesh_texturing/build_texture_atlas.h>
+#include <CGAL/Surface_mesh_texturing/image_importance.h>
 
 #include <pybind11/stl.h>
 
@@ -30,145 +29,7 @@ namespace {
 
 namespace SMT = CGAL::Surface_mesh_texturing;
 
-// A mesh as Python passes it: vertices, faces, uv and uv_faces.
-typedef std::array<py::array, 4> Textured_arrays;
-
-Textured_triangle_mesh to_textured(const Textured_arrays& a)
-{
-  return hlscm_python::to_textured(a[0], a[1], a[2], a[3]);
-}
-
-py::dict to_dict(const SMT::Texture_atlas_report& report)
-{
-  py::dict d, distortion;
-  py::list charts;
-  for(const SMT::Chart_report& chart : report.charts) {
-    py::dict c;
-    c["faces"] = chart.faces;
-    c["border_length"] = chart.border_length;
-    c["area_scale"] = chart.distortion.area_scale;
-    c["quasi_conformal"] = chart.distortion.quasi_conformal;
-    c["area"] = chart.distortion.area;
-    c["uv_area"] = chart.distortion.uv_area;
-    c["repaired_flips"] = chart.repaired_flips;
-    c["is_one_to_one"] = chart.is_one_to_one;
-    c["page"] = chart.page;
-    charts.append(c);
-  }
-  d["charts"] = charts;
-  d["recut_charts"] = report.recut_charts;
-  d["unwanted_seams"] = report.unwanted_seams;
-  d["stopped_early"] = report.stopped_early;
-  d["seam_length"] = report.seam_length;
-  d["area_scale_range"] = report.distortion.area_scale_range;
-  d["quasi_conformal_mean"] = report.distortion.quasi_conformal_mean;
-  d["stretch_L2"] = report.distortion.stretch_L2;
-  d["flipped_faces"] = report.distortion.flipped_faces;
-  d["texels_per_unit"] = report.texels_per_unit;
-  d["utilisation"] = report.utilisation;
-  d["page_cuts"] = report.page_cuts;
-  d["jaggedness"] = report.seams.jaggedness;
-  d["seams_on_creases"] = report.seams.on_creases;
-  d["seams_in_concavities"] = report.seams.in_concavities;
-  d["density_range"] = report.texels.density_range;
-  d["compactness"] = report.texels.compactness;
-  d["seconds"] = report.seconds_total;
-  return d;
-}
-
-/// What `atlas()` is asked for.
-struct Atlas_choice
-{
-  std::string method; // "border-first", or of conformal maps
-  SMT::Texture_atlas_options options;
-  std::optional<std::vector<std::uint32_t>> charts; // a number for each face, if they are given
-};
-
-template <class Segmenter>
-SMT::Texture_atlas_result build(const Indexed_triangle_mesh& mesh, const Atlas_choice& choice,
-                                const Segmenter& segmenter)
-{
-  typedef SMP::Conformal_method Method;
-  if(choice.method == "border-first" || choice.method == "low-stretch")
-    return SMT::build_texture_atlas(mesh, choice.options, segmenter);
-  SMT::Conformal_chart_parameterizer parameterizer;
-  parameterizer.solver.method = chosen<Method>("method", choice.method,
-    {{"hlscm", Method::HLSCM}, {"spectral", Method::SPECTRAL}, {"cascadic", Method::CASCADIC},
-     {"lscm", Method::LSCM}, {"direct", Method::DIRECT}});
-  return SMT::build_texture_atlas(mesh, choice.options, segmenter, parameterizer);
-}
-
-SMT::Texture_atlas_result build(const Indexed_triangle_mesh& mesh, const Atlas_choice& choice)
-{
-  if(!choice.charts)
-    return build(mesh, choice, SMT::Chart_growth_segmenter());
-  SMT::Texture_atlas_result result;
-  if(result.fail(Mesh_status::BAD_MESH, CGAL::Indexed_mesh::manifold_error(mesh)))
-    return result;
-  if(choice.charts->size() != mesh.triangles.size()) {
-    result.fail(Mesh_status::BAD_OPTIONS, "there are charts for " + std::to_string(choice.charts->size())
-                + " faces of " + std::to_string(mesh.triangles.size()));
-    return result;
-  }
-  return build(mesh, choice, SMT::Given_charts_segmenter(
-                               SMT::charts_of_labels(mesh.triangles, *choice.charts)));
-}
-
-py::dict atlas(const py::array& points, const py::array& triangles, const std::string& method,
-               std::size_t max_charts, double seam_price, double min_used, double area_scale,
-               double quasi_conformal, double least_fill, std::size_t width, std::size_t height,
-               double largest_aspect, std::size_t padding, unsigned int mip_levels, std::size_t pages,
-               double texels_per_unit, double packing_time,
-               const std::vector<float>& density, const std::optional<py::array>& metric,
-               const std::vector<std::uint8_t>& no_seams,
-               const std::optional<std::vector<std::uint32_t>>& charts, double time_limit,
-               unsigned int threads, const py::object& progress)
-{
-  const Indexed_triangle_mesh mesh = to_mesh(points, triangles);
-  Atlas_choice choice = {method, {}, charts};
-  if(method != "border-first" && method != "low-stretch" && method != "hlscm" && method != "spectral" && method != "cascadic"
-     && method != "lscm" && method != "direct")
-    throw Bad_input(Mesh_status::BAD_OPTIONS, "method is \"" + method
-                    + "\", and none of border-first, low-stretch, hlscm, spectral, cascadic, lscm, direct");
-  SMT::Texture_atlas_options& options = choice.options;
-  options.bound.area_scale = area_scale;
-  options.bound.quasi_conformal = quasi_conformal;
-  options.may_stretch = method == "low-stretch";
-  options.max_charts = max_charts;
-  options.seam_price = seam_price;
-  options.min_used = min_used;
-  options.least_fill = least_fill;
-  options.packing.width = width;
-  options.packing.height = height;
-  options.largest_aspect = largest_aspect;
-  options.packing.padding = padding;
-  options.packing.mip_levels = mip_levels;
-  options.packing.max_pages = pages;
-  options.packing.texels_per_unit = texels_per_unit;
-  options.packing.time_budget = packing_time;
-  options.density = density;
-  if(metric)
-    options.metric = to_metric(*metric);
-  options.no_seams = no_seams;
-  options.seconds = time_limit;
-  SMT::Texture_atlas_result result = run(threads, progress, [&](const auto& function) {
-    options.progress = function;
-    return build(mesh, choice);
-  });
-  check(result);
-  SMT::Texture_atlas& made = result.atlas;
-  py::dict d;
-  d["vmapping"] = to_array(SMT::vertices_of_wedges(made.mesh));
-  d["indices"] = to_array(std::move(made.mesh.wedges));
-  d["uv"] = to_array(std::move(made.mesh.uv));
-  d["charts"] = to_array(std::move(made.charts.chart));
-  d["pages"] = to_array(std::move(made.page));
-  d["number_of_pages"] = made.number_of_pages;
-  d["width"] = made.width;
-  d["height"] = made.height;
-  d["report"] = to_dict(result.report);
-  return d;
-}
+typedef py::array_t<float, py::array::c_style> Float_array;
 
 /// The options of all functions that bake, as Python passes them.
 struct Baking_choice
@@ -257,7 +118,7 @@ py::tuple bake_normal_map_by_rays(const py::array& points, const py::array& tria
 }
 
 py::tuple bake_vertex_values(const Textured_arrays& fine,
-                             const py::array_t<float, py::array::c_style>& values,
+                             const Float_array& values,
                              const Textured_arrays& light, const Baking_choice& choice)
 {
   const Textured_triangle_mesh from = to_textured(fine), to = to_textured(light);
@@ -279,35 +140,68 @@ py::tuple bake_displacement(const Textured_arrays& fine, const Textured_arrays& 
   });
 }
 
+// An image (height, width, channels), its first row on top.
+SMT::Texture_image to_image(const Float_array& texels)
+{
+  if(texels.ndim() != 3)
+    throw Bad_input(Mesh_status::BAD_OPTIONS, "image has not three dimensions");
+  return {std::size_t(texels.shape(1)), std::size_t(texels.shape(0)), std::size_t(texels.shape(2)),
+          std::vector<float>(texels.data(), texels.data() + texels.size())};
+}
+
+py::array image_importance(const Textured_arrays& arrays, const Float_array& texels)
+{
+  const Textured_triangle_mesh mesh = to_textured(arrays);
+  const SMT::Texture_image image = to_image(texels);
+  SMT::Image_importance result = run(1, [&] {
+    SMT::Image_importance importance;
+    importance.fail(Mesh_status::BAD_MESH, CGAL::Indexed_mesh::mesh_error(mesh));
+    return importance.is_ok() ? SMT::image_importance(mesh, image) : importance;
+  });
+  check(result);
+  return to_array(std::move(result.of_triangles));
+}
+
 py::tuple bake_image(const Textured_arrays& fine, const py::array& former_uv,
                      const py::array& former_triangles,
-                     const py::array_t<float, py::array::c_style>& texels,
+                     const Float_array& texels,
                      const Textured_arrays& light, const Baking_choice& choice)
 {
   const Textured_triangle_mesh from = to_textured(fine), to = to_textured(light);
   const Textured_triangle_mesh former = {from.points, from.triangles, to_uv(former_uv),
                                          to_triangles(former_triangles, "former_uv_faces")};
-  if(texels.ndim() != 3)
-    throw Bad_input(Mesh_status::BAD_OPTIONS, "image has not three dimensions");
-  const SMT::Texture_image image
-    = {std::size_t(texels.shape(1)), std::size_t(texels.shape(0)), std::size_t(texels.shape(2)),
-       std::vector<float>(texels.data(), texels.data() + texels.size())};
+  const SMT::Texture_image image = to_image(texels);
   return baked(choice, [&](const SMT::Baking_options& options) {
     return SMT::bake_image(from, former, image, to, options);
   });
 }
 
-void write_mesh(const std::string& path, const std::string& format, const Textured_arrays& arrays)
+// `base`, if it is not empty, has another set of uv and their indices, for GLB.
+void write_mesh(const std::string& path, const std::string& format, const Textured_arrays& arrays,
+                const std::vector<py::array>& base)
 {
   const Textured_triangle_mesh mesh = to_textured(arrays);
   Mesh_outcome outcome;
   outcome.fail(Mesh_status::BAD_MESH, CGAL::Indexed_mesh::mesh_error(mesh));
   outcome.fail(Mesh_status::BAD_MESH, CGAL::Surface_mesh_multiresolution::texture_error(mesh));
   check(outcome);
+  SMT::Textured_model model;
+  if(base.size() == 2) {
+    const Textured_triangle_mesh other = {mesh.points, mesh.triangles, to_uv(base[0]),
+                                          to_triangles(base[1], "base_uv_faces")};
+    outcome.fail(Mesh_status::BAD_MESH, CGAL::Surface_mesh_multiresolution::texture_error(other));
+    check(outcome);
+    model.base_uv = other.uv;
+    model.base_wedges = other.wedges;
+  }
+  if(format == "glb") {
+    model.name = "mesh";
+    model.mesh = mesh;
+  }
   const bool is_written = run(1, [&] {
     return format == "obj" ? SMT::IO::write_OBJ(path, mesh)
          : format == "ply" ? SMT::IO::write_PLY(path, mesh)
-                           : SMT::IO::write_GLB(path, mesh);
+                           : SMT::IO::write_GLB(path, model);
   });
   if(!is_written) {
     PyErr_SetString(PyExc_OSError, ("cannot write " + path).c_str());
@@ -320,14 +214,6 @@ void write_mesh(const std::string& path, const std::string& format, const Textur
 void bind_texturing(py::module_& m)
 {
   using namespace py::literals;
-  m.def("atlas", &atlas,
-        "A texture atlas: vmapping (w,), indices (m, 3), uv (w, 2), the chart of each face, the page of "
-        "each chart, sizes and a report.",
-        "vertices"_a, "faces"_a, "method"_a, "max_charts"_a, "seam_price"_a, "min_used"_a,
-        "area_scale"_a, "quasi_conformal"_a, "least_fill"_a, "width"_a, "height"_a,
-        "largest_aspect"_a, "padding"_a, "mip_levels"_a, "pages"_a,
-        "texels_per_unit"_a, "packing_time"_a, "density"_a, "metric"_a, "no_seams"_a, "charts"_a,
-        "time_limit"_a, "threads"_a, "progress"_a);
   py::class_<Baking_choice>(m, "BakingOptions", "The options of all functions that bake.")
     .def(py::init([](std::size_t width, std::size_t height, std::size_t samples,
                      std::optional<std::size_t> dilation, unsigned int threads, py::object progress) {
@@ -348,8 +234,11 @@ void bind_texturing(py::module_& m)
         "light"_a, "options"_a);
   m.def("bake_image", &bake_image, "The image of the fine mesh by its former uv, in its new one.",
         "fine"_a, "former_uv"_a, "former_uv_faces"_a, "image"_a, "light"_a, "options"_a);
-  m.def("write_mesh", &write_mesh, "Writes a mesh with texture coordinates: obj, ply or glb.", "path"_a,
-        "format"_a, "mesh"_a);
+  m.def("image_importance", &image_importance,
+        "The importance (m,) of the faces of a mesh by an image on it.", "mesh"_a, "image"_a);
+  m.def("write_mesh", &write_mesh,
+        "Writes a mesh with texture coordinates, obj, ply or glb, the latter perhaps with a base.",
+        "path"_a, "format"_a, "mesh"_a, "base"_a);
 }
 
 } // namespace hlscm_python

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes for the tests, and what reads the files that the program writes."""
 
+import json
 import struct
 import zlib
 
@@ -67,6 +68,39 @@ def read_ply_uv(path):
             names.append(words[2])
     rows = np.frombuffer(body, np.dtype(list(zip(names, types))), count)
     return np.stack([rows["texture_u"], rows["texture_v"]], axis=1)
+
+
+def write_obj(path, vertices, faces, uv, uv_faces, materials=None):
+    """OBJ with texture coordinates, and for each face the number of its material."""
+    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in np.asarray(vertices).tolist()]
+    lines += [f"vt {u!r} {v!r}" for u, v in np.asarray(uv).tolist()]
+    for f, (corners, places) in enumerate(zip(np.asarray(faces) + 1, np.asarray(uv_faces) + 1)):
+        if materials is not None and (f == 0 or materials[f] != materials[f - 1]):
+            lines.append(f"usemtl material_{materials[f]}")
+        lines.append("f " + " ".join(f"{v}/{w}" for v, w in zip(corners, places)))
+    with open(path, "w") as file:
+        file.write("\n".join(lines) + "\n")
+
+
+def read_glb_uv(path):
+    """Both sets of texture coordinates (m, 3, 2), float32, of the corners in a GLB file of triangles."""
+    with open(path, "rb") as file:
+        data = file.read()
+    size, = struct.unpack_from("<I", data, 12)
+    scene, body = json.loads(data[20:20 + size]), data[28 + size:]
+
+    def array(number):
+        accessor = scene["accessors"][number]
+        view = scene["bufferViews"][accessor["bufferView"]]
+        kind = {5123: "<u2", 5125: "<u4", 5126: "<f4"}[accessor["componentType"]]
+        columns = {"SCALAR": 1, "VEC2": 2, "VEC3": 3}[accessor["type"]]
+        at = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
+        return np.frombuffer(body, kind, accessor["count"] * columns, at).reshape(-1, columns)
+
+    parts = [part for mesh in scene["meshes"] for part in mesh["primitives"]]
+    corners = [array(part["indices"]).reshape(-1, 3) for part in parts]
+    return [np.concatenate([array(part["attributes"][name])[c] for part, c in zip(parts, corners)])
+            for name in ("TEXCOORD_0", "TEXCOORD_1")]
 
 
 def read_obj(path):

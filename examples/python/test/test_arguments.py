@@ -114,6 +114,28 @@ class Refused(unittest.TestCase):
         self.assert_says("BAD_OPTIONS", "(144, 2) instead of (n, 3)", hlscm.atlas, self.vertices[:, :2],
                          self.faces)
 
+    def test_what_excludes_what_in_atlases(self):
+        mesh, labels = (self.vertices, self.faces), np.arange(len(self.faces)) % 2
+        for options, text in (({"stack": True, "separate": labels}, "would share a texture"),
+                              ({"smooth_seams": True, "full": True, "limits": labels}, "without stack"),
+                              ({"smooth_seams": True}, "give full"),
+                              ({"packer": "best"}, 'packer is "best"'),
+                              ({"limits": labels[1:]}, f"{len(labels) - 1} faces of {len(labels)}"),
+                              ({"separate": labels - 1}, "separate has a number below 0")):
+            self.assert_says("BAD_OPTIONS", text, hlscm.atlas, *mesh, **options)
+        uv = hlscm.parameterize(*mesh)
+        self.assert_says("BAD_OPTIONS", "face 0 and face 1 are in one chart", hlscm.repack,
+                         (*mesh, uv, self.faces), separate=labels)
+        folded = uv.copy()
+        folded[self.faces[60, 0]] = uv[self.faces[90, 1]]
+        self.assert_says("BAD_MESH", "chart 0 of the texture", hlscm.repack, (*mesh, folded, self.faces),
+                         strict=True)
+        with self.assertWarns(RuntimeWarning):
+            kept = hlscm.repack((*mesh, folded, self.faces), full=True)
+        self.assertEqual(len(kept.report["defects"]), 1)
+        with self.assertRaisesRegex(TypeError, "padding has another type"):
+            hlscm.atlas(*mesh, padding=1.5)
+
     def test_errors_are_pickled_with_their_status(self):
         try:
             hlscm.atlas(self.vertices, [])
@@ -230,6 +252,18 @@ class Random_calls(unittest.TestCase):
             lambda: hlscm.atlas(v, f, resolution=rng.choice([x(), (16, x()), (0, 0), (64,)])),
             lambda: hlscm.atlas(v, f, density=a(np.ones(m)), metric=a(self.metric)),
             lambda: hlscm.atlas(v, f, charts=a(f[:, 0]), mend=bool(rng.randrange(2))),
+            lambda: hlscm.atlas(v, f, limits=a(f[:, 0]), separate=a(f[:, 1])),
+            lambda: hlscm.atlas(v, f, packer=rng.choice(["horizon", x()]), align=x(), pages=2,
+                                smooth_seams=rng.choice([True, x()]), full=rng.choice([True, False])),
+            lambda: hlscm.atlas(v, f, stack=x(), symmetric=x(), density=a(np.ones(m)),
+                                charts=rng.choice([None, a(f[:, 0])])),
+            lambda: hlscm.atlas(v, f, seam_price=x(), min_used=x(), least_fill=x(), largest_aspect=x()),
+            lambda: hlscm.repack((v, f, a(uv), a(corners)), keep_scale=x(), strict=x()),
+            lambda: hlscm.repack((a(v), a(f), uv, corners), align=x(), density=a(np.ones(m))),
+            lambda: hlscm.repack(light, separate=a(f[:, 0]), packer=rng.choice(["raster", x()])),
+            lambda: hlscm.image_importance((v, a(f), a(uv), corners), a(np.ones((4, 4, 1)))),
+            lambda: hlscm.write_mesh(os.path.join(work, rng.choice(["a.glb", "b.ply"])), light,
+                                     base_uv=a(uv), base_uv_faces=a(corners)),
             lambda: hlscm.weld(a(v), a(f), distance=x()),
             lambda: hlscm.bake_displacement(light, (v, f, uv, a(corners)), resolution=16),
             lambda: hlscm.unwrap(v, a(f), mend=True, pins=pins()),

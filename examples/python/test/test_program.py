@@ -94,19 +94,122 @@ class Same_as_program(unittest.TestCase):
         self.assert_same_bits(uv, self.map_of_program(
             *mesh, "--method", "low-stretch", "--one-to-one", "--signal", "normals", *words))
 
+    def atlas_of_program(self, *words):
+        """Vertices, faces, uv and uv_faces of the atlas of the mesh that was written."""
+        self.run_program("atlas", *words[:1], "-o", self.path("atlas"), *words[1:])
+        return meshes.read_obj(self.path("atlas/atlas.obj"))
+
     def test_atlases(self):
+        cases = (({}, ()),
+                 ({"resolution": 300, "padding": 5, "method": "spectral"},
+                  ("--texture", "300", "--padding", "5", "--method", "spectral")),
+                 ({"align": True, "packer": "horizon"}, ("--align", "--packer", "horizon")),
+                 ({"seam_price": np.inf, "min_used": 0.85, "area_scale": 2.},
+                  ("--seam-price", "inf", "--min-used", "85", "--max-area-scale", "2")),
+                 ({"stack": True}, ("--stack",)),
+                 ({"symmetric": True, "stack": True}, ("--symmetric", "--stack")),
+                 ({"symmetric": True, "align": True}, ("--symmetric", "--align")))
         for mesh in (meshes.torus(), meshes.two_parts(), meshes.hills(50)):
-            for options, words in (({}, ()), ({"resolution": 300, "padding": 5, "method": "spectral"},
-                                              ("--texture", "300", "--padding", "5", "--method",
-                                               "spectral"))):
+            for options, words in cases:
                 with self.subTest(faces=len(mesh[1]), **options):
                     made = hlscm.atlas(*mesh, full=True, **options)
                     meshes.write_ply(self.path("in.ply"), *mesh)
-                    self.run_program("atlas", self.path("in.ply"), "-o", self.path("atlas"), *words)
-                    vertices, faces, uv, uv_faces = meshes.read_obj(self.path("atlas/atlas.obj"))
+                    vertices, faces, uv, uv_faces = self.atlas_of_program(self.path("in.ply"), *words)
                     self.assert_same_bits(vertices, np.asarray(mesh[0]))
                     np.testing.assert_array_equal(faces, mesh[1])
                     self.assert_same_bits(made.uv[made.indices], uv[uv_faces])
+
+    def test_atlases_with_smooth_seams(self):
+        mesh = meshes.torus()
+        meshes.write_ply(self.path("in.ply"), *mesh)
+        made = hlscm.atlas(*mesh, smooth_seams=True, full=True)
+        vertices, faces, uv, uv_faces = self.atlas_of_program(self.path("in.ply"), "--smooth-seams")
+        self.assertGreater(len(made.faces), len(mesh[1]))
+        self.assert_same_bits(made.vertices, vertices)
+        np.testing.assert_array_equal(made.faces, faces)
+        self.assert_same_bits(made.uv[made.indices], uv[uv_faces])
+        np.testing.assert_array_equal(made.vmapping[made.indices], made.faces)
+        # Each new face lies in the one it is of: no area is lost or new.
+        area = lambda p, f: np.linalg.norm(np.cross(p[f[:, 1]] - p[f[:, 0]], p[f[:, 2]] - p[f[:, 0]]), axis=1)
+        np.testing.assert_allclose(np.bincount(made.face, area(made.vertices, made.faces)),
+                                   area(np.asarray(mesh[0]), mesh[1]), rtol=1e-9)
+
+    def test_limits_and_pages_by_material(self):
+        vertices, faces = meshes.two_parts()
+        left = (vertices[faces][:, :, 0].mean(axis=1) > 0.5).astype(int)
+        materials = left[np.argsort(left, kind="stable")]  # the program numbers them as they come
+        faces = faces[np.argsort(left, kind="stable")]
+        uv = hlscm.atlas(vertices, faces, full=True)
+        meshes.write_obj(self.path("in.obj"), vertices, faces, uv.uv, uv.indices, materials)
+        for options, words in (({"limits": materials}, ("--limits", "materials")),
+                               ({"separate": materials, "pages": 2},
+                                ("--separate", "materials", "--pages", "2", "--udim"))):
+            with self.subTest(**options):
+                made = hlscm.atlas(vertices, faces, full=True, **options)
+                _, _, there, corners = self.atlas_of_program(self.path("in.obj"), *words)
+                here = made.udim if "separate" in options else made.textured
+                self.assert_same_bits(here.uv[here.uv_faces], there[corners])
+        of_pages = [set(materials[made.pages[made.charts] == page]) for page in range(made.number_of_pages)]
+        self.assertEqual(sorted(map(len, of_pages)), [1] * made.number_of_pages)
+        self.assertGreater(made.number_of_pages, 1)
+
+    def textured_input(self):
+        """A mesh with charts of different densities, which is written, too."""
+        vertices, faces = meshes.two_parts()
+        made = hlscm.atlas(vertices, faces, full=True)
+        uv = made.uv * 0.5
+        uv[made.indices[made.charts == 0].ravel()] *= 0.5
+        meshes.write_obj(self.path("in.obj"), vertices, faces, uv, made.indices)
+        return hlscm.TexturedMesh(vertices, faces, uv, made.indices)
+
+    def test_repacked_atlases(self):
+        mesh = self.textured_input()
+        for options, words in (({}, ()), ({"keep_scale": True}, ("--keep-scale",)),
+                               ({"align": True, "padding": 6, "resolution": 512},
+                                ("--align", "--padding", "6", "--texture", "512"))):
+            with self.subTest(**options):
+                made = hlscm.repack(mesh, full=True, **options)
+                _, _, uv, uv_faces = self.atlas_of_program(self.path("in.obj"), "--repack", *words)
+                self.assert_same_bits(made.uv[made.indices], uv[uv_faces])
+                self.assertEqual(made.report["defects"], [])
+
+    def test_importance_and_light_maps(self):
+        mesh = self.textured_input()
+        rng = np.random.default_rng(2)
+        picture = rng.integers(0, 256, (64, 64, 3), dtype=np.uint8)
+        hlscm.write_png(self.path("in.png"), picture)
+        density = hlscm.image_importance(mesh, picture / np.float32(255))
+        made = hlscm.atlas(mesh.vertices, mesh.faces, density=density, mip_levels=2, full=True)
+        _, _, uv, uv_faces = self.atlas_of_program(self.path("in.obj"), "--importance",
+                                                   self.path("in.png"), "--lightmap")
+        self.assert_same_bits(made.uv[made.indices], uv[uv_faces])
+        hlscm.write_mesh(self.path("out.glb"), made, base_uv=mesh.uv, base_uv_faces=mesh.uv_faces)
+        for here, there in zip(meshes.read_glb_uv(self.path("out.glb")),
+                               meshes.read_glb_uv(self.path("atlas/atlas.glb"))):
+            np.testing.assert_array_equal(here, there)
+
+    def test_pages_for_browsers(self):
+        folder = os.path.join(os.path.dirname(os.path.dirname(PROGRAM)), "share", "hlscm")
+        if not os.path.exists(os.path.join(folder, "stream.wasm")):
+            self.skipTest("the pages are not built")
+        made = hlscm.atlas(*meshes.torus(), full=True)
+        hlscm.view(self.path("page.html"), made, program=PROGRAM)
+        hlscm.write_mesh(self.path("mesh.obj"), made)
+        self.run_program("view", self.path("mesh.obj"), "-o", self.path("there.html"))
+        with open(self.path("page.html")) as here, open(self.path("there.html")) as there:
+            self.assertEqual(here.read(), there.read())
+        pm = hlscm.ProgressiveMesh(made)
+        hlscm.web(self.path("site"), pm, program=PROGRAM)
+        pm.write(self.path("mesh.pm"))
+        self.run_program("web", self.path("mesh.pm"), "-o", self.path("there"))
+        for name in ("index.html", "model.pm", "stream.wasm", "texture.png"):
+            with open(self.path(f"site/{name}"), "rb") as here, open(self.path(f"there/{name}"), "rb") as there:
+                self.assertEqual(here.read(), there.read())
+        with self.assertRaises(FileNotFoundError):
+            hlscm.view(self.path("page.html"), made, program="/nowhere/hlscm")
+        with self.assertRaises(hlscm.MeshError) as caught:
+            hlscm.view(self.path("page.txt"), made, program=PROGRAM)
+        self.assertIn(".html", str(caught.exception))
 
     def test_levels_and_their_file(self):
         vertices, faces = meshes.torus()

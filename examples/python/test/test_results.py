@@ -402,7 +402,12 @@ class Documentation(unittest.TestCase):
         vertices, faces = meshes.hills(40)
         return {"vertices": vertices, "faces": faces, "hlscm": hlscm, "scipy": scipy,
                 "mesh": types.SimpleNamespace(vertices=vertices, faces=faces), "b": vertices[:, 2],
-                "labels": np.zeros(len(faces), int)}
+                "labels": np.zeros(len(faces), int), "uv_faces": faces, "image": np.ones((8, 8, 3))}
+
+    def can_make_pages(self):
+        program = os.environ.get("HLSCM_PROGRAM", "")
+        share = os.path.join(os.path.dirname(os.path.dirname(program)), "share", "hlscm")
+        return os.path.exists(program) and os.path.exists(os.path.join(share, "stream.wasm"))
 
     def text(self, file):
         root = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../..")
@@ -427,11 +432,13 @@ class Documentation(unittest.TestCase):
                 for row in rows:
                     names["light"] = names.get("level")
                     for code in re.findall(r"`([^`]*[(=][^`]*)`", row):
+                        if code.startswith(("hlscm.view", "hlscm.web")) and not self.can_make_pages():
+                            continue
                         with self.subTest(code):
                             exec(code, names)
             finally:
                 os.chdir(before)
-        self.assertEqual(len(rows), 16)
+        self.assertEqual(len(rows), 24)
         exec(re.search(r"\\code{.py}\n(.*?)\\endcode", chapter, re.DOTALL).group(1), names)
         self.assertEqual(names["x"].shape, names["b"].shape)
 

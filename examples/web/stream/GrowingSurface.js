@@ -1,131 +1,147 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-import { BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, GLSL3, Mesh, ShaderMaterial,
-         Sphere, Vector3 } from "three";
+import { MORPH } from "./Drawing.js";
+import { Selection } from "./Selection.js";
 
-/** Seconds in which a new wedge goes from where its surface was to its place. */
-const MORPH = 0.6;
+const SHARE = 0.8; // of the budget for what is needed; the rest is for what glides away
 
-const VERTEX = /* glsl */ `
-  uniform float now;
-  in vec3 origin; // where the surface was before the wedge came
-  in float birth;
-  out vec2 at;
-  out vec3 place;
-  void main() {
-    vec3 p = mix(origin, position, smoothstep(0., ${MORPH.toFixed(2)}, now - birth));
-    vec4 seen = modelViewMatrix * vec4(p, 1.);
-    at = uv;
-    place = seen.xyz;
-    gl_Position = projectionMatrix * seen;
-  }`;
-
-const FRAGMENT = /* glsl */ `
-  uniform sampler2D map;
-  uniform float textured;
-  in vec2 at;
-  in vec3 place;
-  out vec4 colour;
-  void main() {
-    vec3 normal = normalize(cross(dFdx(place), dFdy(place)));
-    float light = 0.25 + 0.75 * abs(dot(normal, normalize(vec3(0.3, 0.5, 0.8))));
-    colour = vec4(light * mix(vec3(0.78), texture(map, at).rgb, textured), 1.);
-  }`;
-
-/** A mesh to draw that takes over what a ModelStream has. */
+/** What is drawn of a ModelStream: all of it, or as much as a budget allows from where the eye is. New
+ *  wedges glide from where the surface was, and those that go to where it will be. */
 export class GrowingSurface {
-  #shown = 0; // wedges
+  #wedges = 0;             // that are known
+  #selection = new Selection();
+  #arrays = null;          // of each wedge
+  #isDrawn = new Uint8Array(0); // of each vertex, those that glide away among them
+  #isAll = true;           // whether all that there was is drawn
+  #chosen = { time: -Infinity, key: "" };
+  #glides = false;         // whether something glides away
 
-  constructor(map) {
-    this.material = new ShaderMaterial({
-      uniforms: { now: { value: 0 }, map: { value: map }, textured: { value: 1 } },
-      vertexShader: VERTEX, fragmentShader: FRAGMENT, glslVersion: GLSL3, side: DoubleSide,
-    });
-    this.mesh = new Mesh(new BufferGeometry(), this.material);
-    this.mesh.frustumCulled = false;
-    this.mesh.visible = false;
+  constructor(drawing) {
+    this.drawing = drawing;
   }
 
-  /** Takes over all that is new at a time in seconds. */
-  update(stream, now) {
+  /** Takes over what is new at a time in seconds. */
+  update(stream, view, budget, now) {
     const wedges = stream.numberOfWedges;
-    if (wedges === this.#shown) {
+    if (wedges === 0) {
       return;
     }
-    const isFirst = this.#shown === 0;
-    if (isFirst) {
-      this.#allocate(wedges + stream.numberOfSplitsInFile - stream.numberOfSplits);
+    const isAll = stream.numberOfTriangles <= SHARE * budget;
+    if (isAll && this.#isAll) {
+      if (wedges > this.#wedges) {
+        this.#grow(stream, now);
+        this.drawing.putTriangles(stream.triangles, stream.numberOfTriangles);
+      }
+      return;
     }
-    const { position, uv, origin, birth } = this.mesh.geometry.attributes;
-    this.#put(position, stream.positions, 3, wedges);
-    this.#put(uv, stream.uvs, 2, wedges);
-    this.#putOrigins(stream, wedges, origin);
-    birth.array.fill(isFirst ? now - MORPH : now, this.#shown, wedges);
-    this.#mark(birth, this.#shown, wedges);
-    this.#putTriangles(stream);
-    this.#shown = wedges;
-    this.mesh.visible = true;
+    const key = [wedges, budget, ...view.eye, ...view.direction].join();
+    if ((key !== this.#chosen.key || this.#glides) && now - this.#chosen.time > MORPH) {
+      this.#grow(stream, now, false);
+      this.#choose(stream, view, budget, now);
+      this.#chosen = { time: now, key };
+      this.#isAll = isAll;
+    }
   }
 
-  /** The sphere round what is there. */
-  sphere() {
-    const { array } = this.mesh.geometry.attributes.position;
-    const points = [];
-    for (let w = 0; w < this.#shown; ++w) {
-      points.push(new Vector3().fromArray(array, 3 * w));
+  /** The centre of what is there and how far it reaches. */
+  sphere(stream) {
+    const { positions } = stream;
+    const low = [Infinity, Infinity, Infinity], high = low.map((x) => -x);
+    for (let i = 0; i < positions.length; ++i) {
+      low[i % 3] = Math.min(low[i % 3], positions[i]);
+      high[i % 3] = Math.max(high[i % 3], positions[i]);
     }
-    return new Sphere().setFromPoints(points);
+    const center = low.map((x, c) => (x + high[c]) / 2);
+    let radius = 0;
+    for (let i = 0; i < positions.length; i += 3) {
+      radius = Math.max(radius, Math.hypot(...center.map((x, c) => positions[i + c] - x)));
+    }
+    return { center, radius };
+  }
+
+  // Takes over the wedges that are new, which are drawn or not.
+  #grow(stream, now, areDrawn = true) {
+    const wedges = stream.numberOfWedges, first = this.#wedges;
+    if (!this.#arrays) {
+      this.#allocate(wedges + stream.numberOfSplitsInFile - stream.numberOfSplits);
+    }
+    const { origin, goal, uv, start } = this.#arrays;
+    const { positions, uvs, parents, vertices } = stream;
+    goal.set(positions.subarray(3 * first), 3 * first);
+    uv.set(uvs.subarray(2 * first), 2 * first);
+    const base = wedges - stream.numberOfSplits;
+    for (let w = first; w < wedges; ++w) {
+      // That of the nearest ancestor that was there
+      const parent = w < base ? w : parents[w - base];
+      const from = parent < first || w < base ? positions : origin;
+      for (let c = 0; c < 3; ++c) {
+        origin[3 * w + c] = from[3 * parent + c];
+      }
+      this.#isDrawn[vertices[w]] = areDrawn ? 1 : 0;
+    }
+    start.fill(first === 0 ? now - MORPH : now, first, wedges);
+    this.drawing.put(this.#arrays, first, wedges);
+    this.#wedges = wedges;
+    this.#selection.grow(stream);
+  }
+
+  #choose(stream, view, budget, now) {
+    const selection = this.#selection;
+    const { vertices } = stream;
+    const before = selection.representatives(stream, this.#isDrawn); // by what was drawn
+    const wasDrawn = this.#isDrawn.slice();
+    const wasNeeded = selection.isNeeded.slice();
+    selection.choose(stream, view, SHARE * budget);
+    const { isNeeded } = selection;
+    const after = selection.representatives(stream, isNeeded);
+    // What was needed glides away, if there is room for it.
+    this.#glides = false;
+    for (let v = 0; v < selection.numberOfVertices; ++v) {
+      const stays = (this.#isAll ? wasDrawn[v] : wasNeeded[v]) === 1;
+      this.#isDrawn[v] = isNeeded[v] === 1 || stays ? 1 : 0;
+      this.#glides ||= stays && isNeeded[v] === 0;
+    }
+    if (this.#glides && !selection.list(stream, this.#isDrawn, budget)) {
+      this.#glides = false;
+      this.#isDrawn.set(isNeeded.subarray(0, selection.numberOfVertices));
+      selection.list(stream, isNeeded, Infinity);
+    }
+    const { origin, goal, start } = this.#arrays;
+    const { positions } = stream;
+    const place = [0, 0, 0];
+    const goes = (w, to) => goal[w] !== positions[to] || goal[w + 1] !== positions[to + 1]
+      || goal[w + 2] !== positions[to + 2];
+    for (let w = 0; w < this.#wedges; ++w) { // ancestors come before
+      const v = vertices[w], to = 3 * after[w];
+      if (!this.#isDrawn[v] || (wasDrawn[v] && !goes(3 * w, to))) {
+        continue;
+      }
+      this.#placeOf(before[w], now, place);
+      for (let c = 0; c < 3; ++c) {
+        origin[3 * w + c] = place[c];
+        goal[3 * w + c] = positions[to + c];
+      }
+      start[w] = now;
+    }
+    this.drawing.put({ origin, goal, start }, 0, this.#wedges);
+    this.drawing.putTriangles(selection.triangles, selection.numberOfTriangles);
+  }
+
+  // Where a wedge is drawn. One that is not has the place of an ancestor.
+  #placeOf(w, now, place) {
+    const { origin, goal, start } = this.#arrays;
+    const t = Math.min(Math.max((now - start[w]) / MORPH, 0), 1);
+    const part = t * t * (3 - 2 * t);
+    for (let c = 0; c < 3; ++c) {
+      place[c] = origin[3 * w + c] + part * (goal[3 * w + c] - origin[3 * w + c]);
+    }
   }
 
   #allocate(wedges) {
-    const { geometry } = this.mesh;
-    for (const [name, size] of [["position", 3], ["origin", 3], ["uv", 2], ["birth", 1]]) {
-      const attribute = new BufferAttribute(new Float32Array(size * wedges), size);
-      geometry.setAttribute(name, attribute.setUsage(DynamicDrawUsage));
-    }
-  }
-
-  #put(attribute, values, size, wedges) {
-    attribute.array.set(values.subarray(size * this.#shown), size * this.#shown);
-    this.#mark(attribute, size * this.#shown, size * wedges);
-  }
-
-  // A new wedge begins where its nearest ancestor is that was drawn before.
-  #putOrigins(stream, wedges, origin) {
-    const { positions, parents } = stream;
-    const base = wedges - stream.numberOfSplits;
-    for (let w = this.#shown; w < wedges; ++w) {
-      const parent = w < base ? w : parents[w - base];
-      const from = parent < this.#shown || w < base ? positions : origin.array;
-      for (let c = 0; c < 3; ++c) {
-        origin.array[3 * w + c] = from[3 * parent + c];
-      }
-    }
-    this.#mark(origin, 3 * this.#shown, 3 * wedges);
-  }
-
-  // Splits change older triangles, too: all of them go to the graphics card anew.
-  #putTriangles(stream) {
-    const { geometry } = this.mesh;
-    const { triangles } = stream;
-    if (!geometry.index || geometry.index.array.length < triangles.length) {
-      geometry.index?.array && this.#dropIndex();
-      const room = new Uint32Array(Math.ceil(1.5 * triangles.length));
-      geometry.setIndex(new BufferAttribute(room, 1).setUsage(DynamicDrawUsage));
-    }
-    geometry.index.array.set(triangles);
-    this.#mark(geometry.index, 0, triangles.length);
-    geometry.setDrawRange(0, triangles.length);
-  }
-
-  // Frees what the graphics card has of a geometry whose index is to be larger.
-  #dropIndex() {
-    this.mesh.geometry.dispose();
-  }
-
-  #mark(attribute, begin, end) {
-    attribute.addUpdateRange(begin, end - begin);
-    attribute.needsUpdate = true;
+    this.#arrays = { origin: new Float32Array(3 * wedges), goal: new Float32Array(3 * wedges),
+                     uv: new Float32Array(2 * wedges), start: new Float32Array(wedges) };
+    this.#isDrawn = new Uint8Array(wedges);
+    this.drawing.reserve(wedges);
   }
 }

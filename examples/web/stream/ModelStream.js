@@ -57,6 +57,8 @@ export class ModelStream {
   get uvs() { return this.#floats(this.#exports.texture_coordinates(), 2 * this.numberOfWedges); }
   /** Three wedges of each triangle. */
   get triangles() { return this.#indices(this.#exports.triangles(), 3 * this.numberOfTriangles); }
+  /** The vertex of each wedge; those that come later have larger numbers. */
+  get vertices() { return this.#indices(this.#exports.vertices(), this.numberOfWedges); }
   /** The wedge into which each one that a split made collapses. */
   get parents() { return this.#indices(this.#exports.parents(), this.numberOfSplits); }
 

@@ -1,20 +1,21 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Draws model.pm while it is loading.
+// Draws model.pm while it is loading, by WebGL alone: the page is small, so that the first picture is early.
 
-import { PerspectiveCamera, RepeatWrapping, Scene, TextureLoader, WebGLRenderer } from "three";
-import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { Drawing } from "./Drawing.js";
 import { Feed } from "./Feed.js";
 import { GrowingSurface } from "./GrowingSurface.js";
 import { ModelStream, Status } from "./ModelStream.js";
+import { Orbit } from "./Orbit.js";
 
 const element = (id) => document.getElementById(id);
 const BYTES_A_FRAME = 1 << 17;
-const SLOWEST = 25; // frames a second
+const SLOWEST = 25, FAST = 40; // frames a second: of less there is to draw, of more there may be
+const FEWEST = 20000; // triangles that are drawn however slow that is
 const FIELD_OF_VIEW = 35;
 
-/** Frames a second, as measured over the last half second. */
+/** Frames a second, as measured over the last half second; count() says whether that is new. */
 class FrameRate {
   rate = 0;
   #frames = 0;
@@ -22,76 +23,76 @@ class FrameRate {
 
   count(now) {
     ++this.#frames;
-    if (now - this.#since > 500) {
-      this.rate = (1000 * this.#frames) / (now - this.#since);
-      this.#frames = 0;
-      this.#since = now;
+    if (now - this.#since <= 500) {
+      return false;
     }
+    this.rate = (1000 * this.#frames) / (now - this.#since);
+    this.#frames = 0;
+    this.#since = now;
+    return true;
   }
 }
 
 class Viewer {
-  constructor(stream, feed, map) {
+  constructor(stream, feed, budget) {
     Object.assign(this, { stream, feed });
-    this.surface = new GrowingSurface(map);
-    this.renderer = new WebGLRenderer({ canvas: element("canvas"), antialias: true, alpha: true });
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    this.scene = new Scene();
-    this.scene.add(this.surface.mesh);
-    this.camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.01, 100);
-    this.controls = new OrbitControls(this.camera, this.renderer.domElement);
+    this.canvas = element("canvas");
+    this.drawing = new Drawing(this.canvas);
+    this.surface = new GrowingSurface(this.drawing);
+    this.camera = new Orbit(this.canvas, { fieldOfView: FIELD_OF_VIEW });
     this.rate = new FrameRate();
+    this.budget = budget ?? Infinity; // triangles
+    this.isFixed = budget !== null;
     this.status = Status.TRUNCATED;
     this.firstPicture = -1; // the bytes that had come when there was something to see
-    this.isHeld = false;
     this.error = ""; // of what was to be drawn
     addEventListener("resize", () => this.#resize());
     this.#resize();
-    this.controls.listenToKeyEvents(window);
   }
 
   /** One picture at a time in milliseconds. */
   frame(now) {
-    this.rate.count(now);
-    this.isHeld = element("hold").checked && this.stream.numberOfTriangles > 50000
-      && this.rate.rate > 0 && this.rate.rate < SLOWEST;
-    if (!this.isHeld && !this.error) {
+    if (this.rate.count(now) && !this.isFixed) {
+      this.#adapt();
+    }
+    if (!this.error) {
       try {
         this.#take(now);
       } catch (error) { // the frames go on with what there is
         this.error = `the model is too large for this browser, or damaged: ${error.message}`;
       }
     }
-    const { uniforms } = this.surface.material;
-    uniforms.now.value = now / 1000;
-    uniforms.textured.value = element("textured").checked && this.stream.hasTexture
-      && this.surface.material.uniforms.map.value.image ? 1 : 0; // black without a picture
-    this.controls.update();
-    this.renderer.render(this.scene, this.camera);
+    this.drawing.draw(this.camera, now / 1000, element("textured").checked && this.stream.hasTexture);
     this.#count();
+  }
+
+  // As many triangles as the frame rate allows
+  #adapt() {
+    const { rate } = this.rate, drawn = this.drawing.numberOfTriangles;
+    if (!element("hold").checked) {
+      this.budget = Infinity;
+    } else if (rate < SLOWEST && drawn > FEWEST) {
+      this.budget = Math.max(FEWEST, Math.round(0.75 * Math.min(this.budget, drawn)));
+    } else if (rate > FAST && drawn > this.budget / 2) {
+      this.budget = Math.round(1.3 * this.budget);
+    }
   }
 
   #take(now) {
     const bytes = this.status === Status.TRUNCATED ? this.feed.take(BYTES_A_FRAME) : null;
-    if (!bytes) {
-      return;
+    if (bytes) {
+      this.status = this.stream.push(bytes);
     }
-    this.status = this.stream.push(bytes);
-    this.surface.update(this.stream, now / 1000);
     if (this.firstPicture < 0 && this.stream.numberOfTriangles > 0) {
       this.firstPicture = this.feed.received;
-      this.#lookAtAll();
+      const { center, radius } = this.surface.sphere(this.stream);
+      this.camera.lookAt(center, radius, this.canvas.width / this.canvas.height);
     }
-  }
-
-  #lookAtAll() {
-    const { center, radius } = this.surface.sphere();
-    const distance = (1.15 * radius) / Math.sin((FIELD_OF_VIEW * Math.PI) / 360);
-    this.controls.target.copy(center);
-    this.camera.position.copy(center).z += distance;
-    this.camera.near = distance / 1000;
-    this.camera.far = distance * 10;
-    this.camera.updateProjectionMatrix();
+    const { eye, direction } = this.camera;
+    const half = Math.tan((FIELD_OF_VIEW * Math.PI) / 360), { width, height } = this.canvas;
+    const corner = half * Math.hypot(1, width / height); // of the picture, at distance 1
+    const cosine = 1 / Math.hypot(1, 1.2 * corner); // and somewhat more, as it may turn
+    this.surface.update(this.stream, { eye, direction, cosine }, this.budget, now / 1000);
   }
 
   #count() {
@@ -100,7 +101,8 @@ class Viewer {
     element("bytes").textContent = feed.size > 0 ? `${number(feed.received)} of ${number(feed.size)}`
                                                  : number(feed.received);
     element("splits").textContent = `${number(stream.numberOfSplits)} of ${number(stream.numberOfSplitsInFile)}`;
-    element("triangles").textContent = number(stream.numberOfTriangles);
+    const drawn = this.drawing.numberOfTriangles, all = stream.numberOfTriangles;
+    element("triangles").textContent = drawn < all ? `${number(drawn)} of ${number(all)}` : number(all);
     element("rate").textContent = number(this.rate.rate);
     element("progress").value = feed.size > 0 ? feed.received / feed.size : 0;
     element("message").textContent = this.#message();
@@ -117,31 +119,39 @@ class Viewer {
     if (this.status !== Status.TRUNCATED || isOver) {
       return this.stream.message;
     }
-    return this.isHeld ? "held for the frame rate" : "loading";
+    return "loading";
   }
 
   #resize() {
-    this.renderer.setSize(innerWidth, innerHeight, false);
-    this.camera.aspect = innerWidth / innerHeight;
-    this.camera.updateProjectionMatrix();
+    const pixels = Math.min(devicePixelRatio, 2);
+    this.canvas.width = Math.max(1, Math.round(innerWidth * pixels));
+    this.canvas.height = Math.max(1, Math.round(innerHeight * pixels));
   }
 }
 
+/** What the address says of the budget: `budget=N` triangles, or `budget=no` for all of them. */
+function budgetOfAddress() {
+  const budget = new URLSearchParams(location.search).get("budget");
+  return budget === "no" ? Infinity : budget && Math.max(1, Number(budget) || 1);
+}
+
 async function start() {
-  if (new URLSearchParams(location.search).get("hold") === "no") {
-    element("hold").checked = false;
-  }
   const feed = new Feed("model.pm"); // at once, with the reader
   const response = await fetch("stream.wasm");
   if (!response.ok) {
     throw new Error(`the server says ${response.status} to stream.wasm`);
   }
-  const reader = await response.arrayBuffer();
-  const map = new TextureLoader().load("texture.png"); // its numbers are drawn as they are
-  map.wrapS = map.wrapT = RepeatWrapping;
-  const viewer = new Viewer(await ModelStream.create(reader), feed, map);
+  const viewer = new Viewer(await ModelStream.create(await response.arrayBuffer()), feed,
+                            budgetOfAddress());
   window.hlscm = { viewer, Status };
-  viewer.renderer.setAnimationLoop((now) => viewer.frame(now));
+  const frame = (now) => {
+    viewer.frame(now);
+    requestAnimationFrame(frame);
+  };
+  requestAnimationFrame(frame);
+  const image = new Image(); // later than what there is to see without it
+  image.onload = () => viewer.drawing.putPicture(image);
+  image.src = "texture.png";
 }
 
 start().catch((error) => {

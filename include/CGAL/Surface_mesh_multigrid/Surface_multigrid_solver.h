@@ -107,17 +107,19 @@ public:
     });
   }
 
-  /// Takes a sparse matrix of Eigen as \f$ A \f$: row i is vertex i of the mesh; of blocks of N rows
-  /// the rows N i and following.
-  template <class Number, int Options_, class Index>
-  Report set_matrix(const Eigen::SparseMatrix<Number, Options_, Index>& matrix,
+  /// Takes a sparse matrix of Eigen as \f$ A \f$, or a `Eigen::Map` of one on arrays of the caller's:
+  /// row i is vertex i of the mesh; of blocks of N rows the rows N i and following. Entries of a row, or
+  /// of a column if these come first, are in the order of their indices.
+  template <class Matrix>
+  Report set_matrix(const Eigen::SparseCompressedBase<Matrix>& matrix,
                     const std::vector<bool>& is_fixed = {})
   {
     return set_rows(is_fixed, [&](Report& report) {
       constexpr int rows = Multigrid::Value_traits<Value>::rows;
-      if(report.fail(Mesh_status::BAD_OPTIONS, internal::matrix_error<rows>(size(), matrix)))
+      const Matrix& a = matrix.derived();
+      if(report.fail(Mesh_status::BAD_OPTIONS, internal::matrix_error<rows>(size(), a)))
         return Rows();
-      return internal::copy_rows<Double>(*m_surface, matrix);
+      return internal::copy_rows<Double>(*m_surface, a);
     });
   }
 

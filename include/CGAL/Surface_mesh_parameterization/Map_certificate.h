@@ -4,11 +4,18 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_MAP_CERTIFICATE_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_MAP_CERTIFICATE_H
 
+#include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 #include <CGAL/Surface_mesh_parameterization/Distortion_measures.h>
 #include <CGAL/Surface_mesh_parameterization/self_overlap.h>
 
+#include <CGAL/Iterator_range.h>
+
+#include <boost/iterator/counting_iterator.hpp>
+
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -110,6 +117,123 @@ Map_certificate certify_map(const TriangleMesh& mesh, VertexUVMap uvmap)
   Map_certificate certificate;
   for(const auto f : faces(mesh)) {
     const Orientation sign = orientation_of(view.triangle(f));
+    certificate.flipped_faces += sign == RIGHT_TURN ? 1 : 0;
+    certificate.degenerate_faces += sign == COLLINEAR ? 1 : 0;
+  }
+  certificate.overlaps = has_global_overlap(view);
+  return certificate;
+}
+
+/*!
+\ingroup PkgHLSCMMeasures
+
+The class `Uv_arrays` is a view of a map of a mesh that is two arrays, for `certify_map()` and
+`visit_overlapping_faces()`. Both arrays must live as long.
+
+\pre the mesh is a manifold: `Indexed_mesh::manifold_error()` is empty; there is a parameter for each vertex
+*/
+class Uv_arrays
+{
+public:
+  typedef Simple_cartesian<double>::Point_2 Point_2; ///< a parameter
+
+  /// Constructs it from the mesh and the parameter of each vertex.
+  Uv_arrays(const Indexed_mesh::Indexed_triangle_mesh& mesh, const std::vector<Point_2>& uv)
+    : m_triangles(mesh.triangles), m_uv(uv)
+  {
+    CGAL_precondition(uv.size() == mesh.points.size());
+  }
+
+  /// Returns the image of a vertex.
+  Uv_point point(Indexed_mesh::Vertex_index v) const { return Uv_point(m_uv[v].x(), m_uv[v].y()); }
+  /// Returns the image of triangle `t`.
+  Uv_triangle triangle(std::size_t t) const
+  {
+    const auto& v = m_triangles[t];
+    return {point(v[0]), point(v[1]), point(v[2])};
+  }
+  /// Returns the triangles, by the indices of their vertices.
+  const std::vector<Indexed_mesh::Triangle_indices>& triangles() const { return m_triangles; }
+  /// Returns the parameter of each vertex.
+  const std::vector<Point_2>& uv() const { return m_uv; }
+
+  /// Returns itself, a range of faces that are numbers.
+  const Uv_arrays& mesh() const { return *this; }
+  friend std::size_t num_faces(const Uv_arrays& view) { return view.m_triangles.size(); }
+  friend auto faces(const Uv_arrays& view)
+  {
+    typedef boost::counting_iterator<std::size_t> Iterator;
+    return make_range(Iterator(0), Iterator(view.m_triangles.size()));
+  }
+
+private:
+  const std::vector<Indexed_mesh::Triangle_indices>& m_triangles;
+  const std::vector<Point_2>& m_uv;
+};
+
+namespace internal {
+
+// How many of the simple and disjoint images of borders are counterclockwise, or clockwise if `sign`
+// says so. Edges run with the surface on their left.
+inline std::size_t
+number_of_outer_borders(const Uv_arrays& view,
+                        const std::vector<std::array<std::uint32_t, 2>>& border, Orientation sign)
+{
+  std::vector<std::uint32_t> next(view.uv().size(), Indexed_mesh::no_vertex);
+  for(const auto& [from, to] : border)
+    next[from] = to;
+  std::size_t result = 0;
+  for(const auto& edge : border) {
+    std::vector<Uv_point> cycle; // empty if it was there before
+    for(std::uint32_t v = edge[0]; next[v] != Indexed_mesh::no_vertex;
+        v = std::exchange(next[v], Indexed_mesh::no_vertex))
+      cycle.push_back(view.point(v));
+    if(cycle.empty())
+      continue;
+    const std::size_t n = cycle.size();
+    const auto i = std::size_t(std::min_element(cycle.begin(), cycle.end()) - cycle.begin());
+    result += orientation(cycle[(i + n - 1) % n], cycle[i], cycle[(i + 1) % n]) == sign ? 1 : 0;
+  }
+  return result;
+}
+
+} // namespace internal
+
+/// \ingroup PkgHLSCMMeasures
+/// Returns whether a map of a mesh that is two arrays covers a part of the plane twice.
+inline bool has_global_overlap(const Uv_arrays& view)
+{
+  const Indexed_mesh::Triangle_adjacency adjacency(view.triangles());
+  std::array<std::size_t, 3> count = {0, 0, 0}; // of each orientation
+  std::vector<std::array<std::uint32_t, 2>> border;
+  for(std::uint32_t t = 0; t < view.triangles().size(); ++t) {
+    const Orientation sign = orientation_of(view.triangle(t));
+    ++count[std::size_t(int(sign) + 1)];
+    for(int c = 0; c < 3; ++c) {
+      const Indexed_mesh::Halfedge o = adjacency.opposite(t, c);
+      if(o == Indexed_mesh::no_halfedge)
+        border.push_back({view.triangles()[t][c], view.triangles()[t][(c + 1) % 3]});
+      else if(sign == RIGHT_TURN
+              && orientation_of(view.triangle(Indexed_mesh::triangle_of(o))) == LEFT_TURN)
+        return true;
+    }
+  }
+  if(count[1] == 0 && (count[0] == 0 || count[2] == 0) && is_simple_border(border, view.uv())
+     && internal::number_of_outer_borders(view, border, count[0] == 0 ? LEFT_TURN : RIGHT_TURN) <= 1)
+    return false;
+  return has_overlapping_triangles(view);
+}
+
+/// \ingroup PkgHLSCMMeasures
+/// The same as `certify_map()` for a mesh that is two arrays, with the parameter `uv[v]` of each vertex.
+/// \pre that of `Uv_arrays`
+inline Map_certificate certify_map(const Indexed_mesh::Indexed_triangle_mesh& mesh,
+                                   const std::vector<Simple_cartesian<double>::Point_2>& uv)
+{
+  const Uv_arrays view(mesh, uv);
+  Map_certificate certificate;
+  for(std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Orientation sign = orientation_of(view.triangle(t));
     certificate.flipped_faces += sign == RIGHT_TURN ? 1 : 0;
     certificate.degenerate_faces += sign == COLLINEAR ? 1 : 0;
   }

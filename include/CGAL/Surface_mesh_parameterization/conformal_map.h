@@ -7,6 +7,7 @@
 #include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
+#include <CGAL/Surface_mesh_parameterization/internal/repair/mapped_faces.h>
 #include <CGAL/Surface_mesh_parameterization/internal/solver/map_chart_conformally.h>
 
 #include <utility>
@@ -37,11 +38,17 @@ CGAL_HLSCM_INLINE Conformal_map map_arrays(Indexed_mesh::Indexed_triangle_mesh m
   Conformal_map result;
   const std::size_t n = mesh.points.size();
   Run_control run(options, result.report);
+  Indexed_mesh::Indexed_triangle_mesh kept; // for the repair
+  if(options.repair_flips) {
+    run.make_room_for_repair();
+    kept = mesh;
+  }
   Prepared_chart prepared = {{}, run.status()};
   if(run.status().is_ok())
     prepared = chart_of_arrays(std::move(mesh), options.metric);
-  const Chart_map map
-    = map_chart_conformally(std::move(prepared), n, wanted, Coarsest_solver(), run);
+  Chart_map map = map_chart_conformally(std::move(prepared), n, wanted, Coarsest_solver(), run);
+  if(options.repair_flips && !run.is_stopped())
+    repair_arrays(kept, Indexed_mesh::ranks(map.source, n), map.pins, run, map.z);
   if(!run.is_stopped())
     result.uv = points_of_values(map.source, map.z, n);
   result.error = run.finish();
@@ -56,8 +63,8 @@ CGAL_HLSCM_INLINE Conformal_map map_arrays(Indexed_mesh::Indexed_triangle_mesh m
 
 Returns the least squares conformal map with a free border of a connected mesh of genus 0 that has a
 border: what `HLSCM_parameterizer_3` computes, with pins of its own choice, for a mesh that is two
-arrays. `HLSCM_options::threads`, `keep_progressive_mesh` and `repair_flips` do not count here: the
-threads are those of the caller's `Blocked_execution::Thread_scope`.
+arrays. `HLSCM_options::threads` and `keep_progressive_mesh` do not count here: the threads are those of
+the caller's `Blocked_execution::Thread_scope`.
 
 Time and memory as for `HLSCM_parameterizer_3`; meshes of less than about 10,000 triangles are best
 mapped with `Conformal_method::DIRECT`. Bad data (indices out of range, coordinates that are not

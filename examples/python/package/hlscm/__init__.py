@@ -19,7 +19,10 @@ entries of a wrong type are a TypeError.
 
 import dataclasses
 import os
+import shutil
 import struct
+import subprocess
+import tempfile
 import warnings
 import zlib
 from typing import Any, Callable, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
@@ -33,9 +36,9 @@ __all__ = [
     "Atlas", "Certificate", "Distortion", "Level", "LiveMap", "Mended", "MeshError", "MultigridSolver",
     "ProgressiveMesh", "TexturedMesh", "Unwrapped", "atlas", "bake_displacement", "bake_image",
     "bake_normal_map", "bake_vertex_values", "border_loops", "certify", "cotangent_laplacian",
-    "decimate", "distortion", "encode", "importance_metric", "info", "low_stretch", "lscm", "mend",
-    "parameterize", "repair_flips", "signal_metric", "spectral", "unwrap", "weld", "write_mesh",
-    "write_png",
+    "decimate", "distortion", "encode", "image_importance", "importance_metric", "info",
+    "low_stretch", "lscm", "mend", "parameterize", "repack", "repair_flips", "signal_metric", "spectral",
+    "unwrap", "view", "web", "weld", "write_mesh", "write_png",
 ]
 
 Array = np.ndarray
@@ -477,12 +480,17 @@ class Atlas:
     width: int            #: of a page, in texels
     height: int           #: of a page, in texels
     report: Report
-    vertices: Array       #: of the surface
-    faces: Array          #: of the surface, in their order
-    face: Optional[Array] #: with `mend`: the face of the input that each one is
+    vertices: Array       #: (n, 3) of the surface
+    faces: Array          #: (m, 3) of the surface, in their order
+    face: Optional[Array] #: (m,) with `mend` or `smooth_seams`: the face of the input of each one
 
     def __iter__(self) -> Any:
         return iter((self.vmapping, self.indices, self.uvs))
+
+    def _page_of_uv(self) -> Array:
+        page = np.zeros(len(self.uv), np.int64)
+        page[self.indices] = self.pages[self.charts][:, None]
+        return page
 
     @property
     def textured(self) -> TexturedMesh:
@@ -490,9 +498,14 @@ class Atlas:
         several, in float64."""
         uv = self.uv
         if self.number_of_pages > 1:
-            page = np.zeros(len(uv), np.float64)
-            page[self.indices] = self.pages[self.charts][:, None]
-            uv = np.stack([(uv[:, 0] + page) / self.number_of_pages, uv[:, 1]], axis=1)
+            uv = np.stack([(uv[:, 0] + self._page_of_uv()) / self.number_of_pages, uv[:, 1]], axis=1)
+        return TexturedMesh(self.vertices, self.faces, uv, self.indices)
+
+    @property
+    def udim(self) -> TexturedMesh:
+        """The surface with page p on the UDIM tile 1001 + p: ten tiles in a row, rows upwards."""
+        page = self._page_of_uv()
+        uv = self.uv + np.stack([page % 10, page // 10], axis=1)
         return TexturedMesh(self.vertices, self.faces, uv, self.indices)
 
 
@@ -502,14 +515,29 @@ def _size(resolution: Any) -> Tuple[int, int]:
     return width, height
 
 
+def _labels(values: Optional[ArrayLike], name: str, back: Optional[Mended]) -> Optional[Array]:
+    """A number from 0 on for each face, those of the mended surface if there is one."""
+    if values is None:
+        return None
+    labels = _numbers(values, name)
+    if labels.size and (labels.min() < 0 or labels.max() >= 2 ** 32):
+        raise MeshError(f"{name} has a number below 0 or beyond 32 bits")
+    if back is not None and len(labels) <= int(back.face.max()):
+        raise MeshError(f"there are {name} for {len(labels)} faces alone")
+    return labels if back is None else labels[back.face]
+
+
 def atlas(vertices: Any, faces: Any = None, /, *, max_charts: int = 0, seam_price: float = 0.02,
-          min_used: float = 0., area_scale: float = 4.,
-          quasi_conformal: float = 2., least_fill: float = 0.75, method: str = "border-first",
-          resolution: Union[int, Tuple[int, int]] = 1024, largest_aspect: float = 1.,
-          padding: int = 2, mip_levels: int = 0, pages: int = 1, texels_per_unit: float = 0., packing_time: float = 0.,
-          density: Optional[ArrayLike] = None, metric: Optional[ArrayLike] = None,
-          charts: Optional[ArrayLike] = None, mend: bool = False, time_limit: float = 0.,
-          threads: int = 0, progress: Progress = None, full: bool = False) -> Any:
+          min_used: float = 0., area_scale: float = 4., quasi_conformal: float = 2.,
+          least_fill: float = 0.75, method: str = "border-first",
+          resolution: Union[int, Tuple[int, int]] = 1024, largest_aspect: float = 1., padding: int = 2,
+          mip_levels: int = 0, pages: int = 1, texels_per_unit: float = 0., packer: str = "raster",
+          packing_time: float = 0., density: Optional[ArrayLike] = None,
+          metric: Optional[ArrayLike] = None, charts: Optional[ArrayLike] = None,
+          limits: Optional[ArrayLike] = None, separate: Optional[ArrayLike] = None,
+          align: bool = False, smooth_seams: bool = False, stack: bool = False,
+          symmetric: bool = False, mend: bool = False, time_limit: float = 0., threads: int = 0,
+          progress: Progress = None, full: bool = False) -> Any:
     """Cuts a surface into charts, maps each one-to-one, and packs them into textures.
 
     max_charts: the number of charts to come down to, beyond the bounds if need be; 0 for as few as
@@ -523,41 +551,99 @@ def atlas(vertices: Any, faces: Any = None, /, *, max_charts: int = 0, seam_pric
         fewer charts; or that of a conformal map, as for parameterize().
     resolution: texels of a page, or (width, height); padding: texels between charts.
     largest_aspect: how many times as wide as high pages may be, which are then lower if that is fuller.
-    mip_levels: the coarsest level of the texture that keeps the padding.
+    mip_levels: the coarsest level of the texture that keeps the padding; 2 for a light map.
     pages: how many must do; 0 for as many as needed for texels_per_unit (0: the most that fit).
+    packer: "raster", charts in any gap where they fit, or "horizon", from below.
     packing_time: seconds for better packings, counted so that the result is the same anywhere.
-    density: (m,), the texels that a face is to have along a unit of length, relative to others.
+    density: (m,), the texels that a face is to have along a unit of length, relative to others; see
+        image_importance().
     metric: (m, 6), see signal_metric().
     charts: (m,), a number from 0 on for each face: edges between different ones are seams. Charts that
         have no one-to-one map are cut. With zeros one for each component.
+    limits: (m,), the same for seams beside those that are found, such as the materials of faces.
+    separate: (m,), the same as `limits`, and faces with different numbers lie on pages of their own, at
+        most `pages` for each number.
+    align: whether borders of charts lie along rows and columns, straight where they nearly are.
+    smooth_seams: whether seams are led through faces, which are cut there. Only with `full`: the faces
+        are then those of Atlas.vertices and Atlas.faces, and vmapping and indices are for these.
+    stack: whether equal parts of the surface, also mirrored ones, share their place.
+    symmetric: whether mirrored halves, and equal parts, have equal charts; with `stack` in one place.
     mend: whether the input is mended first, see mend(); then the faces are those of the mended surface.
     time_limit: seconds after which the atlas is finished in the quickest way that makes it valid.
 
     Returns vmapping (w,) uint32, indices (m, 3) uint32, uvs (w, 2) float32, faces in their order: the
     new mesh is `vertices[vmapping], indices, uvs`. With `full` an Atlas, with report, charts and pages.
     """
+    if smooth_seams and not full:
+        raise MeshError("smooth_seams cuts faces: give full, too, and take the faces of the Atlas")
     vertices, faces, back, no_seams = _mended(vertices, faces, mend)
-    labels = None if charts is None else _numbers(charts, "charts")
-    if labels is not None and labels.size and (labels.min() < 0 or labels.max() >= 2 ** 32):
-        raise MeshError("a face has a chart below 0 or beyond 32 bits")
-    if labels is not None and back is not None:
-        if len(labels) <= int(back.face.max()):
-            raise MeshError(f"there are charts for {len(labels)} faces alone")
-        labels = labels[back.face]
     width, height = _size(resolution)
-    made = _hlscm.atlas(
-        vertices, faces, method, max_charts, seam_price, min_used, area_scale, quasi_conformal,
-        least_fill, width, height, largest_aspect, padding, mip_levels, pages, texels_per_unit,
-        packing_time, _list(density, "density"),
-        None if metric is None else _real(metric, "metric"),
-        no_seams, labels, time_limit, threads, progress)
-    vmapping = made["vmapping"] if back is None else back.vertex[made["vmapping"]]
+    options = {
+        "max_charts": max_charts, "seam_price": seam_price, "min_used": min_used,
+        "area_scale": area_scale, "quasi_conformal": quasi_conformal, "least_fill": least_fill,
+        "method": method, "width": width, "height": height, "largest_aspect": largest_aspect,
+        "padding": padding, "mip_levels": mip_levels, "pages": pages,
+        "texels_per_unit": texels_per_unit, "packer": packer, "packing_time": packing_time,
+        "density": _list(density, "density"),
+        "metric": None if metric is None else _real(metric, "metric"), "no_seams": no_seams,
+        "charts": _labels(charts, "charts", back), "limits": _labels(limits, "limits", back),
+        "separate": _labels(separate, "separate", back), "align": align,
+        "smooth_seams": smooth_seams, "stack": stack, "symmetric": symmetric,
+        "time_limit": time_limit}
+    made = _hlscm.atlas(vertices, faces, options, threads, progress)
+    return _atlas_of(made, vertices, faces, back, full)
+
+
+def _atlas_of(made: Report, vertices: Array, faces: Array, back: Optional[Mended],
+              full: bool) -> Any:
+    """What is returned of what the compiled part made."""
+    vmapping, face = made["vmapping"], None if back is None else back.face
+    if "face" in made:
+        vertices, faces = made["vertices"], made["faces"]
+        face = made["face"] if face is None else face[made["face"]]
+    elif back is not None:
+        vmapping = back.vertex[vmapping]
     uvs = made["uv"].astype(np.float32)
     if not full:
         return vmapping, made["indices"], uvs
     return Atlas(vmapping, made["indices"], uvs, made["uv"], made["charts"], made["pages"],
                  made["number_of_pages"], made["width"], made["height"], made["report"], vertices, faces,
-                 None if back is None else back.face)
+                 face)
+
+
+def repack(mesh: Any, /, *, keep_scale: bool = False, strict: bool = False,
+           resolution: Union[int, Tuple[int, int]] = 1024, largest_aspect: float = 1.,
+           padding: int = 2, mip_levels: int = 0, pages: int = 1, texels_per_unit: float = 0.,
+           packer: str = "raster", packing_time: float = 0., density: Optional[ArrayLike] = None,
+           separate: Optional[ArrayLike] = None, align: bool = False, time_limit: float = 0.,
+           threads: int = 0, progress: Progress = None, full: bool = False) -> Any:
+    """Packs the charts that a mesh has in its texture anew: each is turned, moved and scaled only.
+
+    mesh: a TexturedMesh, (vertices, faces, uv, uv_faces), whose uv may lie anywhere.
+    keep_scale: whether charts keep their sizes beside each other; otherwise all get the same density.
+    strict: whether charts that are not one-to-one are refused; otherwise they stay as they are, with a
+        RuntimeWarning, and the report names them under "defects".
+    The other options and what is returned are as for atlas().
+    """
+    textured = _textured(mesh, "the mesh")
+    width, height = _size(resolution)
+    options = {
+        "keep_scale": keep_scale, "strict": strict, "width": width, "height": height,
+        "largest_aspect": largest_aspect, "padding": padding, "mip_levels": mip_levels,
+        "pages": pages, "texels_per_unit": texels_per_unit, "packer": packer,
+        "packing_time": packing_time, "density": _list(density, "density"),
+        "separate": _labels(separate, "separate", None), "align": align, "time_limit": time_limit}
+    made = _hlscm.repack(textured, options, threads, progress)
+    for sentence in made["report"]["defects"]:
+        warnings.warn(sentence, RuntimeWarning, stacklevel=2)
+    return _atlas_of(made, textured[0], textured[1], None, full)
+
+
+def image_importance(mesh: Any, image: ArrayLike, /) -> Array:
+    """The importance (m,) float32 of the faces of a TexturedMesh, for the density of atlas(): the mean
+    of an image (height, width, c) with values from 0 to 1 on each face, 1 for white, 1/16 for black."""
+    return _hlscm.image_importance(_textured(mesh, "the mesh"),
+                                   np.ascontiguousarray(_real(image, "image"), np.float32))
 
 
 def _textured(mesh: Any, name: str) -> Tuple[Array, Array, Array, Array]:
@@ -676,9 +762,15 @@ def write_png(path: Union[str, "os.PathLike[str]"], image: Array) -> None:
 
 
 def write_mesh(path: Union[str, "os.PathLike[str]"], vertices: Any, faces: Any = None,
-               uv: Optional[ArrayLike] = None, uv_faces: Optional[ArrayLike] = None) -> None:
+               uv: Optional[ArrayLike] = None, uv_faces: Optional[ArrayLike] = None, *,
+               base_uv: Optional[ArrayLike] = None,
+               base_uv_faces: Optional[ArrayLike] = None) -> None:
     """Writes a mesh with texture coordinates as .obj, .ply or .glb, by the end of the name. Also takes
-    an Atlas, a TexturedMesh or a Level in the place of `vertices`."""
+    an Atlas, a TexturedMesh or a Level in the place of `vertices`.
+
+    base_uv: (k, 2), another set of texture coordinates, with base_uv_faces (m, 3), the faces by default:
+        a .glb file has it as its first set then, and `uv`, such as that of a light map, as its second.
+    """
     path = os.fspath(path)
     end = os.path.splitext(path)[1].lower()
     if end not in (".obj", ".ply", ".glb"):
@@ -688,7 +780,61 @@ def write_mesh(path: Union[str, "os.PathLike[str]"], vertices: Any, faces: Any =
     else:
         mesh = (*_mesh(vertices, faces), _real(uv, "uv", 2),
                 _index(faces if uv_faces is None else uv_faces, "uv_faces"))
-    _hlscm.write_mesh(path, end[1:], mesh)
+    base = []
+    if base_uv is not None:
+        if end != ".glb":
+            raise ValueError(f"{path} has no room for two sets of uv, .glb has")
+        base = [_real(base_uv, "base_uv", 2),
+                _index(mesh[1] if base_uv_faces is None else base_uv_faces, "base_uv_faces")]
+    _hlscm.write_mesh(path, end[1:], mesh, base)
+
+
+# Pages for browsers --------------------------------------------------------------------------------
+
+def _program(named: Optional[str]) -> str:
+    """The program hlscm: as named, by HLSCM_PROGRAM, in the path, or beside a module in its build."""
+    beside = os.path.join(os.path.dirname(__file__), "..", "..", "bin", "hlscm")
+    found = named or os.environ.get("HLSCM_PROGRAM") or shutil.which("hlscm") or beside
+    if not os.path.exists(found):
+        raise FileNotFoundError("the program hlscm, which makes pages, is not in the path; name it by "
+                                "program=..., or in the environment by HLSCM_PROGRAM")
+    return found
+
+
+def _run_on(mesh: Any, arguments: Sequence[str], program: Optional[str]) -> None:
+    """Runs a command of the program on a mesh, whose place among the arguments is "{mesh}"."""
+    words = [_program(program), *arguments, "--quiet"]
+    with tempfile.TemporaryDirectory() as folder:
+        if isinstance(mesh, ProgressiveMesh):
+            file = os.path.join(folder, "mesh.pm")
+            mesh.write(file)
+        else:
+            file = os.path.join(folder, "mesh.obj")
+            write_mesh(file, mesh)
+        done = subprocess.run([file if word == "{mesh}" else word for word in words],
+                              stderr=subprocess.PIPE, text=True)
+    if done.returncode != 0:
+        raise MeshError(done.stderr.strip() or "the program hlscm has failed")
+
+
+def view(path: Union[str, "os.PathLike[str]"], mesh: Any, /, *,
+         program: Optional[str] = None) -> None:
+    """Writes a page for browsers, one file (.html) that needs no network, by the program's `hlscm view`:
+    model and texture side by side, distortion, seams, levels of detail.
+
+    mesh: an Atlas, a TexturedMesh, a Level with texture or a ProgressiveMesh.
+    program: where the program is; by default HLSCM_PROGRAM in the environment, or `hlscm` in the path.
+    """
+    _run_on(mesh, ["view", "{mesh}", "-o", os.fspath(path)], program)
+
+
+def web(folder: Union[str, "os.PathLike[str]"], mesh: Any, /, *,
+        texture: Optional[Union[str, "os.PathLike[str]"]] = None,
+        program: Optional[str] = None) -> None:
+    """Fills a folder for a web server with a page that draws the model while it is loading, by the
+    program's `hlscm web`. `texture` is a PNG file, a checkerboard by default; the rest as for view()."""
+    words = ["web", "{mesh}", "-o", os.fspath(folder)]
+    _run_on(mesh, words + ([] if texture is None else ["--texture", os.fspath(texture)]), program)
 
 
 # Levels of detail ----------------------------------------------------------------------------------
@@ -835,7 +981,8 @@ class MultigridSolver:
 
     def set_matrix(self, matrix: Any, fixed: Optional[ArrayLike] = None) -> None:
         """Takes a sparse matrix (n, n) of scipy; row i is vertex i. `fixed` (n,) of bool are unknowns
-        whose values are given. To be called again where the values have changed."""
+        whose values are given. To be called again where the values have changed. One of compressed rows
+        with entries of float64 or complex128 is read where it is."""
         if not hasattr(matrix, "tocsr"):
             raise TypeError("the matrix is no sparse matrix of scipy")
         a = matrix.tocsr()
@@ -854,7 +1001,11 @@ class MultigridSolver:
                 raise TypeError("fixed is no array (n,) of bool")
         solver = self._solver if isinstance(self._solver, kind) else kind(self._levels, self._threads)
         dtype = np.complex128 if a.dtype.kind == "c" else np.float64
-        solver.set_matrix(a.indptr.astype(np.int64, copy=False), a.indices.astype(np.int64, copy=False),
+        if a.nnz >= 2 ** 31:
+            raise MeshError("the matrix has more than 2147483647 entries")
+        if a.indices.dtype != np.int32 and a.nnz and not 0 <= a.indices.min() <= a.indices.max() < n:
+            raise MeshError("the matrix has columns that do not exist")
+        solver.set_matrix(a.indptr.astype(np.int32, copy=False), a.indices.astype(np.int32, copy=False),
                           a.data.astype(dtype, copy=False), fixed)
         self._solver = solver
 

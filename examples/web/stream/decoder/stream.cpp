@@ -82,6 +82,7 @@ EXPORTED const std::uint32_t* triangles()
 {
   return reinterpret_cast<const std::uint32_t*>(reader.stream.triangles());
 }
+EXPORTED const std::uint32_t* vertices() { return reader.stream.vertices(); }
 EXPORTED const std::uint32_t* parents() { return reader.stream.parents(); }
 
 #if !defined(__EMSCRIPTEN__)

@@ -101,7 +101,8 @@ std::string matrix_error(std::size_t vertices, const Matrix& matrix)
   const auto place = [](Eigen::Index i, Eigen::Index j) {
     return "row " + std::to_string(i) + ", column " + std::to_string(j);
   };
-  const Matrix adjoint = matrix.adjoint();
+  typedef typename Matrix::PlainObject Adjoint; // of a map a matrix
+  const Adjoint adjoint = matrix.adjoint();
   constexpr double rounding = 1e-10; // of the largest entry of the column
   for(Eigen::Index o = 0; o < matrix.outerSize(); ++o) {
     double largest = 0.;
@@ -110,7 +111,8 @@ std::string matrix_error(std::size_t vertices, const Matrix& matrix)
         return "the matrix has an entry that is not a finite number: " + place(e.row(), e.col());
       largest = (std::max)(largest, double(std::abs(e.value())));
     }
-    typename Matrix::InnerIterator a(matrix, o), b(adjoint, o);
+    typename Matrix::InnerIterator a(matrix, o);
+    typename Adjoint::InnerIterator b(adjoint, o);
     while(a || b) {
       const bool has_a = a && (!b || a.index() <= b.index()), has_b = b && (!a || b.index() <= a.index());
       const Number x = has_a ? a.value() : Number(0), y = has_b ? b.value() : Number(0);

@@ -92,8 +92,28 @@ shapes_of_triangles(const Indexed_mesh::Indexed_triangle_mesh& mesh,
 // Takes what the repair changed over into the report of the map.
 CGAL_HLSCM_INLINE void report_repair(Flip_repair_report repair, HLSCM_report& report);
 
-// Repairs the map `z` of a chart of `mesh`, given by the place of each vertex of the mesh in it or
-// `no_vertex`, by the function of the options, and takes what changes over into the report.
+// Repairs the map `z` of a chart by the function of the options, and takes what changes over into the
+// report. `position(t)` is the place of face t of the chart in the mesh.
+template <class Position>
+void repair_faces_of_chart(const std::vector<Indexed_mesh::Triangle_indices>& faces,
+                           const Map_to_repair::Shape_of_face& shape, const Position& position,
+                           const Pins& pins, Run_control& run, std::vector<std::complex<double>>& z)
+{
+  std::vector<bool> is_pinned(z.size(), false);
+  for(const Pin& pin : pins)
+    is_pinned[pin.vertex] = true;
+  Map_to_repair map = {faces, is_pinned, shape, z};
+  const Blocked_execution::Stopwatch watch;
+  Flip_repair_report repair = run.options().repair_flips(
+    map, [&run](double part) { return run.tell_repair(part) && !run.is_enough(); });
+  for(std::size_t& face : repair.unmended_faces)
+    face = position(face);
+  repair.seconds = watch.seconds();
+  run.tell_repair(1.);
+  report_repair(std::move(repair), run.report());
+}
+
+// The same for a chart of `mesh`, given by the place of each vertex of the mesh in it or `no_vertex`.
 template <class TriangleMesh>
 void repair_chart(const TriangleMesh& mesh, const std::vector<std::uint32_t>& places,
                   const Pins& pins, Run_control& run, std::vector<std::complex<double>>& z)
@@ -102,20 +122,21 @@ void repair_chart(const TriangleMesh& mesh, const std::vector<std::uint32_t>& pl
   std::size_t position = 0;
   for(const auto v : vertices(mesh))
     put(place, v, places[position++]);
-  std::vector<bool> is_pinned(z.size(), false);
-  for(const Pin& pin : pins)
-    is_pinned[pin.vertex] = true;
   const Mapped_faces<TriangleMesh> mapped(mesh, place);
-  Map_to_repair map
-    = {mapped.triangles, is_pinned, shapes_of_faces(mesh, mapped, run.options().weights), z};
-  const Blocked_execution::Stopwatch watch;
-  Flip_repair_report repair = run.options().repair_flips(
-    map, [&run](double part) { return run.tell_repair(part) && !run.is_enough(); });
-  for(std::size_t& face : repair.unmended_faces)
-    face = mapped.positions[face];
-  repair.seconds = watch.seconds();
-  run.tell_repair(1.);
-  report_repair(std::move(repair), run.report());
+  repair_faces_of_chart(mapped.triangles, shapes_of_faces(mesh, mapped, run.options().weights),
+                        [&mapped](std::size_t face) { return mapped.positions[face]; }, pins, run, z);
+}
+
+// The same for all triangles of a mesh that is two arrays.
+inline void repair_arrays(const Indexed_mesh::Indexed_triangle_mesh& mesh,
+                          const std::vector<std::uint32_t>& places, const Pins& pins,
+                          Run_control& run, std::vector<std::complex<double>>& z)
+{
+  std::vector<Indexed_mesh::Triangle_indices> faces = mesh.triangles;
+  for(auto& t : faces)
+    t = {places[t[0]], places[t[1]], places[t[2]]};
+  repair_faces_of_chart(faces, shapes_of_triangles(mesh, run.options().weights),
+                        [](std::size_t face) { return face; }, pins, run, z);
 }
 
 #ifdef CGAL_HLSCM_DEFINITIONS
