@@ -13,8 +13,8 @@ namespace Indexed_mesh {
 
 /// \ingroup PkgHLSCMIndexedMesh
 /// Returns the header of a binary, little endian PLY file of vertices with texture coordinates,
-/// which are there twice: viewers read either s and t, as floats, or texture_u and texture_v. A face
-/// has a number of corners of the given type, and these as ints.
+/// which are there twice: viewers read either s and t, as floats, or texture_u and texture_v. A
+/// face has a number of corners of the given type, and these as ints.
 inline std::string ply_header_with_uv(std::size_t vertices, std::size_t faces,
                                       std::string_view corner_type = "uchar")
 {
@@ -22,7 +22,8 @@ inline std::string ply_header_with_uv(std::size_t vertices, std::size_t faces,
          "comment texture_u, texture_v are the texture coordinates; s, t are the same, rounded\n"
          "element vertex " + std::to_string(vertices)
          + "\nproperty double x\nproperty double y\nproperty double z\n"
-           "property double texture_u\nproperty double texture_v\nproperty float s\nproperty float t\n"
+           "property double texture_u\nproperty double texture_v\n"
+           "property float s\nproperty float t\n"
            "element face " + std::to_string(faces)
          + "\nproperty list " + std::string(corner_type) + " int vertex_indices\nend_header\n";
 }

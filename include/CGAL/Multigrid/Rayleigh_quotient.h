@@ -110,8 +110,8 @@ struct Rayleigh_products
 
 namespace internal {
 
-// The coefficients y of least y^H E y / y^H N y with y_0 >= 0, where E is definite and N semidefinite;
-// none if E is nearly singular.
+// The coefficients y of least y^H E y / y^H N y with y_0 >= 0, where E is definite and N
+// semidefinite; none if E is nearly singular.
 template <class Inner>
 std::vector<Inner> best_coefficients(int n, Small_matrix<Inner, 3> energy,
                                      const Small_matrix<Inner, 3>& norm)

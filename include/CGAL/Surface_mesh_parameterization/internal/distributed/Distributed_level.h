@@ -104,8 +104,8 @@ inline Pins far_border_pins(Ranks& ranks, const Distributed_mesh& mesh,
 
 // A level that all ranks share: what PETSc's cycle needs of it.
 //
-// With pins that have values E(z) is a function of the others, E = energy_of_pins + 1/2 z^H H z - Re f^H z, where z,
-// f and the rows and columns of H but for its diagonal are 0 at pins.
+// With pins that have values E(z) is a function of the others, E = energy_of_pins + 1/2 z^H H z
+// - Re f^H z, where z, f and the rows and columns of H but for its diagonal are 0 at pins.
 struct Distributed_level
 {
   Petsc_matrix matrix;           // H
