@@ -323,6 +323,34 @@ def low_stretch():
     return table(["chart", "faces", "tolerance 1e-2", "1e-3", "1e-4", "1e-3, two threads"], lines)
 
 
+def low_stretch_estimates():
+    """What is left of the energy of low-stretch maps that say to meet a tolerance."""
+    lines = []
+    rows = read("low_stretch_estimates.csv")
+    for tolerance in sorted({row["tolerance"] for row in rows}, key=float, reverse=True):
+        of_it = [row for row in rows if row["tolerance"] == tolerance]
+        met = [row for row in of_it if row["converged"] == "1"]
+        rests = sorted(((float(row["gap"]) / float(tolerance), row["chart"]) for row in met), reverse=True)
+        lines.append([f"{float(tolerance):.0e}".replace("e-0", "e-"), str(len(of_it)), str(len(met)),
+                      str(sum(rest <= 1 for rest, _ in rests)), f"{statistics.median(rests)[0]:.2f}",
+                      ", ".join(f"{chart.replace('_', ' ')} {rest:.1f}" for rest, chart in rests[:3]),
+                      f"{statistics.mean(int(row['iterations']) for row in of_it):.1f}"])
+    return table(["tolerance", "models", "said to be met", "really met", "median of what is left, in tolerances",
+                  "largest", "steps, mean"], lines)
+
+
+def low_stretch_peers():
+    """Low-stretch maps beside other ways to the same minimum."""
+    lines = []
+    for row in read("low_stretch_peers.csv"):
+        lines.append([row["chart"].rsplit("_", 1)[0].replace("_", " "), f"{int(row['faces']):,}", row["method"]]
+                     + [f"{float(row[key]):.2f}" if float(row[key]) >= 0 else "not reached"
+                        for key in ("seconds_1e-2", "seconds_1e-3", "seconds_1e-4")]
+                     + [row["iterations"], f"{float(row['energy']):.4f}", row["flips"]])
+    return table(["chart", "faces", "method", "seconds to 1e-2", "1e-3", "1e-4", "steps", "energy", "flips"],
+                 lines)
+
+
 def equation_peers():
     """Seconds from nothing, those for other values of the matrix, and iterations, by surface."""
     methods = {"multigrid": "`Surface_multigrid_solver`", "amgcl_smoothed_aggregation": "AMGCL, aggregation",
@@ -490,6 +518,7 @@ def memory_of_commands():
 TABLES = {table.__name__: table for table in (
     million_faces, ratios, scaling, growth, stages, stages_two_threads, atlases,
     atlases_beside_paper, atlases_short, live, levels, streams, compile_time, reading, low_stretch,
+    low_stretch_estimates, low_stretch_peers,
     one_to_one, equation_peers, signals, light_models, which_map, full_pages, full_pages_peer, ranks,
     interfaces,
     memory_of_commands)}

@@ -276,7 +276,7 @@ std::size_t Low_stretch_solver<Energy>::most_steps(std::size_t l) const
 
 // Whether the energy that a level has still to lose is small enough: by what its steps gained and, on
 // the finest one, by what the last linear system left. A step that triangles made short says nothing of
-// it; neither does one whose linear system was hardly solved, but if that was tried with more iterations.
+// it (borders always do); neither does one whose system was hardly solved, though it was tried again.
 template <class Energy>
 template <class Level>
 bool Low_stretch_solver<Energy>::is_enough(const Level& level, std::size_t l, double gain)
@@ -293,7 +293,7 @@ bool Low_stretch_solver<Energy>::is_enough(const Level& level, std::size_t l, do
   m_report.energy_gap = (std::max)(m_report.energy_gap, unsolved / level.value());
   // Where all can be mapped with hardly any stretch, what there is counts more
   const double stretch = 1. - m_energy.value(2., 1.) / level.mean();
-  const bool tells = m_newton.is_full() && m_newton.is_believed();
+  const bool tells = (m_newton.is_full() || m_levels.is_one_to_one()) && m_newton.is_believed();
   return m_report.energy_gap
       <= (std::max)(rounding, tells ? m_options.tolerance * (std::min)(1., 10. * stretch) : 0.);
 }
