@@ -333,7 +333,7 @@ def low_stretch_estimates():
         met = [row for row in of_it if row["converged"] == "1"]
         rests = sorted(((float(row["gap"]) / float(tolerance), row["chart"]) for row in met), reverse=True)
         lines.append([f"{float(tolerance):.0e}".replace("e-0", "e-"), str(len(of_it)), str(len(met)),
-                      str(sum(rest <= 1 for rest, _ in rests)), f"{statistics.median(rests)[0]:.2f}",
+                      str(sum(rest <= 1 for rest, _ in rests)), f"{statistics.median(rest for rest, _ in rests):.2f}",
                       ", ".join(f"{chart.replace('_', ' ')} {rest:.1f}" for rest, chart in rests[:3]),
                       f"{statistics.mean(int(row['iterations']) for row in of_it):.1f}"])
     return table(["tolerance", "models", "said to be met", "really met", "median of what is left, in tolerances",
