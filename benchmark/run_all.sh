@@ -154,6 +154,7 @@ mapfile -t large < <(find "$charts" -maxdepth 1 -name '*_1[0-9][0-9][0-9]k.ply' 
   "$HLSCM_DATA_DIR"/{bear,bull,cactus,ChineseDragon-10kv,dino,elephant,femur,head,lion-head,retinal}.off \
   > "$out/signals.csv"
 "$HLSCM_BIN/low_stretch_benchmark" "${large[@]}" --one-to-one > "$out/one_to_one.csv"
+"$HLSCM_BIN/low_stretch_benchmark" "${others[@]}" --estimates > "$out/low_stretch_estimates.csv"
 "$HLSCM_BIN/decimate" "${large[@]}" > "$out/decimate.csv"
 "$HLSCM_BIN/equations" > "$out/equations.csv"
 "$HLSCM_BIN/equations" --vertices 1000000 >> "$out/equations.csv"

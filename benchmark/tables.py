@@ -330,9 +330,38 @@ def low_stretch():
         first = rows["0.001", "1"]
         lines.append([chart.rsplit("_", 1)[0].replace("_", " "), f"{int(first['faces']):,}"]
                      + [f"{number(rows[key], 'seconds')} s, {number(rows[key], 'energy', 4)}"
+                        if key in rows else "not measured"
                         for key in (("0.01", "1"), ("0.001", "1"), ("0.0001", "1"))]
-                     + [number(rows["0.001", "2"], "seconds")])
+                     + [number(rows["0.001", "2"], "seconds") if ("0.001", "2") in rows else "not measured"])
     return table(["chart", "faces", "tolerance 1e-2", "1e-3", "1e-4", "1e-3, two threads"], lines)
+
+
+def low_stretch_estimates():
+    """What is left of the energy of low-stretch maps that say to meet a tolerance."""
+    lines = []
+    rows = read("low_stretch_estimates.csv")
+    for tolerance in sorted({row["tolerance"] for row in rows}, key=float, reverse=True):
+        of_it = [row for row in rows if row["tolerance"] == tolerance]
+        met = [row for row in of_it if row["converged"] == "1"]
+        rests = sorted(((float(row["gap"]) / float(tolerance), row["chart"]) for row in met), reverse=True)
+        lines.append([f"{float(tolerance):.0e}".replace("e-0", "e-"), str(len(of_it)), str(len(met)),
+                      str(sum(rest <= 1 for rest, _ in rests)), f"{statistics.median(rest for rest, _ in rests):.2f}",
+                      ", ".join(f"{chart.replace('_', ' ')} {rest:.1f}" for rest, chart in rests[:3]),
+                      f"{statistics.mean(int(row['iterations']) for row in of_it):.1f}"])
+    return table(["tolerance", "models", "said to be met", "really met", "median of what is left, in tolerances",
+                  "largest", "steps, mean"], lines)
+
+
+def low_stretch_peers():
+    """Low-stretch maps beside other ways to the same minimum."""
+    lines = []
+    for row in read("low_stretch_peers.csv"):
+        lines.append([row["chart"].rsplit("_", 1)[0].replace("_", " "), f"{int(row['faces']):,}", row["method"]]
+                     + [f"{float(row[key]):.2f}" if float(row[key]) >= 0 else "not reached"
+                        for key in ("seconds_1e-2", "seconds_1e-3", "seconds_1e-4")]
+                     + [row["iterations"], f"{float(row['energy']):.4f}", row["flips"]])
+    return table(["chart", "faces", "method", "seconds to 1e-2", "1e-3", "1e-4", "steps", "energy", "flips"],
+                 lines)
 
 
 def equation_peers():
@@ -502,6 +531,7 @@ def memory_of_commands():
 TABLES = {table.__name__: table for table in (
     million_faces, ratios, scaling, growth, stages, stages_two_threads, atlases,
     atlases_beside_paper, atlases_short, live, levels, streams, python, compile_time, reading, low_stretch,
+    low_stretch_estimates, low_stretch_peers,
     one_to_one, equation_peers, signals, light_models, which_map, full_pages, full_pages_peer, ranks,
     interfaces,
     memory_of_commands)}

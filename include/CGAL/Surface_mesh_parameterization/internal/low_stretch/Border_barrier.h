@@ -210,10 +210,9 @@ private:
     const Vertex_index v = m_edges[i][0], a = m_edges[j][0], b = m_edges[j][1];
     if(v == a || v == b)
       return result;
-    const Plane_point along = z[b] - z[a], from = z[v] - z[a];
-    const double squared = along.squared_length();
-    result.s = squared > 0. ? (std::max)(0., (std::min)(1., from.dot(along) / squared)) : 0.;
-    result.difference = from - along * result.s;
+    const Nearest_on_segment nearest(z[a], z[b], z[v]);
+    result.s = nearest.share;
+    result.difference = nearest.way;
     result.d = std::sqrt(result.difference.squared_length());
     result.length = (std::min)(m_length[i], m_length[j]);
     result.counts = result.d < reach * result.length;

@@ -138,10 +138,7 @@ private:
   // Of z to the segment from a to b.
   static double squared_distance_to(const Plane_point& a, const Plane_point& b, const Plane_point& z)
   {
-    const Plane_point along = b - a;
-    const double length = along.squared_length();
-    const double s = length > 0. ? (std::max)(0., (std::min)(1., (z - a).dot(along) / length)) : 0.;
-    return (z - a - along * s).squared_length();
+    return Nearest_on_segment(a, b, z).way.squared_length();
   }
 
   void add(Vertex_index a, Vertex_index b)

@@ -83,6 +83,7 @@ private:
   typedef std::conditional_t<Has_barrier<Energy>::value, Energy, Barrier_energy<Energy>> Coarse_energy;
 
   static constexpr std::size_t iterations = 5;   // of conjugate gradients, a Newton step
+  static constexpr std::size_t many_iterations = 20; // where these were too few
   static constexpr double residual = 1e-3;       // that ends them, of that before them
   // Steps on the finest level after which the matrices of coarser ones are no longer trusted: on long
   // tubes and steep noise triangles are stretched otherwise there.
@@ -134,7 +135,7 @@ private:
   std::vector<double> m_weights; // of the energy at vertices of the levels so far; empty: 1
   bool m_misses_pins = false;
   double m_mean = 0.; // energy an area of the last level
-  double m_last_gain = 0.;
+  Remaining_gain m_gains; // of the steps on the level
 };
 
 template <class Energy>
@@ -226,8 +227,8 @@ std::vector<Plane_point> Low_stretch_solver<Energy>::improve(std::vector<Plane_p
   level.keep_apart(m_levels.borders_of(finest));
   if(!std::isfinite(level.value()))
     return {};
-  m_misses_pins = !pull_pins(level, m_newton, m_levels.held(),
-                             [this](double part) { return goes_on(0.5 * part); });
+  m_misses_pins = !reach_pins(level, m_newton, m_levels.held(), Giving_way::AT_ONCE,
+                              [this](double part) { return goes_on(0.5 * part); });
   if(m_misses_pins)
     return {};
   descend(level, finest);
@@ -238,11 +239,9 @@ template <class Energy>
 bool Low_stretch_solver<Energy>::start(std::vector<Plane_point>& places)
 {
   const std::vector<Plane_point> circle = Circle_map(m_levels[0].mesh).run();
-  if(!is_valid(m_levels[0].mesh.triangles, circle))
-    return false;
   for(std::size_t v = 0; v < circle.size(); ++v)
     places[m_levels[0].vertices[v]] = circle[v];
-  return true;
+  return is_valid(m_levels[0].mesh.triangles, circle);
 }
 
 // Undoes the collapses [first, last), the last one first.
@@ -275,28 +274,28 @@ std::size_t Low_stretch_solver<Energy>::most_steps(std::size_t l) const
   return std::size_t((std::min)(20., std::ceil(std::pow(m_levels.ratio_to_finest(l), 0.7))));
 }
 
-// Whether the energy that a level has still to lose is small enough: what it lost last goes on as a
-// geometric series, whose ratio is that of the last two gains, and at least `usual_rate`. A small gain
-// after a large one may be luck: an eighth of that counts.
+// Whether the energy that a level has still to lose is small enough: by what its steps gained and, on
+// the finest one, by what the last linear system left. A step that triangles made short says nothing of
+// it (borders always do); neither does one whose system was hardly solved, though it was tried again.
 template <class Energy>
 template <class Level>
 bool Low_stretch_solver<Energy>::is_enough(const Level& level, std::size_t l, double gain)
 {
-  constexpr double usual_rate = 0.8, largest_rate = 0.95;
   constexpr double rounding = 1e-13, tolerance_of_coarse = 1e-5, tolerance_of_coarsest = 1e-7;
-  const double ratio = m_last_gain > 0. ? gain / m_last_gain : 0.;
-  const double rate = (std::min)(largest_rate, (std::max)(usual_rate, ratio));
-  const double expected = (std::max)(gain, m_last_gain / 8.);
-  m_last_gain = gain;
-  m_report.energy_gap = expected * rate / (1. - rate) / level.value();
+  constexpr double most_unsolved = 20.; // of what was solved: more is a guess
+  m_gains.add(gain);
+  m_report.energy_gap = m_gains.value() / level.value();
   if(l == 0)
     return m_report.energy_gap <= tolerance_of_coarsest;
   if(l + 1 < m_levels.number_of_levels())
     return m_report.energy_gap <= tolerance_of_coarse;
+  const double unsolved = (std::min)(m_newton.unsolved(), most_unsolved * m_newton.solved());
+  m_report.energy_gap = (std::max)(m_report.energy_gap, unsolved / level.value());
   // Where all can be mapped with hardly any stretch, what there is counts more
   const double stretch = 1. - m_energy.value(2., 1.) / level.mean();
+  const bool tells = (m_newton.is_full() || m_levels.is_one_to_one()) && m_newton.is_believed();
   return m_report.energy_gap
-      <= (std::max)(rounding, m_options.tolerance * (std::min)(1., 10. * stretch));
+      <= (std::max)(rounding, tells ? m_options.tolerance * (std::min)(1., 10. * stretch) : 0.);
 }
 
 // Brings the pins of the coarsest level, which has all of them, to their places: by Tutte's map if they
@@ -314,6 +313,7 @@ bool Low_stretch_solver<Energy>::hold_pins(const Level_energy& energy, std::vect
   const auto goes_on_here = [&](double) { return goes_on(0.) || is_small; };
   Circle_map tutte(m_levels[0].mesh);
   const std::vector<Plane_point> border_map = tutte.run(held);
+  std::vector<Giving_way> ways = {Giving_way::AT_ONCE};
   Newton_steps newton;
   newton.add_level(nullptr);
   if(is_valid(triangles, border_map) && tutte.goes_around_once(border_map))
@@ -322,20 +322,24 @@ bool Low_stretch_solver<Energy>::hold_pins(const Level_energy& energy, std::vect
     Stretch_level<Level_energy> level(triangles, reference, std::move(z), {}, energy);
     level.scale();
     level.keep_apart(m_levels.borders_of(0));
-    m_last_gain = 0.;
+    m_gains = Remaining_gain();
     for(int i = 0; i < steps; ++i)
       if(is_enough(level, 0, newton(level, iterations, residual) + level.sweep(0.)))
         break;
     z = level.places();
-    if(border_map.empty() && !m_levels.is_one_to_one()
-       && reach_pins(triangles, reference, energy, held, goes_on_here, z))
-      return true;
     align(held, z);
+    if(border_map.empty() && !m_levels.is_one_to_one())
+      ways.insert(ways.begin(), Giving_way::AFTERWARDS);
   }
-  Stretch_level<Level_energy> level(triangles, reference, std::move(z), m_levels.fixed_of(0), energy);
-  level.keep_apart(m_levels.borders_of(0));
-  m_misses_pins = !std::isfinite(level.value()) || !pull_pins(level, newton, held, goes_on_here);
-  z = level.places();
+  m_misses_pins = true;
+  for(std::size_t i = 0; m_misses_pins && i < ways.size(); ++i) {
+    Stretch_level<Level_energy> level(triangles, reference, z, m_levels.fixed_of(0), energy);
+    level.keep_apart(m_levels.borders_of(0));
+    m_misses_pins = !std::isfinite(level.value())
+                 || !reach_pins(level, newton, held, ways[i], goes_on_here);
+    if(!m_misses_pins)
+      z = level.places();
+  }
   return !m_misses_pins;
 }
 
@@ -367,16 +371,18 @@ void Low_stretch_solver<Energy>::descend(Level& level, std::size_t l)
 {
   const bool is_finest = l + 1 == m_levels.number_of_levels();
   const double size = 1. / m_levels.ratio_to_finest(l);
-  m_last_gain = 0.;
+  m_gains = Remaining_gain();
   std::size_t steps = 0;
   if(goes_on(0.5 * size)) {
     level.sweep(share_of_queue);
     const std::size_t most = most_steps(l);
     const auto part = [&] { return 0.5 * size * (1. + double(steps) / double(most)); };
     for(bool is_done = false; !is_done && steps < most && goes_on(part()); ++steps) {
-      if(is_finest && steps == patience)
+      const bool is_hard = is_finest && !m_newton.is_solved();
+      if(is_hard || (is_finest && steps == patience))
         m_newton.use(Coarse_matrices::GALERKIN);
-      is_done = is_enough(level, l, m_newton(level, iterations, residual) + level.sweep(0.));
+      const double gain = m_newton(level, is_hard ? many_iterations : iterations, residual);
+      is_done = is_enough(level, l, gain + level.sweep(0.));
       m_report.converged = is_done && is_finest;
     }
   }

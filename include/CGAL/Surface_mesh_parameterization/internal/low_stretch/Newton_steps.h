@@ -14,6 +14,7 @@
 #include <CGAL/Multigrid/Sparse_rows.h>
 #include <CGAL/Surface_mesh_multigrid/galerkin_rows.h>
 #include <CGAL/Surface_mesh_multiresolution/Prolongation.h>
+#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Past_steps.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Stretch_level.h>
 
 #include <Eigen/Core>
@@ -141,6 +142,10 @@ public:
   // the object.
   void add_level(const Surface_mesh_multiresolution::Prolongation* from_coarser)
   {
+    m_past.forget();
+    m_rest = 0;
+    m_next_rest = 1;
+    m_solved = m_unsolved = 0.;
     m_transfers.push_back(from_coarser);
     m_matrices.push_back(std::make_unique<Matrix>());
   }
@@ -148,15 +153,38 @@ public:
   // From now on the matrices of coarser levels are these; once `GALERKIN`, those of last steps are lost.
   void use(Coarse_matrices coarse) { m_coarse = coarse; }
 
+  // Steps made so far say nothing of those to come: what is fixed is elsewhere.
+  void forget_past() { m_past.forget(); }
+
   // Makes one step on the finest level so far, by at most `iterations` iterations, fewer if the
   // residual is below `residual` of that at first. Returns by how much the energy fell.
   template <class Energy>
   double operator()(Stretch_level<Energy>& level, std::size_t iterations, double residual)
   {
     double slope = 0.;
+    m_was_solved = is_solved();
     const Vectors step = direction(level, Vectors(), iterations, residual, slope);
-    return slope < 0. ? level.go(step, slope) : 0.;
+    const Descent descent = slope < 0. ? level.go(step, slope) : Descent();
+    m_is_full = descent.length >= full;
+    if(!m_is_full) {
+      m_past.forget();
+      m_rest = m_next_rest;
+      m_next_rest = (std::min)(2 * m_next_rest, longest_rest);
+    } else if(m_rest > 0)
+      --m_rest;
+    return descent.gain;
   }
+
+  // By how much the energy, up to the second order, fell in the linear system of the last step, and
+  // by how much it would have fallen beyond that, as far as can be estimated.
+  double solved() const { return m_solved; }
+  double unsolved() const { return m_unsolved; }
+  // Whether its solution got half the way.
+  bool is_solved() const { return m_unsolved <= m_solved; }
+  // Whether it did, or the one before did not either, so that nothing better can be had.
+  bool is_believed() const { return is_solved() || !m_was_solved; }
+  // Whether no triangle that would have turned over made the step short.
+  bool is_full() const { return m_is_full; }
 
   // Where such a step goes; `slope` becomes the derivative of the energy there. Fixed vertices go by
   // `pulled`, if it is not empty, and all others as the energy, up to the second order, is least then.
@@ -175,16 +203,12 @@ private:
   // The coarsest matrix is made definite: translations and the rotation change no energy.
   static constexpr double shift = 1e-6;
 
-  static double norm(const Vectors& vectors)
-  {
-    return std::sqrt(Blocked_execution::blocked_sum<double>(
-      vectors.size(), 16384, [&](std::size_t begin, std::size_t end) {
-        double sum = 0.;
-        for(std::size_t v = begin; v < end; ++v)
-          sum += vectors[v].squared_length();
-        return sum;
-      }));
-  }
+  // Where triangles are about to turn over steps are short, and the past says nothing of what comes:
+  // it is left out for a while after each of them, for a longer one every time.
+  static constexpr double full = 0.5;
+  static constexpr std::size_t longest_rest = 16;
+
+  static double norm(const Vectors& vectors) { return std::sqrt(Past_steps::product(vectors, vectors)); }
 
   void set_coarser(const Multigrid::Self_adjoint_matrix<Eigen::Matrix2d>& matrix)
   {
@@ -201,6 +225,10 @@ private:
   std::vector<const Surface_mesh_multiresolution::Prolongation*> m_transfers;
   std::vector<std::unique_ptr<Matrix>> m_matrices;
   Multigrid::Self_adjoint_matrix<Eigen::Matrix2d> m_coarsest;
+  Past_steps m_past;
+  std::size_t m_rest = 0, m_next_rest = 1; // steps without the past
+  double m_solved = 0., m_unsolved = 0.;
+  bool m_was_solved = true, m_is_full = true;
   std::size_t m_iterations = 0;
 };
 
@@ -211,6 +239,10 @@ Newton_steps::Vectors Newton_steps::direction(Stretch_level<Energy>& level, cons
   typedef Eigen::Vector2d Vector; // a few very stiff triangles hide all others from single precision
   level.linearize();
   const Vectors gradient = level.gradient();
+  if(pulled.empty() && m_rest == 0)
+    m_past.add(level.places(), gradient);
+  const Vectors rest = m_past.rest_of(gradient);
+  m_solved = m_unsolved = 0.;
   const auto matrix = stretch_matrix<Eigen::Matrix2d>(level);
   m_matrices.back()->assign(matrix);
   if(m_coarse == Coarse_matrices::GALERKIN)
@@ -223,14 +255,14 @@ Newton_steps::Vectors Newton_steps::direction(Stretch_level<Energy>& level, cons
   if(!levels.coarsest_solver().factorize(m_coarsest))
     return {};
   level.forget_derivatives();
-  double size = norm(gradient);
+  double size = norm(rest);
   if(!pulled.empty() && !(size > 0.))
     size = norm(pulled);
   if(!(size > 0.))
     return {};
-  std::vector<Vector> f(gradient.size()), x(gradient.size(), Vector::Zero());
+  std::vector<Vector> f(rest.size()), x(rest.size(), Vector::Zero());
   for(std::size_t v = 0; v < f.size(); ++v)
-    f[v] = Vector(-gradient[v].x / size, -gradient[v].y / size);
+    f[v] = Vector(-rest[v].x / size, -rest[v].y / size);
   for(std::size_t v = 0; v < pulled.size(); ++v)
     if(level.is_fixed(v))
       x[v] = Vector(pulled[v].x / size, pulled[v].y / size);
@@ -242,14 +274,19 @@ Newton_steps::Vectors Newton_steps::direction(Stretch_level<Energy>& level, cons
   const auto cycle = [&](const std::vector<Vector>& r, std::vector<Vector>& z) {
     levels.precondition(schedule, m_matrices.size() - 1, r, z);
   };
-  m_iterations += Multigrid::minimize_energy(matrix, f, x, cycle, stop,
-                                             [](double) { return true; }).iterations;
+  const Multigrid::Iteration_report report
+    = Multigrid::minimize_energy(matrix, f, x, cycle, stop, [](double) { return true; });
+  m_iterations += report.iterations;
+  m_solved = -report.energy * size * size;
+  m_unsolved = report.converged ? 0. : report.energy_gap * size * size;
   Vectors direction(x.size());
-  slope = 0.;
-  for(std::size_t v = 0; v < x.size(); ++v) {
+  for(std::size_t v = 0; v < x.size(); ++v)
     direction[v] = Plane_point{x[v].x(), x[v].y()} * size;
-    slope += direction[v].dot(gradient[v]);
-  }
+  if(pulled.empty())
+    m_past.complete(direction);
+  slope = Past_steps::product(direction, gradient);
+  if(!(slope < 0.))
+    m_past.forget();
   return direction;
 }
 

@@ -6,7 +6,6 @@
 
 #include <CGAL/Indexed_mesh/border_loops.h>
 #include <CGAL/Surface_mesh_multiresolution/Mesh_hierarchy.h>
-#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Stretch_metric.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Stretch_task.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/collapse_to_few.h>
 

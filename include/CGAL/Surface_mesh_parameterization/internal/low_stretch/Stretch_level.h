@@ -34,6 +34,12 @@ struct Least
   Least& operator+=(const Least& other) { return *this = *this + other; }
 };
 
+// A step along a direction: by how much the energy fell, and how long it was, in lengths of the direction.
+struct Descent
+{
+  double gain = 0., length = 0.;
+};
+
 // The total energy of a map of a mesh, with what Newton's method wants to know of it; with a barrier
 // between its borders, if they are to be kept apart.
 //
@@ -163,9 +169,9 @@ public:
       m_barrier->for_each_contact_of(v, use);
   }
 
-  // Goes along `direction` as far as the energy falls and no triangle turns over; returns by how
-  // much the energy fell. `slope` is its derivative there.
-  double go(const Places& direction, double slope);
+  // Goes along `direction` as far as the energy falls and no triangle turns over. `slope` is the
+  // derivative of the energy there.
+  Descent go(const Places& direction, double slope);
 
   // Moves along `direction`, whose end has each of the vertices `held` at its place, half as far as no
   // triangle turns over; returns whether that is all the way.
@@ -355,7 +361,7 @@ double Stretch_level<Energy>::longest_step(const Places& direction) const
 
 // Armijo's rule; then, as long as the energy falls, steps twice as long.
 template <class Energy>
-double Stretch_level<Energy>::go(const Places& direction, double slope)
+Descent Stretch_level<Energy>::go(const Places& direction, double slope)
 {
   constexpr double share = 0.9, sufficient = 1e-4, longest = 4.;
   constexpr int halvings = 30;
@@ -372,17 +378,18 @@ double Stretch_level<Energy>::go(const Places& direction, double slope)
       t *= 0.5;
   }
   if(best.empty())
-    return 0.;
-  for(t *= 2.; t <= longest && t <= limit; t *= 2.) {
-    Places next = moved(direction, t);
+    return {};
+  while(2. * t <= (std::min)(longest, limit)) {
+    Places next = moved(direction, 2. * t);
     const double value = energy_at(next);
     if(!(value < m_value))
       break;
+    t *= 2.;
     best.swap(next);
     m_value = value;
   }
   m_places.swap(best);
-  return before - m_value;
+  return {before - m_value, t};
 }
 
 } // namespace internal

@@ -8,12 +8,15 @@
 #include <CGAL/Indexed_mesh/Space_tensor.h>
 #include <CGAL/Indexed_mesh/Vertex_rings.h>
 #include <CGAL/Surface_mesh_multiresolution/Mesh_hierarchy.h>
+#include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
+#include <CGAL/Surface_mesh_parameterization/Reference_triangle.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Border_barrier.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/plane_geometry.h>
 
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -93,6 +96,97 @@ weights_at_vertices(const std::vector<Surface_mesh_multiresolution::Mesh_level>&
   }
   return result;
 }
+
+// The tensors of a metric at the vertices of a mesh, and of what is left of it after collapses: the
+// mean over all the surface that a vertex stands for. None if the metric is that of the surface.
+class Vertex_tensors
+{
+public:
+  typedef Indexed_mesh::Space_tensor Tensor;
+  typedef Surface_mesh_multiresolution::Halfedge_collapse Halfedge_collapse;
+
+  Vertex_tensors() {}
+
+  // From a tensor for each triangle, or none.
+  Vertex_tensors(const Indexed_mesh::Indexed_triangle_mesh& mesh, const std::vector<Tensor>& metric)
+    : m_means(metric.empty() ? 0 : mesh.points.size())
+  {
+    constexpr double least_weight = 1e-9; // mean edges are near 1: triangles without area count a bit
+    for(std::size_t t = 0; t < metric.size(); ++t) {
+      const auto& v = mesh.triangles[t];
+      const auto n = cross_product(mesh.points[v[1]] - mesh.points[v[0]],
+                                   mesh.points[v[2]] - mesh.points[v[0]]);
+      const double weight = std::sqrt(n * n) + least_weight;
+      for(const auto w : v)
+        m_means[w] = joined(m_means[w], {metric[t], weight});
+    }
+  }
+
+  bool exist() const { return !m_means.empty(); }
+  const Tensor& operator[](std::size_t v) const { return m_means[v].tensor; }
+  Tensor mean(std::size_t a, std::size_t b, std::size_t c) const
+  {
+    return ((*this)[a] + (*this)[b] + (*this)[c]) * (1. / 3.);
+  }
+
+  void collapse(const std::vector<Halfedge_collapse>& collapses)
+  {
+    for(std::size_t i = 0; exist() && i < collapses.size(); ++i) {
+      Mean& kept = m_means[collapses[i].kept];
+      m_before.push_back(kept);
+      kept = joined(kept, m_means[collapses[i].removed]);
+    }
+  }
+
+  // Undoes the last collapse that is not undone.
+  void undo(const Halfedge_collapse& last)
+  {
+    if(!exist())
+      return;
+    m_means[last.kept] = m_before.back();
+    m_before.pop_back();
+  }
+
+private:
+  struct Mean
+  {
+    Tensor tensor;
+    double weight = 0.;
+  };
+
+  static Mean joined(const Mean& a, const Mean& b)
+  {
+    const double sum = a.weight + b.weight;
+    return {a.tensor * (a.weight / sum) + b.tensor * (b.weight / sum), sum};
+  }
+
+  std::vector<Mean> m_means;
+  std::vector<Mean> m_before; // of the vertex that was kept, by collapse: exact again when undone
+};
+
+// The mean of what the corners of a triangle have.
+inline double mean_of_corners(const std::vector<double>& x, Indexed_mesh::Vertex_index a,
+                              Indexed_mesh::Vertex_index b, Indexed_mesh::Vertex_index c)
+{
+  return (x[a] + x[b] + x[c]) / 3.;
+}
+
+// The triangle of three vertices of a surface, in the metric of the surface or of tensors.
+struct Surface_metric
+{
+  const std::vector<Indexed_mesh::Indexed_triangle_mesh::Point_3>& points;
+  const Vertex_tensors& tensors;
+  const std::vector<double>& weights; // at the vertices; empty: 1
+
+  Reference_triangle<double> operator()(Indexed_mesh::Vertex_index a, Indexed_mesh::Vertex_index b,
+                                        Indexed_mesh::Vertex_index c) const
+  {
+    const auto t = tensors.exist()
+      ? Reference_triangle<double>::of_points(points[a], points[b], points[c], tensors.mean(a, b, c))
+      : Reference_triangle<double>::of_points(points[a], points[b], points[c]);
+    return weights.empty() ? t : t.weighted(mean_of_corners(weights, a, b, c));
+  }
+};
 
 } // namespace internal
 } // namespace Surface_mesh_parameterization

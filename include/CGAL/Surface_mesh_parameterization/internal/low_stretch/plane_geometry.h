@@ -54,6 +54,21 @@ inline double largest_step(const Plane_point& p, const Plane_point& dp, const Pl
   return result;
 }
 
+// The point a + share (b - a) of a segment that is nearest to another one, and the way from there.
+struct Nearest_on_segment
+{
+  double share;
+  Plane_point way;
+
+  Nearest_on_segment(const Plane_point& a, const Plane_point& b, const Plane_point& z)
+  {
+    const Plane_point along = b - a;
+    const double squared = along.squared_length();
+    share = squared > 0. ? (std::max)(0., (std::min)(1., (z - a).dot(along) / squared)) : 0.;
+    way = z - a - along * share;
+  }
+};
+
 // The angle from a to b seen from o, in (-pi, pi].
 inline double angle_between(const Plane_point& o, const Plane_point& a, const Plane_point& b)
 {

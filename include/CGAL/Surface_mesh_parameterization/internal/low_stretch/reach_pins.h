@@ -51,60 +51,37 @@ inline bool are_there(const std::vector<Held_vertex>& held, const std::vector<Pl
   });
 }
 
-// Brings the held vertices of a map of any size to their places, by steps that turn no triangle over:
-// all others go along as the second derivative of the energy says, which takes a linear system a step.
+// How others give way when held vertices go to their places.
+enum class Giving_way
+{
+  AFTERWARDS, // by Newton's method, after each step
+  AT_ONCE     // as the second derivative of the energy says: a linear system more for each step
+};
+
+// Brings the held vertices of a map to their places, by steps half as far as no triangle turns over.
 // Asks `goes_on(part done)` before each of them. Returns whether they arrived.
 template <class Energy, class Goes_on>
-bool pull_pins(Stretch_level<Energy>& level, Newton_steps& newton, const std::vector<Held_vertex>& held,
-               const Goes_on& goes_on)
+bool reach_pins(Stretch_level<Energy>& level, Newton_steps& newton, const std::vector<Held_vertex>& held,
+                Giving_way giving_way, const Goes_on& goes_on)
 {
-  constexpr int attempts = 60, steps = 3;
-  constexpr std::size_t iterations = 20;
+  const bool is_at_once = giving_way == Giving_way::AT_ONCE;
+  const int attempts = is_at_once ? 60 : 300;
+  const std::size_t iterations = is_at_once ? 20 : 5;
+  constexpr int steps = 3;
   constexpr double residual = 1e-3;
   for(int i = 0; i < attempts && !are_there(held, level.places()) && goes_on(double(i) / attempts);
       ++i) {
     const std::vector<Plane_point> ways = ways_to(held, level.places());
+    newton.forget_past();
     double slope = 0.;
     const std::vector<Plane_point> direction
-      = newton.direction(level, ways, iterations, residual, slope);
+      = is_at_once ? newton.direction(level, ways, iterations, residual, slope) : ways;
     if(!level.move_towards(held, direction.empty() ? ways : direction))
       for(int step = 0; step < steps; ++step)
         newton(level, iterations, residual);
     level.sweep(1.);
   }
   return are_there(held, level.places());
-}
-
-// Brings the held vertices of a small map to their places, by steps that turn no triangle over: they go
-// half as far as they can, and the others follow by Newton's method. Asks `goes_on(part done)` before each
-// of them. Returns whether they arrived.
-template <class Energy, class Reference, class Goes_on>
-bool reach_pins(const std::vector<Triangle_indices>& triangles, const Reference& reference,
-                const Energy& energy, const std::vector<Held_vertex>& held,
-                const Goes_on& goes_on, std::vector<Plane_point>& z)
-{
-  constexpr int attempts = 300, steps = 3;
-  constexpr std::size_t iterations = 5;
-  constexpr double residual = 1e-3;
-  align(held, z);
-  std::vector<bool> is_fixed(z.size(), false);
-  for(const Held_vertex& h : held)
-    is_fixed[h.vertex] = true;
-  Stretch_level<Energy> level(triangles, reference, z, is_fixed, energy);
-  if(!std::isfinite(level.value())) // turned into what rounding does not know of
-    return false;
-  Newton_steps newton;
-  newton.add_level(nullptr);
-  for(int i = 0; i < attempts && goes_on(double(i) / attempts); ++i) {
-    if(level.move_towards(held, ways_to(held, level.places()))) {
-      z = level.places();
-      return true;
-    }
-    level.sweep(1.);
-    for(int step = 0; step < steps; ++step)
-      newton(level, iterations, residual);
-  }
-  return false;
 }
 
 } // namespace internal

@@ -1,0 +1,145 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_PAST_STEPS_H
+#define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_PAST_STEPS_H
+
+#include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/plane_geometry.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <deque>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_parameterization {
+namespace internal {
+
+// What the last steps of an iteration have found out of the second derivative: along them it is the
+// change of the gradient. The projected one exaggerates it where triangles turn, as limbs do that bend,
+// so that steps by it alone are too short there. (L-BFGS, Nocedal 1980, with the projected one as its
+// first guess.)
+class Past_steps
+{
+public:
+  typedef std::vector<Plane_point> Vectors;
+
+  void forget()
+  {
+    m_steps.clear();
+    m_places.clear();
+  }
+
+  // Takes note of where the iteration has come to.
+  void add(const Vectors& places, const Vectors& gradient)
+  {
+    constexpr double least = 1e-12; // cosine of a step and its change: smaller ones may be rounding
+    if(m_places.size() == places.size()) {
+      Step step = {difference(places, m_places), difference(gradient, m_gradient), 0., 0.};
+      step.curvature = product(step.way, step.change);
+      if(step.curvature > least * std::sqrt(product(step.way, step.way) * product(step.change, step.change)))
+        m_steps.push_back(std::move(step));
+      if(m_steps.size() > memory)
+        m_steps.pop_front();
+    }
+    m_places = places;
+    m_gradient = gradient;
+  }
+
+  // What is left of the gradient for the first guess to invert.
+  Vectors rest_of(Vectors gradient)
+  {
+    for(auto step = m_steps.rbegin(); step != m_steps.rend(); ++step) {
+      step->share = product(step->way, gradient) / step->curvature;
+      add_scaled(-step->share, step->change, gradient);
+    }
+    return gradient;
+  }
+
+  // Makes the direction against that rest one against the gradient.
+  void complete(Vectors& direction) const
+  {
+    for(const Step& step : m_steps)
+      add_scaled(-step.share - product(step.change, direction) / step.curvature, step.way, direction);
+  }
+
+  static double product(const Vectors& a, const Vectors& b)
+  {
+    return Blocked_execution::blocked_sum<double>(
+      a.size(), block_size, [&](std::size_t begin, std::size_t end) {
+        double sum = 0.;
+        for(std::size_t v = begin; v < end; ++v)
+          sum += a[v].dot(b[v]);
+        return sum;
+      });
+  }
+
+private:
+  struct Step
+  {
+    Vectors way, change;     // of the places and of the gradient
+    double curvature, share; // way . change; what `rest_of()` took of the change
+  };
+
+  static constexpr std::size_t memory = 3; // with 5, 10 the iterations are as long
+  static constexpr std::size_t block_size = 16384;
+
+  static Vectors difference(const Vectors& a, const Vectors& b)
+  {
+    Vectors result = a;
+    add_scaled(-1., b, result);
+    return result;
+  }
+
+  static void add_scaled(double factor, const Vectors& a, Vectors& sum)
+  {
+    Blocked_execution::blocked_for(a.size(), block_size, [&](std::size_t begin, std::size_t end) {
+      for(std::size_t v = begin; v < end; ++v)
+        sum[v] = sum[v] + a[v] * factor;
+    });
+  }
+
+  std::deque<Step> m_steps; // the oldest first
+  Vectors m_places, m_gradient;
+};
+
+// How much an iteration has still to gain, by what its steps gained: the last gain goes on as a
+// geometric series.
+class Remaining_gain
+{
+public:
+  void add(double gain) { m_gains.push_back(gain); }
+
+  // The slowest mean rate over the last one, two, four and eight steps counts. A small gain after a
+  // large one may be luck: an eighth of that counts.
+  double value() const
+  {
+    const std::size_t n = m_gains.size();
+    if(n == 0)
+      return 0.;
+    const double last = m_gains[n - 1], before = n > 1 ? m_gains[n - 2] : 0.;
+    double rate = before > 0. ? (std::max)(usual_rate, last / before) : usual_rate;
+    for(std::size_t span = 1; span <= 8 && span + 1 < n; span *= 2)
+      if(larger_of_two(n - 1 - span) > 0.)
+        rate = (std::max)(rate, std::pow(larger_of_two(n - 1) / larger_of_two(n - 1 - span),
+                                         1. / double(span)));
+    rate = (std::min)(rate, largest_rate);
+    return (std::max)(last, before / 8.) * rate / (1. - rate);
+  }
+
+private:
+  static constexpr double usual_rate = 0.8, largest_rate = 0.95;
+
+  double larger_of_two(std::size_t i) const { return (std::max)(m_gains[i], m_gains[i - 1]); }
+
+  std::vector<double> m_gains;
+};
+
+} // namespace internal
+} // namespace Surface_mesh_parameterization
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_PAST_STEPS_H
