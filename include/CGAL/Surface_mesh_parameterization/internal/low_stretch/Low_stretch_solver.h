@@ -275,8 +275,8 @@ std::size_t Low_stretch_solver<Energy>::most_steps(std::size_t l) const
 }
 
 // Whether the energy that a level has still to lose is small enough: by what its steps gained and, on
-// the finest one, by what the last linear system left. A step that triangles made short says nothing of
-// it (borders always do); neither does one whose system was hardly solved, though it was tried again.
+// the finest one, what the last linear system left. Steps that triangles made short say nothing, nor do
+// those of systems hardly solved; only gains do in one-to-one maps, whose borders make all steps short.
 template <class Energy>
 template <class Level>
 bool Low_stretch_solver<Energy>::is_enough(const Level& level, std::size_t l, double gain)
@@ -285,15 +285,14 @@ bool Low_stretch_solver<Energy>::is_enough(const Level& level, std::size_t l, do
   constexpr double most_unsolved = 20.; // of what was solved: more is a guess
   m_gains.add(gain);
   m_report.energy_gap = m_gains.value() / level.value();
-  if(l == 0)
-    return m_report.energy_gap <= tolerance_of_coarsest;
-  if(l + 1 < m_levels.number_of_levels())
-    return m_report.energy_gap <= tolerance_of_coarse;
+  if(l == 0 || l + 1 < m_levels.number_of_levels())
+    return m_report.energy_gap <= (l == 0 ? tolerance_of_coarsest : tolerance_of_coarse);
   const double unsolved = (std::min)(m_newton.unsolved(), most_unsolved * m_newton.solved());
-  m_report.energy_gap = (std::max)(m_report.energy_gap, unsolved / level.value());
+  if(!m_levels.is_one_to_one())
+    m_report.energy_gap = (std::max)(m_report.energy_gap, unsolved / level.value());
   // Where all can be mapped with hardly any stretch, what there is counts more
   const double stretch = 1. - m_energy.value(2., 1.) / level.mean();
-  const bool tells = (m_newton.is_full() || m_levels.is_one_to_one()) && m_newton.is_believed();
+  const bool tells = m_levels.is_one_to_one() || (m_newton.is_full() && m_newton.is_believed());
   return m_report.energy_gap
       <= (std::max)(rounding, tells ? m_options.tolerance * (std::min)(1., 10. * stretch) : 0.);
 }
@@ -378,7 +377,7 @@ void Low_stretch_solver<Energy>::descend(Level& level, std::size_t l)
     const std::size_t most = most_steps(l);
     const auto part = [&] { return 0.5 * size * (1. + double(steps) / double(most)); };
     for(bool is_done = false; !is_done && steps < most && goes_on(part()); ++steps) {
-      const bool is_hard = is_finest && !m_newton.is_solved();
+      const bool is_hard = is_finest && !m_levels.is_one_to_one() && !m_newton.is_solved();
       if(is_hard || (is_finest && steps == patience))
         m_newton.use(Coarse_matrices::GALERKIN);
       const double gain = m_newton(level, is_hard ? many_iterations : iterations, residual);
