@@ -276,13 +276,13 @@ std::size_t Low_stretch_solver<Energy>::most_steps(std::size_t l) const
 
 // Whether the energy that a level has still to lose is small enough: by what its steps gained and, on
 // the finest one, what the last linear system left. Steps that triangles made short say nothing, nor do
-// those of systems hardly solved; only gains do in one-to-one maps, whose borders make all steps short.
+// systems hardly solved, unless little is left. Borders make all steps short in one-to-one maps.
 template <class Energy>
 template <class Level>
 bool Low_stretch_solver<Energy>::is_enough(const Level& level, std::size_t l, double gain)
 {
   constexpr double rounding = 1e-13, tolerance_of_coarse = 1e-5, tolerance_of_coarsest = 1e-7;
-  constexpr double most_unsolved = 20.; // of what was solved: more is a guess
+  constexpr double most_unsolved = 20., small = 0.1; // of what was solved: more is a guess
   m_gains.add(gain);
   m_report.energy_gap = m_gains.value() / level.value();
   if(l == 0 || l + 1 < m_levels.number_of_levels())
@@ -292,7 +292,8 @@ bool Low_stretch_solver<Energy>::is_enough(const Level& level, std::size_t l, do
     m_report.energy_gap = (std::max)(m_report.energy_gap, unsolved / level.value());
   // Where all can be mapped with hardly any stretch, what there is counts more
   const double stretch = 1. - m_energy.value(2., 1.) / level.mean();
-  const bool tells = m_levels.is_one_to_one() || (m_newton.is_full() && m_newton.is_believed());
+  const bool is_clear = m_newton.is_believed() || m_report.energy_gap <= small * m_options.tolerance;
+  const bool tells = m_levels.is_one_to_one() || (m_newton.is_full() && is_clear);
   return m_report.energy_gap
       <= (std::max)(rounding, tells ? m_options.tolerance * (std::min)(1., 10. * stretch) : 0.);
 }
