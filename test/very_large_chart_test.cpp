@@ -104,9 +104,9 @@ void Very_large_chart::test_against_memory(SMP::Conformal_method method)
     if(is_free && chart.name == "sphere with holes") // the map folds: what is left is rounding
       continue;
     // Of points twice the energy is that of slivers, and a spiral can be unrolled: there so small a
-    // tolerance is out of reach.
+    // tolerance is out of reach, or by chance of rounding near.
     const bool is_rounded = chart.name == "duplicate points" || (is_free && chart.name == "spiral");
-    const double tolerance = is_rounded ? 1e-8 : 1e-11;
+    const double tolerance = is_rounded ? 1e-6 : 1e-11;
     // Its two borders are alike, and so are the two smallest eigenvalues.
     const bool is_doubtful = is_free && chart.name == "cylinder";
     SMP::HLSCM_options in_memory;
