@@ -275,25 +275,25 @@ std::size_t Low_stretch_solver<Energy>::most_steps(std::size_t l) const
 }
 
 // Whether the energy that a level has still to lose is small enough: by what its steps gained and, on
-// the finest one, what the last linear system left. Steps that triangles made short say nothing, nor do
-// systems hardly solved, unless little is left. Borders make all steps short in one-to-one maps.
+// the finest one, what the last linear system left. Steps that triangles made short say nothing of it;
+// borders make all steps short in one-to-one maps.
 template <class Energy>
 template <class Level>
 bool Low_stretch_solver<Energy>::is_enough(const Level& level, std::size_t l, double gain)
 {
   constexpr double rounding = 1e-13, tolerance_of_coarse = 1e-5, tolerance_of_coarsest = 1e-7;
-  constexpr double most_unsolved = 20., small = 0.1; // of what was solved: more is a guess
+  constexpr double most_unsolved = 20., doubt = 10.; // of what was solved; where that is hardly half
   m_gains.add(gain);
   m_report.energy_gap = m_gains.value() / level.value();
   if(l == 0 || l + 1 < m_levels.number_of_levels())
     return m_report.energy_gap <= (l == 0 ? tolerance_of_coarsest : tolerance_of_coarse);
   const double unsolved = (std::min)(m_newton.unsolved(), most_unsolved * m_newton.solved());
   if(!m_levels.is_one_to_one())
-    m_report.energy_gap = (std::max)(m_report.energy_gap, unsolved / level.value());
+    m_report.energy_gap = (std::max)(m_report.energy_gap, unsolved / level.value())
+                        * (m_newton.is_believed() ? 1. : doubt);
   // Where all can be mapped with hardly any stretch, what there is counts more
   const double stretch = 1. - m_energy.value(2., 1.) / level.mean();
-  const bool is_clear = m_newton.is_believed() || m_report.energy_gap <= small * m_options.tolerance;
-  const bool tells = m_levels.is_one_to_one() || (m_newton.is_full() && is_clear);
+  const bool tells = m_levels.is_one_to_one() || m_newton.is_full();
   return m_report.energy_gap
       <= (std::max)(rounding, tells ? m_options.tolerance * (std::min)(1., 10. * stretch) : 0.);
 }
