@@ -78,8 +78,8 @@ endforeach()
 
 # Most of the time would go to CGAL's kernels and to our own large headers. So each is compiled once,
 # before the files of those headers that include it anyway, the last of these that they do; with these
-# the fewest bytes are compiled. No header
-# gets what it does not include: only that an include stands below what needs it is not seen.
+# the fewest bytes are compiled. No header gets what it does not include: only that an include stands
+# below what needs it is not seen.
 set(kernels
   Blocked_execution/blocked_for
   Simple_cartesian
