@@ -67,16 +67,16 @@ SMP::internal::Chart copy_of(const Mesh& mesh)
   SMP::internal::Chart chart;
   SMP::internal::Status status;
   SMP::internal::copy_faces(mesh, chart, status);
-  SMP::internal::number_sources(chart);
   return chart;
 }
 
 // One cost evaluation for each vertex of the mesh, in its order: one collapse only.
 double seconds_per_evaluation(const Mesh& mesh)
 {
-  SMP::internal::Chart chart = copy_of(mesh);
-  SMP::internal::Status status;
-  SMP::internal::prepare_chart(chart, CGAL::Indexed_mesh::no_vertex, status);
+  SMP::internal::Prepared_chart prepared;
+  prepared.chart = copy_of(mesh);
+  SMP::internal::prepare_chart(prepared, CGAL::Indexed_mesh::no_vertex);
+  const SMP::internal::Chart& chart = prepared.chart;
   SMM::Flat_collapse_options options;
   options.target_vertices = chart.mesh.points.size() - 1;
   double best = 1;
@@ -148,7 +148,9 @@ void Staged_map::prepare_chart()
         [this] { m_chart = copy_of(m_mesh); });
   stage("unused vertices and unit of length", m_v, "vertices", copying(normalize_bytes(m_v, m_f)),
         [this] {
-          SMP::internal::remove_unused_vertices(m_chart);
+          m_chart.source.resize(m_chart.mesh.points.size());
+          std::iota(m_chart.source.begin(), m_chart.source.end(), 0u);
+          CGAL::Indexed_mesh::drop_unused_vertices(m_chart.mesh, m_chart.source);
           m_chart.scale = CGAL::Indexed_mesh::normalize(m_chart.mesh);
         });
   stage("spatial order", m_v, "vertices", copying(sort_bytes(m_v, m_f)), [this] {
@@ -159,7 +161,7 @@ void Staged_map::prepare_chart()
     m_chart.source.swap(source);
   });
   stage("rings", m_v, "vertices", copying(ring_bytes(m_v, m_f)),
-        [this] { SMP::internal::connect(m_chart, m_status); });
+        [this] { m_chart.rings = CGAL::Indexed_mesh::Vertex_rings(m_chart.mesh); });
   stage("component; borders; pins", m_v, "vertices", copying(border_bytes(m_v)), [this] {
     const std::vector<bool> is_reached = CGAL::Indexed_mesh::component_of(m_chart.rings, 0);
     if(std::find(is_reached.begin(), is_reached.end(), false) != is_reached.end())

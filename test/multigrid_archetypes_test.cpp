@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <sstream>
 #include <vector>
@@ -154,6 +155,80 @@ public:
   void operator()(const Vector& r, Vector& z) const { z = r; }
 };
 
+double inner_product(const Vector& x, const Vector& y)
+{
+  double sum = 0.;
+  for(std::size_t i = 0; i < x.size(); ++i)
+    sum += x[i] * y[i];
+  return sum;
+}
+
+// Those of the operator above, and of the identity as B; without a preconditioner.
+class Rayleigh_vectors_archetype : No_copies // RayleighVectors
+{
+public:
+  typedef double Inner;
+
+  explicit Rayleigh_vectors_archetype(const Vector& x) : No_copies(0)
+  {
+    m_x.fill(Vector(x.size(), 0.));
+    m_x[0] = x;
+  }
+
+  double begin()
+  {
+    project(m_x[0]);
+    return normalize();
+  }
+  void set_residual(double q)
+  {
+    Operator_archetype()(m_x[0], m_x[1]);
+    for(std::size_t i = 0; i < m_x[0].size(); ++i)
+      m_x[1][i] -= q * m_x[0][i];
+    project(m_x[1]);
+  }
+  Rayleigh_products<double> products(int count)
+  {
+    std::array<Vector, 3> h = m_x;
+    for(int i = 0; i < count; ++i)
+      Operator_archetype()(m_x[i], h[i]);
+    return Rayleigh_products<double>::of(
+      count, [&](int i, int j) { return inner_product(m_x[i], h[j]); },
+      [&](int i, int j) { return inner_product(m_x[i], m_x[j]); });
+  }
+  double step(const std::vector<double>& y)
+  {
+    for(std::size_t i = 0; i < m_x[0].size(); ++i) {
+      m_x[2][i] = y[1] * m_x[1][i] + (y.size() > 2 ? y[2] * m_x[2][i] : 0.);
+      m_x[0][i] = y[0] * m_x[0][i] + m_x[2][i];
+    }
+    return normalize();
+  }
+  double largest_change() { return largest_entry(m_x[2]); }
+
+  const Vector& first() const { return m_x[0]; } // for the test
+
+private:
+  static void project(Vector& x)
+  {
+    const double mean = inner_product(x, Vector(x.size(), 1.)) / double(x.size());
+    for(double& value : x)
+      value -= mean;
+  }
+  double normalize()
+  {
+    const double norm = std::sqrt(inner_product(m_x[0], m_x[0]));
+    for(Vector* x : {&m_x[0], &m_x[2]})
+      for(double& value : *x)
+        value /= norm;
+    Vector h(m_x[0].size());
+    Operator_archetype()(m_x[0], h);
+    return inner_product(m_x[0], h);
+  }
+
+  std::array<Vector, 3> m_x;
+};
+
 // --- Their use
 
 Matrix matrix_of_operator(std::uint32_t n)
@@ -209,6 +284,28 @@ TEST(Multigrid_archetypes, of_the_conjugate_gradients)
   few.maximal_iterations = 3;
   x[0] = 1.;
   minimize_rayleigh_quotient(apply, Diagonal_mass({{0, 1.}, {9, 2.}}), x, precondition, few, always);
+}
+
+// Of all vectors of length 1 and mean 0 the one of least energy: its residual is constant, and its
+// energy is at most that of a known eigenvector of mean 0.
+TEST(Multigrid_archetypes, of_the_rayleigh_quotient)
+{
+  Vector x(20, 0.), h(20);
+  x[3] = 1.;
+  x[11] = -2.;
+  Rayleigh_vectors_archetype vectors(x);
+  const Iteration_report report = minimize_rayleigh_quotient(vectors, strict(), always);
+  EXPECT_TRUE(report.converged);
+  x = vectors.first();
+  EXPECT_NEAR(inner_product(x, x), 1., 1e-12);
+  EXPECT_NEAR(inner_product(x, Vector(20, 1.)), 0., 1e-12);
+  Operator_archetype()(x, h);
+  const double q = inner_product(x, h), pi = std::acos(-1.);
+  EXPECT_NEAR(q, 2. * report.energy, 1e-12);
+  EXPECT_LE(q, 3. - 2. * std::cos(2. * pi / 21.) + 1e-12);
+  const double constant = h[0] - q * x[0];
+  for(std::size_t i = 0; i < x.size(); ++i)
+    EXPECT_NEAR(h[i] - q * x[i], constant, 1e-8);
 }
 
 TEST(Multigrid_archetypes, of_the_levels)

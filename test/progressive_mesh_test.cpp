@@ -79,6 +79,8 @@ TEST(Progressive_mesh, real_meshes)
   const std::vector<Named_mesh> inputs = real_meshes_if_any(
     {"lion-head.off", "mannequin-devil.off", "three_peaks.off", "refined_elephant.off",
      "mech-holes-shark.off", "bunny.ply"});
+  if(inputs.empty())
+    GTEST_SKIP() << "no real mesh is there";
   for(const Named_mesh& input : inputs)
     for(const Engine engine : all_engines) {
       SCOPED_TRACE(input.name + ", " + name_of(engine) + seed_text);

@@ -6,12 +6,13 @@
 Usage: check_layers.py INCLUDE_DIR [CGAL_INCLUDE_DIR]
 
 - A header includes only headers of its own layer and of the layers below.
-- The folder internal/ of a layer is for this layer alone.
+- The folder and the namespace internal of a layer are for this layer alone.
 - No header includes itself, directly or through others.
 - The layers below Multigrid do not include Eigen; Multigrid knows no mesh.
 - No header has the path of one of CGAL's own (the two are installed side by side).
 - No two headers have the same name.
 - An internal folder has at most 15 headers, a header at most 400 lines.
+- The parameterizer includes at most 64 headers, directly or through others: what it takes to compile.
 
 Prints one line for each violation, and returns 1 if there is one.
 """
@@ -48,8 +49,12 @@ FORBIDDEN = {
 
 MOST_INTERNAL_HEADERS = 15  # in one folder
 MOST_LINES = 400
+MOST_INCLUDED = {"CGAL/Surface_mesh_parameterization/HLSCM_parameterizer_3.h": 64}
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
+NAMESPACE = re.compile(r"\b(\w+)::internal::")
+ALIASES = {"SMM": "Surface_mesh_multiresolution", "SMP": "Surface_mesh_parameterization",
+           "SMS": "Surface_mesh_simplification", "SMT": "Surface_mesh_texturing"}
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 
 
@@ -90,6 +95,26 @@ def find_layer_errors(includes):
             for pattern, what in FORBIDDEN.get(layer, []):
                 if pattern.search(target):
                     yield f"{header}: layer {layer} includes {what}: {target}"
+
+
+def find_foreign_names(includes, include_dir):
+    for header in includes:
+        text = COMMENT.sub("", (include_dir / header).read_text())
+        for name in sorted(set(NAMESPACE.findall(text))):
+            name = ALIASES.get(name, name)
+            if name in LAYERS and LAYERS.index(name) + 1 != layer_of(header):
+                yield f"{header}: uses {name}::internal, which is internal to another layer"
+
+
+def find_heavy_headers(includes):
+    for header, most in MOST_INCLUDED.items():
+        reached, left = set(), [header]
+        while left:
+            new = [t for t in includes.get(left.pop(), []) if t in includes and t not in reached]
+            reached.update(new)
+            left += new
+        if len(reached) > most:
+            yield f"{header}: includes {len(reached)} headers, more than {most}"
 
 
 def find_cycles(includes):
@@ -147,6 +172,8 @@ def check(include_dir, cgal_include_dir=None):
     includes = read_includes(include_dir)
     errors = [] if includes else [f"{include_dir}: no headers"]
     errors += find_layer_errors(includes)
+    errors += find_foreign_names(includes, include_dir)
+    errors += find_heavy_headers(includes)
     errors += find_cycles(includes)
     errors += find_name_errors(includes)
     errors += find_size_errors(includes, include_dir)

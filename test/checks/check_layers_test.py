@@ -10,15 +10,16 @@ from pathlib import Path
 from check_layers import check
 
 
-def errors_of(headers, cgal_headers=(), lines=0):
-    """What check() says of headers given as {path: [included path, ...]}, with empty lines added."""
+def errors_of(headers, cgal_headers=(), lines=0, text=""):
+    """What check() says of headers given as {path: [included path, ...]}, with empty lines and a text
+    added."""
     with tempfile.TemporaryDirectory() as folder:
         include, cgal = Path(folder, "include"), Path(folder, "cgal")
         for header, targets in headers.items():
             path = include / header
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text("".join(f"#include <{target}>\n" for target in targets)
-                            + "\n" * (lines - len(targets)))
+                            + "\n" * (lines - len(targets)) + text)
         for header in cgal_headers:
             path = cgal / header
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -56,6 +57,24 @@ class Check_layers(unittest.TestCase):
         self.assertEqual(errors_of({HIERARCHY: [internal], internal: []}), [])
         self.expect("internal to another layer", {PARAMETERIZER: [internal], internal: []})
         self.expect("internal to another layer", {"CGAL/facade.h": [internal], internal: []})
+
+    def test_rejects_foreign_internal_namespace(self):
+        for name in ("Surface_mesh_parameterization", "SMP"):
+            text = f"{name}::internal::Chart chart; // of Surface_mesh_texturing::internal"
+            self.assertEqual(errors_of({PARAMETERIZER: []}, text=text), [])
+            errors = errors_of({HIERARCHY: []}, text=text)
+            self.assertEqual(len(errors), 1, errors)
+            self.assertIn("Surface_mesh_parameterization::internal", errors[0])
+
+    def test_rejects_a_parameterizer_that_includes_too_much(self):
+        heavy = "CGAL/Surface_mesh_parameterization/HLSCM_parameterizer_3.h"
+
+        def chain(number):
+            names = [heavy] + [f"CGAL/Multigrid/Header_{i}.h" for i in range(number)]
+            return {a: [b] for a, b in zip(names, names[1:])} | {names[-1]: []}
+
+        self.assertEqual(errors_of(chain(64)), [])
+        self.expect("includes 65 headers", chain(65))
 
     def test_rejects_facade_below(self):
         self.expect("of layer 9", {CYCLE: ["CGAL/facade.h"], "CGAL/facade.h": []})

@@ -124,7 +124,7 @@ private:
       return SMT::bake(m_input.light, equal, shader, m_library);
     }
     const Ray_caster caster(m_input.fine.points, m_input.fine.triangles);
-    const double radius = SMT::internal::Bounding_ball({&m_input.light.points}).radius;
+    const double radius = SMT::Bounding_ball({&m_input.light.points}).radius;
     const SMT::Along_rays<Ray_caster> rays(
         caster, m_input.fine.points, m_input.fine.triangles, m_input.light, m_frames.normals,
         SMT::Baking_by_rays_options().max_distance * radius);

@@ -4,7 +4,8 @@
 #ifndef CGAL_BLOCKED_EXECUTION_SORT_AND_SELECT_H
 #define CGAL_BLOCKED_EXECUTION_SORT_AND_SELECT_H
 
-#include <CGAL/Blocked_execution/memory.h>
+#include <CGAL/Blocked_execution/Uninitialized_vector.h>
+#include <CGAL/Blocked_execution/blocked_for.h>
 
 #include <algorithm>
 #include <cstddef>

@@ -5,7 +5,7 @@
 #define CGAL_INDEXED_MESH_VERTEX_RINGS_H
 
 #include <CGAL/Blocked_execution/blocked_for.h>
-#include <CGAL/Blocked_execution/memory.h>
+#include <CGAL/Blocked_execution/Uninitialized_vector.h>
 #include <CGAL/Blocked_execution/sort_and_select.h>
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
 #include <CGAL/Indexed_mesh/internal/Ring_lines.h>

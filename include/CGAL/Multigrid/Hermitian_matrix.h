@@ -4,7 +4,8 @@
 #ifndef CGAL_MULTIGRID_HERMITIAN_MATRIX_H
 #define CGAL_MULTIGRID_HERMITIAN_MATRIX_H
 
-#include <CGAL/Blocked_execution/memory.h>
+#include <CGAL/Blocked_execution/Uninitialized_vector.h>
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Multigrid/Sliced_pattern.h>
 #include <CGAL/Multigrid/vector_operations.h>
 

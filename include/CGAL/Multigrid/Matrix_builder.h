@@ -7,7 +7,7 @@
 #include <CGAL/Multigrid/Hermitian_matrix.h>
 
 #include <CGAL/Blocked_execution/blocked_for.h>
-#include <CGAL/Blocked_execution/memory.h>
+#include <CGAL/Blocked_execution/Uninitialized_vector.h>
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 #define CGAL_MULTIGRID_SPARSE_ROWS_H
 
 #include <CGAL/Blocked_execution/blocked_for.h>
-#include <CGAL/Blocked_execution/memory.h>
+#include <CGAL/Blocked_execution/Uninitialized_vector.h>
 #include <CGAL/Multigrid/Matrix_builder.h>
 
 #include <algorithm>

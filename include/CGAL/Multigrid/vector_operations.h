@@ -5,7 +5,7 @@
 #define CGAL_MULTIGRID_VECTOR_OPERATIONS_H
 
 #include <CGAL/Blocked_execution/blocked_for.h>
-#include <CGAL/Blocked_execution/memory.h>
+#include <CGAL/Blocked_execution/Uninitialized_vector.h>
 
 #include <algorithm>
 #include <cmath>

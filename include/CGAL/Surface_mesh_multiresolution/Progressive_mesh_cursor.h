@@ -4,7 +4,8 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_PROGRESSIVE_MESH_CURSOR_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_PROGRESSIVE_MESH_CURSOR_H
 
-#include <CGAL/Blocked_execution/memory.h>
+#include <CGAL/Blocked_execution/Uninitialized_vector.h>
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
 
 #include <CGAL/Iterator_range.h>

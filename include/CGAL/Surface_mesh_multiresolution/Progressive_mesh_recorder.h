@@ -32,10 +32,11 @@ struct Has_update_before_collapse<
   std::void_t<decltype(std::declval<const Cost&>().update_before_collapse(
     std::declval<const Profile&>(), std::declval<const OptionalPoint&>()))>> : std::true_type {};
 
-// The cost that is told nothing.
-struct No_cost {};
-
 } // namespace internal
+
+/// \ingroup PkgHLSCMMultiresolution
+/// The cost that is told nothing.
+struct No_cost {};
 
 /*!
 \ingroup PkgHLSCMMultiresolution
@@ -65,7 +66,7 @@ outlive them.
 
 \sa `progressive_mesh_by_edge_collapse()`
 */
-template <class TriangleMesh, class Cost = internal::No_cost>
+template <class TriangleMesh, class Cost = No_cost>
 class Progressive_mesh_recorder
   : public Surface_mesh_simplification::Edge_collapse_visitor_base<TriangleMesh>
 {

@@ -5,7 +5,7 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_CONFORMAL_TRIANGLE_H
 
 #include <CGAL/Blocked_execution/blocked_for.h>
-#include <CGAL/Blocked_execution/memory.h>
+#include <CGAL/Blocked_execution/Uninitialized_vector.h>
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
 #include <CGAL/Surface_mesh_multigrid/Flat_triangle.h>
 

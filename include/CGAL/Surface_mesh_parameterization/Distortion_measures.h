@@ -61,14 +61,14 @@ struct Distortion_measures
   std::size_t degenerate_faces = 0;
 };
 
-namespace internal {
-
-// Collects the measures face by face.
+/// \ingroup PkgHLSCMMeasures
+/// Collects the measures of a map face by face, for maps that are no property map.
 class Distortion_summary
 {
 public:
-  // `sign`: the orientation of the image `uv`
+  /// Adds a face and its image `uv`, whose orientation is `sign`.
   void add(const Conformal_triangle& triangle, const Uv_triangle& uv, Orientation sign);
+  /// Returns the measures of all faces that were added. Linear time; to be called once.
   Distortion_measures result();
 
 private:
@@ -154,8 +154,6 @@ inline double Distortion_summary::quantile(double wanted)
   return m_ratios.back().first;
 }
 
-} // namespace internal
-
 /*!
 \ingroup PkgHLSCMMeasures
 
@@ -172,7 +170,7 @@ Distortion_measures measure_distortion(const TriangleMesh& mesh, VertexUVMap uvm
 {
   const Uv_view<TriangleMesh, VertexUVMap> view(mesh, uvmap);
   const double mean_edge = internal::mean_edge_length(mesh);
-  internal::Distortion_summary summary;
+  Distortion_summary summary;
   for(const auto f : faces(mesh)) {
     const Uv_triangle uv = view.triangle(f);
     summary.add(internal::conformal_triangle(mesh, f, mean_edge), uv,
@@ -204,7 +202,7 @@ measure_distortion(const Surface_mesh_multiresolution::Textured_triangle_mesh& m
         use(e.x(), e.y(), e.z());
       }
   });
-  internal::Distortion_summary summary;
+  Distortion_summary summary;
   for(std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Triangle_indices& v = mesh.triangles[t];
     const Triangle_indices& w = mesh.wedges[t];

@@ -47,18 +47,25 @@ inline std::vector<double> areas_of(const Indexed_mesh::Indexed_triangle_mesh& m
   return areas;
 }
 
-// Multiplied by c_1 - c_0 and c_2 - c_0, the first and the second give the gradient of the linear
-// function with the values c_0, c_1, c_2 at the corners of triangle t; 0 if it has no area.
+} // namespace internal
+
+/// \ingroup PkgHLSCMSignal
+/// Multiplied by c_1 - c_0 and c_2 - c_0, the first and the second give the gradient of the linear
+/// function with the values c_0, c_1, c_2 at the corners of triangle t; 0 if it has no area.
 struct Linear_gradient
 {
-  Vector_of_space first = Vector_of_space(0., 0., 0.), second = first;
+  typedef Indexed_mesh::Space_tensor::Vector_3 Vector_3;
 
+  Vector_3 first = Vector_3(0., 0., 0.);  ///< by which c_1 - c_0 is multiplied
+  Vector_3 second = Vector_3(0., 0., 0.); ///< by which c_2 - c_0 is multiplied
+
+  /// Constructs that of triangle `t`. Constant time.
   Linear_gradient(const Indexed_mesh::Indexed_triangle_mesh& mesh, std::size_t t)
   {
     constexpr double least = 1e-9; // area, in squared lengths
     const auto& v = mesh.triangles[t];
     const auto e1 = mesh.points[v[0]] - mesh.points[v[2]], e2 = mesh.points[v[1]] - mesh.points[v[0]];
-    const Vector_of_space n = area_normal(mesh, t);
+    const Vector_3 n = internal::area_normal(mesh, t);
     const double nn = n * n;
     if(std::sqrt(nn) > least * (e1 * e1 + e2 * e2)) {
       first = cross_product(n, e1) / nn;
@@ -66,6 +73,8 @@ struct Linear_gradient
     }
   }
 };
+
+namespace internal {
 
 inline std::string weight_error(double weight)
 {
@@ -123,7 +132,7 @@ inline Face_tensors vertex_signal(const Indexed_mesh::Indexed_triangle_mesh& mes
   result.tensors.resize(mesh.triangles.size());
   for(std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& v = mesh.triangles[t];
-    const internal::Linear_gradient gradient(mesh, t);
+    const Linear_gradient gradient(mesh, t);
     for(std::size_t c = 0; c < channels; ++c) {
       const double s = values[channels * v[0] + c];
       result.tensors[t] = result.tensors[t] + Indexed_mesh::Space_tensor::square(

@@ -78,7 +78,7 @@ public:
     : m_options(options)
   {}
 
-  /// Repairs the map. Of the energies in the report that before is 0.
+  /// Repairs the map. In the report the energy before the repair is 0.
   Flip_repair_report operator()(Map_to_repair& map,
                                 const std::function<bool(double)>& progress) const
   {

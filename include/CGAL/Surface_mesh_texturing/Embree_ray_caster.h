@@ -57,7 +57,7 @@ private:
 
   const std::vector<Point_3>& m_points;
   const std::vector<Triangle_indices>& m_triangles;
-  internal::Bounding_ball m_ball;
+  Bounding_ball m_ball;
   std::string m_error;
   Device m_device; // of one thread, released after the scene
   Scene m_scene;

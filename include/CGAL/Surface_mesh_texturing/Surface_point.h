@@ -61,15 +61,18 @@ inline Vector_3 position(const std::vector<Indexed_triangle_mesh::Point_3>& poin
        + weights[2] * (points[triangle[2]] - origin);
 }
 
+} // namespace internal
 
-// A ball around points: its centre is that of the bounding box.
+/// \ingroup PkgHLSCMTexturing
+/// A ball around points; its centre is that of their bounding box.
 struct Bounding_ball
 {
   typedef Indexed_mesh::Indexed_triangle_mesh::Point_3 Point_3;
 
-  Point_3 center;
-  double radius = 0.;
+  Point_3 center;     ///< the centre
+  double radius = 0.; ///< the radius; 0 without points
 
+  /// Constructs the ball of all points of the sets. Linear time.
   explicit Bounding_ball(std::initializer_list<const std::vector<Point_3>*> sets)
   {
     std::array<double, 3> lo, hi;
@@ -88,7 +91,6 @@ struct Bounding_ball
   }
 };
 
-} // namespace internal
 } // namespace Surface_mesh_texturing
 } // namespace CGAL
 

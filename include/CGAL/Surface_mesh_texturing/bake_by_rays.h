@@ -57,7 +57,7 @@ Baked_map bake_normal_map_by_rays(const Indexed_triangle_mesh& fine,
   const RayCaster_ caster(fine.points, fine.triangles);
   if(result.fail(Mesh_status::FAILED, caster.error()))
     return result;
-  const double radius = internal::Bounding_ball({&light.points}).radius;
+  const double radius = Bounding_ball({&light.points}).radius;
   const Along_rays<RayCaster_> correspondence(caster, fine.points, fine.triangles, light,
                                              frames.normals, options.max_distance * radius);
   return bake(light, correspondence,

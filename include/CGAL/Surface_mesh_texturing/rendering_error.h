@@ -202,7 +202,7 @@ inline Rendering_error rendering_error(const Textured_triangle_mesh& original,
     return result;
   const std::vector<Vector_3> normals = vertex_normals(original);
   const internal::Seen_normals seen(light, frames);
-  const internal::Bounding_ball ball({&original.points, &light.points});
+  const Bounding_ball ball({&original.points, &light.points});
   const std::array<Vector_3, 12> directions = internal::icosahedron_directions();
   std::array<internal::View_error, 12> views;
   Blocked_execution::blocked_for(12, 1, [&](std::size_t i, std::size_t) {

@@ -86,7 +86,7 @@ inline Face_tensors image_signal(const Textured_triangle_mesh& mesh, const Textu
     const internal::Image_slope& slope = slopes[t];
     const Triangle_indices& w = mesh.wedges[t];
     const auto &a = mesh.uv[w[0]], &b = mesh.uv[w[1]], &c = mesh.uv[w[2]];
-    const Surface_mesh_parameterization::internal::Linear_gradient gradient(surface, t);
+    const Surface_mesh_parameterization::Linear_gradient gradient(surface, t);
     const Vector_3 u = (b.x() - a.x()) * gradient.first + (c.x() - a.x()) * gradient.second;
     const Vector_3 v = (b.y() - a.y()) * gradient.first + (c.y() - a.y()) * gradient.second;
     // The Cholesky factor of the matrix of slopes: a sum of squares is never negative

@@ -4,7 +4,8 @@
 #ifndef CGAL_INDEXED_MESH_INTERNAL_RING_LINES_H
 #define CGAL_INDEXED_MESH_INTERNAL_RING_LINES_H
 
-#include <CGAL/Blocked_execution/memory.h>
+#include <CGAL/Blocked_execution/Uninitialized_vector.h>
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
 
 #include <CGAL/assertions.h>

@@ -4,7 +4,8 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_DECIMATION_COLLAPSE_WORKER_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_INTERNAL_DECIMATION_COLLAPSE_WORKER_H
 
-#include <CGAL/Blocked_execution/memory.h>
+#include <CGAL/Blocked_execution/Uninitialized_vector.h>
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
 #include <CGAL/Indexed_mesh/Vertex_rings.h>
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_policies.h>

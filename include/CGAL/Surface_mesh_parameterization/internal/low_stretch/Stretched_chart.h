@@ -8,7 +8,6 @@
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Low_stretch_solver.h>
 #include <CGAL/Surface_mesh_parameterization/internal/solver/Chart.h>
 #include <CGAL/Surface_mesh_parameterization/internal/solver/Pins.h>
-#include <CGAL/Surface_mesh_parameterization/internal/solver/sort_metric.h>
 #include <CGAL/Surface_mesh_parameterization/self_overlap.h>
 
 #include <cmath>
@@ -115,8 +114,8 @@ Low_stretch_map Stretched_chart<Energy>::map(Prepared_chart prepared, const Tria
 {
   Low_stretch_map result;
   if(result.fail(Mesh_status::BAD_OPTIONS, options_error(m_options))
-     || result.fail(Mesh_status::BAD_OPTIONS, prepared.chart.metric_error)
-     || result.fail(Mesh_status::BAD_MESH, prepared.status.message))
+     || result.fail(prepared.has_bad_metric ? Mesh_status::BAD_OPTIONS : Mesh_status::BAD_MESH,
+                    prepared.status.message))
     return result;
   m_chart = std::move(prepared.chart);
   m_exponent = scale_to_power_of_two(m_chart);

@@ -6,13 +6,14 @@
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Blocked_execution/compile_once.h>
-#include <CGAL/Blocked_execution/memory.h>
+#include <CGAL/Blocked_execution/Uninitialized_vector.h>
 #include <CGAL/Indexed_mesh/Space_tensor.h>
-#include <CGAL/Indexed_mesh/Vertex_rings.h>
+#include <CGAL/Indexed_mesh/Triangle_adjacency.h>
+#include <CGAL/Indexed_mesh/mesh_error.h>
 
 #ifdef CGAL_HLSCM_DEFINITIONS
 #include <CGAL/Indexed_mesh/border_loops.h>
-#include <CGAL/Surface_mesh_parameterization/internal/solver/sort_metric.h>
+#include <CGAL/Indexed_mesh/prepare_mesh.h>
 #endif
 
 #include <CGAL/Surface_mesh_parameterization/Error_code.h>
@@ -25,7 +26,6 @@
 #include <atomic>
 #include <cmath>
 #include <complex>
-#include <numeric>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -43,9 +43,10 @@ struct Status
 
   bool is_ok() const { return error == OK; }
 
+  // Takes a sentence that says what is wrong, if it says so and none was before.
   void fail(Error_code code, const std::string& text)
   {
-    if(error == OK) {
+    if(error == OK && !text.empty()) {
       error = code;
       message = text;
     }
@@ -85,22 +86,7 @@ struct Chart
   std::vector<std::vector<Vertex_index>> borders;
   double scale = 1.;                      // lengths of `mesh` to those of the input
   Metric metric;                          // of each triangle; empty: that of the points
-  std::string metric_error;               // what is wrong with it
 };
-
-inline void check_point(const Chart::Mesh::Point_3& p, std::size_t vertex, Status& status)
-{
-  if(!std::isfinite(p.x()) || !std::isfinite(p.y()) || !std::isfinite(p.z()))
-    status.fail(ERROR_WRONG_PARAMETER, "vertex " + std::to_string(vertex)
-               + " has a coordinate that is not a finite number; correct or remove it");
-}
-
-// Says which point, the first of several, is none.
-CGAL_HLSCM_INLINE void check_points(const Chart& chart, Status& status);
-
-// Takes the arrays of `chart.mesh` with `chart.source` set, and of it the component of the vertex at
-// position `seed`; without a seed all must be one component. `chart.metric` goes with its triangles.
-CGAL_HLSCM_INLINE void prepare_chart(Chart& chart, std::uint32_t seed, Status& status);
 
 // Calls `body(i)` for i in [0, n). Numbers that are objects may not be read by several threads.
 template <class Number, class Body>
@@ -136,7 +122,7 @@ void copy_points(const TriangleMesh& mesh, VertexPositionMap position, Chart& ch
       is_finite = false;
   });
   if(!is_finite)
-    check_points(chart, status);
+    status.fail(ERROR_WRONG_PARAMETER, Indexed_mesh::point_error(chart.mesh.points));
 }
 
 // Copies the faces and positions of `mesh`; vertices are numbered as in vertices(mesh).
@@ -166,18 +152,37 @@ void copy_faces(const TriangleMesh& mesh, Chart& chart, Status& status)
                + " is not a triangle; triangulate the mesh first");
 }
 
-// A chart, and what was wrong with the mesh that it is of.
+// A chart, and what was wrong with the mesh that it is of, or with the metric that it is to have.
 struct Prepared_chart
 {
   Chart chart;
   Status status;
+  bool has_bad_metric = false;
 };
 
-// The sources of vertices that are numbered as in the input.
-inline void number_sources(Chart& chart)
+// Takes the arrays of the chart's mesh, and of it the component of vertex `seed`; without a seed all must
+// be one component. The chart's metric goes with its triangles.
+CGAL_HLSCM_INLINE void prepare_chart(Prepared_chart& prepared, std::uint32_t seed);
+
+// For each of `triangles`, whose vertex v is vertex `source[v]` of the `n` of an input, its number
+// among those of the input, some or all of which they are.
+inline std::vector<Indexed_mesh::Triangle_index>
+numbers_in_input(const std::vector<Indexed_mesh::Triangle_indices>& input, std::size_t n,
+                 const std::vector<Indexed_mesh::Triangle_indices>& triangles,
+                 const std::vector<std::uint32_t>& source)
 {
-  chart.source.resize(chart.mesh.points.size());
-  std::iota(chart.source.begin(), chart.source.end(), 0u);
+  const std::vector<Indexed_mesh::Vertex_index> rank = Indexed_mesh::ranks(source, n);
+  const Indexed_mesh::Triangles_at_vertices at(triangles, source.size());
+  std::vector<Indexed_mesh::Triangle_index> number(triangles.size());
+  for(std::size_t t = 0; t < input.size(); ++t) {
+    const std::uint32_t a = rank[input[t][0]], b = rank[input[t][1]];
+    if(a == Indexed_mesh::no_vertex || b == Indexed_mesh::no_vertex)
+      continue;
+    for(const std::uint32_t* c = at.begin(a); c != at.end(a); ++c)
+      if(Indexed_mesh::vertex_of(triangles, Indexed_mesh::next_halfedge(*c)) == b)
+        number[Indexed_mesh::triangle_of(*c)] = Indexed_mesh::Triangle_index(t);
+  }
+  return number;
 }
 
 // A connected mesh that is two arrays, with the metric of its triangles, if that is not their own.
@@ -203,7 +208,7 @@ Status check_border(const TriangleMesh& mesh,
   typedef boost::graph_traits<TriangleMesh> Traits;
   Status status;
   if(faces(mesh).begin() == faces(mesh).end())
-    status.fail(ERROR_EMPTY_MESH, "the mesh has no faces");
+    status.fail(ERROR_EMPTY_MESH, "the mesh has no triangles");
   const auto all = halfedges(mesh);
   const bool is_null = bhd == Traits::null_halfedge() || !status.is_ok();
   if(!is_null && std::find(all.begin(), all.end(), bhd) == all.end())
@@ -227,87 +232,31 @@ Prepared_chart extract_chart(const TriangleMesh& mesh,
     return result;
   result.chart.metric = metric;
   copy_faces(mesh, result.chart, result.status);
-  number_sources(result.chart);
   std::uint32_t seed = 0;
   for(const auto v : vertices(mesh)) {
     if(v == target(bhd, mesh))
       break;
     ++seed;
   }
-  prepare_chart(result.chart, seed, result.status);
+  prepare_chart(result, seed);
   return result;
 }
 
 #ifdef CGAL_HLSCM_DEFINITIONS
 
-CGAL_HLSCM_INLINE void check_points(const Chart& chart, Status& status)
+// Brings the tensors of the triangles `input` to the order of those of the chart, some or all of the
+// same triangles. Vertices have `n` numbers in the input. Returns what is wrong.
+inline std::string sort_metric(const std::vector<Indexed_mesh::Triangle_indices>& input, std::size_t n,
+                               Chart& chart)
 {
-  for(std::size_t v = 0; v < chart.mesh.points.size(); ++v)
-    check_point(chart.mesh.points[v], v, status);
-}
-
-// Says which triangle, the first of several, has a corner that is no vertex.
-inline void check_indices(const Chart::Mesh& mesh, Status& status)
-{
-  for(std::size_t t = 0; t < mesh.triangles.size() && status.is_ok(); ++t)
-    for(const std::uint32_t v : mesh.triangles[t])
-      if(v >= mesh.points.size())
-        status.fail(ERROR_WRONG_PARAMETER, "triangle " + std::to_string(t) + " has the vertex "
-                    + std::to_string(v) + ", but there are only "
-                    + std::to_string(mesh.points.size()) + " vertices");
-}
-
-// Keeps the vertices for which `is_kept` and the triangles that have them.
-inline void keep_vertices(Chart& chart, const std::vector<bool>& is_kept)
-{
-  std::vector<std::uint32_t> rank(is_kept.size());
-  std::size_t kept = 0;
-  for(std::size_t v = 0; v < is_kept.size(); ++v) {
-    rank[v] = std::uint32_t(kept);
-    if(!is_kept[v])
-      continue;
-    chart.mesh.points[kept] = chart.mesh.points[v];
-    chart.source[kept] = chart.source[v];
-    ++kept;
-  }
-  chart.mesh.points.erase(chart.mesh.points.begin() + kept, chart.mesh.points.end());
-  chart.source.resize(kept);
-  std::size_t triangles = 0;
-  for(const auto& t : chart.mesh.triangles)
-    if(is_kept[t[0]] && is_kept[t[1]] && is_kept[t[2]])
-      chart.mesh.triangles[triangles++] = {rank[t[0]], rank[t[1]], rank[t[2]]};
-  chart.mesh.triangles.resize(triangles);
-}
-
-inline void remove_unused_vertices(Chart& chart)
-{
-  const auto& triangles = chart.mesh.triangles;
-  std::vector<std::atomic<bool>> is_used(chart.mesh.points.size());
-  Blocked_execution::blocked_for(triangles.size(), 16384, [&](std::size_t begin, std::size_t end) {
-    for(std::size_t t = begin; t < end; ++t)
-      for(const std::uint32_t v : triangles[t])
-        is_used[v].store(true, std::memory_order_relaxed);
-  });
-  const std::vector<bool> is_kept(is_used.begin(), is_used.end());
-  if(std::find(is_kept.begin(), is_kept.end(), false) != is_kept.end())
-    keep_vertices(chart, is_kept);
-}
-
-// Builds the rings; says which vertex has none.
-inline void connect(Chart& chart, Status& status)
-{
-  typedef Indexed_mesh::Ring_defect Ring_defect;
-  chart.rings = Indexed_mesh::Vertex_rings(chart.mesh);
-  if(chart.rings.defect() == Ring_defect::NONE)
-    return;
-  const std::string vertex
-    = "vertex " + std::to_string(chart.source[chart.rings.defective_vertex()]);
-  if(chart.rings.defect() == Ring_defect::REPEATED_HALFEDGE)
-    status.fail(ERROR_NO_TOPOLOGICAL_DISC, vertex + " has an edge with more than two faces, or with "
-               "two faces of different orientation; repair the mesh first");
-  else
-    status.fail(ERROR_NO_TOPOLOGICAL_DISC, "the faces at " + vertex
-               + " do not form one fan; split the vertex first");
+  if(chart.metric.size() != input.size())
+    return Indexed_mesh::metric_size_error(chart.metric.size(), input.size());
+  const auto number = numbers_in_input(input, n, chart.mesh.triangles, chart.source);
+  Chart::Metric sorted;
+  for(const auto t : number)
+    sorted.push_back(chart.metric[t]);
+  chart.metric.swap(sorted);
+  return Indexed_mesh::metric_error(chart.mesh, chart.metric, number);
 }
 
 // Euler: V - E + F = 2 - 2 genus - borders.
@@ -333,22 +282,17 @@ inline void prepare_surface(Chart& chart, std::uint32_t seed, Status& status)
   if(!status.is_ok())
     return;
   if(chart.mesh.triangles.empty())
-    return status.fail(ERROR_EMPTY_MESH, "the mesh has no faces");
-  remove_unused_vertices(chart);
-  chart.scale = Indexed_mesh::normalize(chart.mesh);
-  if(!(chart.scale > 0.))
-    return status.fail(ERROR_WRONG_PARAMETER, "all vertices lie in one point");
-  const auto sort = [&chart] {
-    const std::vector<Indexed_mesh::Vertex_index> order = Indexed_mesh::sort_spatially(chart.mesh);
-    std::vector<std::uint32_t> source(order.size());
-    for(std::size_t v = 0; v < order.size(); ++v)
-      source[v] = chart.source[order[v]];
-    chart.source.swap(source);
-  };
-  sort();
-  connect(chart, status);
+    return status.fail(ERROR_EMPTY_MESH, "the mesh has no triangles");
+  Indexed_mesh::Preparation steps;
+  steps.drops_unused_vertices = true;
+  Indexed_mesh::Prepared_mesh prepared = Indexed_mesh::prepare_mesh(std::move(chart.mesh), steps);
+  status.fail(prepared.scale > 0. ? ERROR_NO_TOPOLOGICAL_DISC : ERROR_WRONG_PARAMETER, prepared.error);
   if(!status.is_ok())
     return;
+  chart.mesh = std::move(prepared.mesh);
+  chart.source = std::move(prepared.source);
+  chart.rings = std::move(prepared.rings);
+  chart.scale = prepared.scale;
   Indexed_mesh::Vertex_index first = 0;
   for(Indexed_mesh::Vertex_index v = 0; v < chart.source.size(); ++v)
     if(chart.source[v] == seed)
@@ -358,36 +302,35 @@ inline void prepare_surface(Chart& chart, std::uint32_t seed, Status& status)
     if(seed == Indexed_mesh::no_vertex)
       return status.fail(ERROR_NO_TOPOLOGICAL_DISC,
                         "the surface has several components; map them one by one");
-    keep_vertices(chart, is_reached);
-    connect(chart, status);
+    Indexed_mesh::keep_vertices(chart.mesh, chart.source, is_reached);
+    chart.rings = Indexed_mesh::Vertex_rings(chart.mesh);
   }
   chart.borders = Indexed_mesh::border_loops(chart.rings);
   check_topology(chart, status);
 }
 
-CGAL_HLSCM_INLINE void prepare_chart(Chart& chart, std::uint32_t seed, Status& status)
+CGAL_HLSCM_INLINE void prepare_chart(Prepared_chart& prepared, std::uint32_t seed)
 {
+  Chart& chart = prepared.chart;
   if(chart.metric.empty())
-    return prepare_surface(chart, seed, status);
+    return prepare_surface(chart, seed, prepared.status);
   const std::vector<Indexed_mesh::Triangle_indices> input = chart.mesh.triangles;
   const std::size_t n = chart.mesh.points.size();
-  prepare_surface(chart, seed, status);
-  if(status.is_ok())
-    chart.metric_error = sort_metric(input, n, chart.mesh, chart.source, chart.metric);
-  if(!chart.metric_error.empty())
-    status.fail(ERROR_WRONG_PARAMETER, chart.metric_error);
+  prepare_surface(chart, seed, prepared.status);
+  if(!prepared.status.is_ok())
+    return;
+  prepared.status.fail(ERROR_WRONG_PARAMETER, sort_metric(input, n, chart));
+  prepared.has_bad_metric = !prepared.status.is_ok();
 }
 
 CGAL_HLSCM_INLINE Prepared_chart chart_of_arrays(Chart::Mesh mesh, const Chart::Metric& metric)
 {
   Prepared_chart result;
-  Chart& chart = result.chart;
-  chart.mesh = std::move(mesh);
-  chart.metric = metric;
-  number_sources(chart);
-  check_indices(chart.mesh, result.status);
-  check_points(chart, result.status);
-  prepare_chart(chart, Indexed_mesh::no_vertex, result.status);
+  result.chart.mesh = std::move(mesh);
+  result.chart.metric = metric;
+  if(!result.chart.mesh.triangles.empty())
+    result.status.fail(ERROR_WRONG_PARAMETER, Indexed_mesh::mesh_error(result.chart.mesh));
+  prepare_chart(result, Indexed_mesh::no_vertex);
   return result;
 }
 

@@ -12,7 +12,6 @@
 #include <CGAL/Surface_mesh_parameterization/Solver_traits_cholesky.h>
 #include <CGAL/Surface_mesh_parameterization/internal/solver/Pins.h>
 #include <CGAL/Surface_mesh_parameterization/internal/solver/coarse_cotangents.h>
-#include <CGAL/Surface_mesh_parameterization/internal/solver/level_weights.h>
 
 #include <algorithm>
 #include <cmath>

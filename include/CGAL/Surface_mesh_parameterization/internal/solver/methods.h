@@ -8,7 +8,6 @@
 #include <CGAL/Multigrid/Sparse_cholesky.h>
 #include <CGAL/Surface_mesh_parameterization/internal/repair/relax_flipped_faces.h>
 #include <CGAL/Surface_mesh_parameterization/internal/solver/Conformal_system.h>
-#include <CGAL/Surface_mesh_parameterization/internal/solver/doubt_map.h>
 
 #include <cmath>
 #include <complex>

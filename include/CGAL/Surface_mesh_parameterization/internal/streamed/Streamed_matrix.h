@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_STREAMED_STREAMED_MATRIX_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_STREAMED_STREAMED_MATRIX_H
 
-#include <CGAL/Surface_mesh_parameterization/internal/solver/conformal_rows.h>
+#include <CGAL/Surface_mesh_parameterization/Conformal_operator.h>
 #include <CGAL/Surface_mesh_parameterization/internal/streamed/Mesh_block.h>
 
 #include <algorithm>

@@ -33,7 +33,7 @@ namespace internal {
 inline void measure_atlas(const Texture_atlas& atlas, Texture_atlas_report& report)
 {
   namespace SMP = Surface_mesh_parameterization;
-  SMP::internal::Distortion_summary summary;
+  SMP::Distortion_summary summary;
   const Textured_triangle_mesh& mesh = atlas.mesh;
   const double width = double(atlas.width), height = double(atlas.height);
   double area = 0.;
