@@ -217,7 +217,7 @@ TEST_F(Atlas, leaves_nothing_when_it_is_interrupted)
       }
       EXPECT_EQ(outcome.exit_code, 1) << milliseconds;
       EXPECT_EQ(outcome.err, "hlscm: cancelled\n");
-      EXPECT_LT(outcome.seconds, 1.5);
+      EXPECT_LT(outcome.processor_seconds, 1.5);
       EXPECT_EQ(names(), std::set<std::string>{"in.off"}) << command[0] << " " << milliseconds;
     }
   }

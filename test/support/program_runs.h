@@ -16,6 +16,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -26,6 +27,7 @@
 #include <vector>
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -267,8 +269,19 @@ struct Outcome
 {
   int exit_code = -1; // minus the signal if one ended it
   std::string out, err;
-  double seconds = 0;
+  double seconds = 0;           // by the clock, from finish() on
+  double processor_seconds = 0; // the same, of its own work: what else runs does not count
 };
+
+// What a child has used until now.
+inline double processor_seconds(pid_t child)
+{
+  clockid_t clock;
+  timespec time{};
+  if(clock_getcpuclockid(child, &clock) == 0)
+    clock_gettime(clock, &time);
+  return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
+}
 
 inline std::string read_file(const fs::path& path)
 {
@@ -331,9 +344,14 @@ protected:
   Outcome finish(pid_t child) const
   {
     const Clock::time_point begin = Clock::now();
+    const double before = processor_seconds(child);
     int status = 0;
-    waitpid(child, &status, 0);
+    rusage usage{};
+    wait4(child, &status, 0, &usage);
     Outcome outcome;
+    for(const timeval& part : {usage.ru_utime, usage.ru_stime})
+      outcome.processor_seconds += double(part.tv_sec) + 1e-6 * double(part.tv_usec);
+    outcome.processor_seconds -= before;
     outcome.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
     outcome.out = read_file(folder / "stdout");

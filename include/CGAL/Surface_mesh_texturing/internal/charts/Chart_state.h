@@ -6,18 +6,20 @@
 
 #include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 #include <CGAL/Surface_mesh_parameterization/border_first_map.h>
+#include <CGAL/Surface_mesh_parameterization/low_stretch_map.h>
 #include <CGAL/Surface_mesh_parameterization/self_overlap.h>
 #include <CGAL/Surface_mesh_texturing/Chart_distortion.h>
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/Growth_surface.h>
-#include <CGAL/Surface_mesh_texturing/internal/charts/stretch_map.h>
 #include <CGAL/Surface_mesh_texturing/internal/seams/Seam_graph.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/ch_graham_andrew.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <utility>
@@ -26,6 +28,28 @@
 namespace CGAL {
 namespace Surface_mesh_texturing {
 namespace internal {
+
+// Whether a chart with this conformal map may come within the bound by a map with little stretch, which
+// keeps angles less and areas better.
+inline bool is_worth_stretching(const Chart_distortion& conformal, const Distortion_bound& bound)
+{
+  constexpr double most = 2.5; // the power of the bound
+  return conformal.area_scale > bound.area_scale
+      && conformal.area_scale <= std::pow(bound.area_scale, most)
+      && conformal.quasi_conformal <= bound.quasi_conformal;
+}
+
+// A map with little stretch, without a flipped triangle; empty if there is none. `progress` as of
+// `Low_stretch_options`.
+inline std::vector<Simple_cartesian<double>::Point_2>
+stretch_map(const Indexed_mesh::Indexed_triangle_mesh& chart,
+            std::function<bool(double)> progress = nullptr)
+{
+  Surface_mesh_parameterization::Low_stretch_options options;
+  options.tolerance = 1e-2;
+  options.progress = std::move(progress);
+  return Surface_mesh_parameterization::low_stretch_map(chart, options).uv;
+}
 
 typedef Simple_cartesian<double>::Point_2 Trial_uv;
 

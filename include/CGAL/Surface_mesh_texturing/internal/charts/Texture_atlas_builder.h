@@ -6,14 +6,13 @@
 
 #include <CGAL/Blocked_execution/Progress.h>
 #include <CGAL/Blocked_execution/compile_once.h>
+#include <CGAL/Surface_mesh_texturing/Chart_packing.h>
 #include <CGAL/Surface_mesh_texturing/Chart_segmenters.h>
-#include <CGAL/Surface_mesh_texturing/internal/charts/Atlas_models.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/adapt_chart.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/map_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/filling/Filled_packing.h>
 #include <CGAL/Surface_mesh_texturing/internal/filling/page_sets.h>
 #include <CGAL/Surface_mesh_texturing/internal/mapped_charts/align_charts.h>
-#include <CGAL/Surface_mesh_texturing/internal/mapped_charts/scale_by_density.h>
 #include <CGAL/Surface_mesh_texturing/internal/mapped_charts/straighten_borders.h>
 
 #include <atomic>
@@ -28,6 +27,23 @@
 namespace CGAL {
 namespace Surface_mesh_texturing {
 namespace internal {
+
+// What finds, maps and packs the charts of an atlas. The types of the models end here: what follows
+// is compiled once.
+struct Atlas_models
+{
+  std::function<Segmentation_result(const Indexed_triangle_mesh&, const Texture_atlas_options&)>
+    segment;
+  bool is_bounded = true;      // ChartSegmenter::Is_bounded
+  bool is_for_any_mesh = true; // ChartSegmenter::Is_for_any_mesh
+  bool is_own = true;          // the default segmenter, which checks meshes and cuts charts to disks
+  std::function<std::vector<Point_2>(const Indexed_triangle_mesh&)> parameterize;
+  std::function<Packing_result(const std::vector<Chart_shape>&, const Packing_options&)> pack;
+  // Charts with maps that are there already, in the place of what segments and parameterizes.
+  std::function<std::vector<Mapped_chart>(const Indexed_triangle_mesh&, const Triangle_adjacency&,
+                                          Mesh_outcome&)>
+    take_maps;
+};
 
 // Measures the whole atlas, in texels.
 inline void measure_atlas(const Texture_atlas& atlas, Texture_atlas_report& report)

@@ -64,6 +64,25 @@ inline void adapt_chart(const std::vector<Indexed_mesh::Space_tensor>& metric, M
   map.report.distortion = measure_chart_distortion(mesh, map.uv);
 }
 
+// Makes the charts as large as their density asks for.
+inline void scale_by_density(const std::vector<float>& density, Mapped_chart& map)
+{
+  if(density.empty())
+    return;
+  double sum = 0., all = 0.;
+  const Indexed_triangle_mesh& mesh = map.chart.mesh;
+  for(std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Triangle_indices& vs = mesh.triangles[t];
+    const double area
+      = std::sqrt(squared_area(mesh.points[vs[0]], mesh.points[vs[1]], mesh.points[vs[2]]));
+    sum += area * density[map.chart.triangles[t]];
+    all += area;
+  }
+  const double scale = all > 0. ? sum / all : 1.;
+  for(Point_2& p : map.uv)
+    p = Point_2(scale * p.x(), scale * p.y());
+}
+
 } // namespace internal
 } // namespace Surface_mesh_texturing
 } // namespace CGAL
