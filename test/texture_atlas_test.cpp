@@ -7,6 +7,7 @@
 #include <support/bad_surfaces.h>
 #include <support/chart_generators.h>
 #include <support/texture_atlas_properties.h>
+#include <support/texturing_options.h>
 
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Surface_mesh_texturing/build_texture_atlas.h>
@@ -27,14 +28,6 @@ using namespace test_support;
 
 constexpr std::uint64_t seed = 51200;
 const std::string seed_text = ", seed " + std::to_string(seed);
-
-SMT::Texture_atlas_options small_texture()
-{
-  SMT::Texture_atlas_options options;
-  options.packing.width = options.packing.height = 256;
-  options.coarse_faces = 500;
-  return options;
-}
 
 bool are_equal(const SMT::Texture_atlas& a, const SMT::Texture_atlas& b)
 {
