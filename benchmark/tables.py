@@ -495,16 +495,20 @@ def ranks():
     lines = []
     for row in read("ranks.csv"):
         count = int(row["ranks"])
-        by = {"in memory": "in memory, one thread", "out of core": "out of core, `--memory 4G`, one thread",
+        given = "60 bytes a face" if row["series"] == "free" else "`--memory 4G`"
+        by = {"in memory": "in memory, one thread", "out of core": f"out of core, {given}, one thread",
               "out of core, 2 threads": "out of core, 60 bytes a face, two threads",
               "ranks": f"{count} rank" + ("s" if count > 1 else "")}[row["method"]]
+        is_of_processors = row["series"] in ("free", "size")  # the machine was busy
+        clock = ["", ""] if is_of_processors else [number(row, "seconds", 1), number(row, "wall", 1)]
+        processors = number(row, "processors", 1) if row["processors"] else ""
         sent = ""
         if count > 1:
             sent = f"{int(row['megabytes_sent'])} MB, {int(row['messages'])}"
         lines.append([row["series"], f"{float(row['faces']) / 1e6:.0f}M", by, row["iterations"],
-                      f"{float(row['energy']):.5g}", number(row, "seconds", 1), number(row, "wall", 1),
-                      row["peak_memory_mb"] + " MB", sent])
-    return table(["series", "faces", "by", "iterations", "energy", "seconds", "with files",
+                      f"{float(row['energy']):.5g}"] + clock
+                     + [processors, row["peak_memory_mb"] + " MB", sent])
+    return table(["series", "faces", "by", "iterations", "energy", "seconds", "with files", "of processors",
                   "most memory of a process", "sent, messages"], lines)
 
 

@@ -11,7 +11,7 @@
 #include <support/bad_surfaces.h>
 #include <support/binary_ply.h>
 #include <support/border_quotient.h>
-#include <support/chart_generators.h>
+#include <support/very_large_charts.h>
 
 #include <gtest/gtest.h>
 
@@ -27,6 +27,7 @@
 #include <string>
 #include <vector>
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace distributed_chart_test {
@@ -151,37 +152,53 @@ std::size_t number_of_flips(const Indexed_triangle_mesh& mesh, const Uv& uv)
   return result;
 }
 
-std::vector<Named_mesh> charts()
+double quotient_of(const Indexed_triangle_mesh& mesh, const Uv& uv, double energy)
 {
-  std::vector<Named_mesh> result = curved_charts(1);
-  result.push_back({"long strip", with_noise(irregular_grid(600, 5, 4), 0.2, 5)});
-  return result;
+  std::vector<CGAL::Simple_cartesian<double>::Point_2> points;
+  for(const auto& p : uv)
+    points.emplace_back(p[0], p[1]);
+  return border_quotient(mesh, points, energy);
 }
 
-TEST(Distributed_chart, is_that_in_memory)
+// At full convergence, from 1 to 64 blocks.
+void test_against_memory(SMP::Conformal_method method)
 {
-  for(const Named_mesh& chart : charts()) {
-    SCOPED_TRACE(chart.name);
-    const std::size_t n = chart.mesh.points.size();
-    const Indexed_triangle_mesh mesh = shuffled(chart.mesh, 3);
-    const Expected expected(mesh, 1e-11);
-    if(expected.map.error != SMP::OK) // points twice: so small a tolerance is out of reach
+  const bool is_free = method == SMP::Conformal_method::SPECTRAL;
+  for(const Very_large_chart_case& chart : very_large_chart_cases(method)) {
+    if(chart.has_near_eigenvalues && size_of(MPI_COMM_WORLD) > 2) // too long for ranks of one processor
       continue;
-    for(const auto& [block, gathered] : {std::make_pair(n, n), std::make_pair(n / 4, n / 2),
-                                         std::make_pair(n / 17, n / 8)}) {
+    SCOPED_TRACE(chart.name);
+    const Indexed_triangle_mesh& mesh = chart.mesh;
+    const std::size_t n = mesh.points.size();
+    const Expected expected(mesh, chart.tolerance, method);
+    ASSERT_EQ(expected.map.error, SMP::OK) << expected.map.report.message;
+    const auto measured = [&](const Uv& uv, double energy) {
+      return is_free ? quotient_of(mesh, uv, energy) : energy;
+    };
+    const double least = measured(expected.uv, expected.map.report.energy);
+    const bool has_one_size = chart.name != "hills with holes"; // one of each kind takes long enough
+    for(const auto& [block, gathered] : chart.sizes) {
+      if(has_one_size && block != chart.sizes.back().first)
+        continue;
       SCOPED_TRACE(std::to_string(block) + " vertices a block, in memory "
                    + std::to_string(gathered));
-      const Mapped found = map(mesh, options_of(block, gathered, 1e-11));
+      Options options = options_of(block, gathered, chart.tolerance);
+      options.solver.method = method;
+      const Mapped found = map(mesh, options);
       const Report& report = found.report;
       ASSERT_EQ(report.error, SMP::OK) << report.message;
-      EXPECT_LT(difference(found.uv, expected.uv), 1e-6);
-      EXPECT_NEAR(report.solver.energy, expected.map.report.energy,
-                  1e-8 * expected.map.report.energy + 1e-12);
+      EXPECT_LT(difference(found.uv, expected.uv), chart.largest_difference);
+      EXPECT_NEAR(measured(found.uv, report.solver.energy), least,
+                  (chart.tolerance > 1e-11 ? 1e-4 : 5e-8) * least + 1e-12); // PETSc's: a difference
       EXPECT_EQ(report.flipped_faces, number_of_flips(mesh, found.uv));
-      EXPECT_EQ(report.flipped_faces, number_of_flips(mesh, expected.uv));
+      if(!chart.is_doubtful) {
+        EXPECT_EQ(report.flipped_faces, number_of_flips(mesh, expected.uv));
+      }
+      EXPECT_EQ(report.solver.method, expected.map.report.method);
       EXPECT_EQ(report.solver.borders, expected.map.report.borders);
       EXPECT_EQ(report.levels_in_files > 0, gathered < n);
-      ASSERT_EQ(report.solver.pins.size(), 2u);
+      EXPECT_GE(report.blocks, gathered < n ? n / (std::max)(block, std::size_t(200)) : 1u);
+      ASSERT_EQ(report.solver.pins.size(), expected.map.report.pins.size());
       for(const SMP::HLSCM_pin& pin : report.solver.pins) {
         const auto &p = expected.map.report.pins[0], &q = expected.map.report.pins[1];
         EXPECT_TRUE(pin.vertex == p.vertex || pin.vertex == q.vertex);
@@ -196,44 +213,12 @@ TEST(Distributed_chart, is_that_in_memory)
   }
 }
 
-double quotient_of(const Indexed_triangle_mesh& mesh, const Uv& uv, double energy)
-{
-  std::vector<CGAL::Simple_cartesian<double>::Point_2> points;
-  for(const auto& p : uv)
-    points.emplace_back(p[0], p[1]);
-  return border_quotient(mesh, points, energy);
-}
+TEST(Distributed_chart, is_that_in_memory) { test_against_memory(SMP::Conformal_method::HLSCM); }
 
-// Without pins it is that of least energy for its border, the same in memory.
+// Then it is that of least energy for its border.
 TEST(Distributed_chart, is_that_in_memory_without_pins)
 {
-  for(const Named_mesh& chart : charts()) {
-    if(chart.name != "hills" && chart.name != "hills with holes" && chart.name != "dome"
-       && chart.name != "long strip")
-      continue;
-    SCOPED_TRACE(chart.name);
-    const std::size_t n = chart.mesh.points.size();
-    const Indexed_triangle_mesh mesh = shuffled(chart.mesh, 3);
-    const Expected expected(mesh, 1e-11, SMP::Conformal_method::SPECTRAL);
-    ASSERT_EQ(expected.map.error, SMP::OK) << expected.map.report.message;
-    for(const auto& [block, gathered] : {std::make_pair(n, n), std::make_pair(n / 4, n / 2),
-                                         std::make_pair(n / 17, n / 8)}) {
-      SCOPED_TRACE(std::to_string(block) + " vertices a block, in memory "
-                   + std::to_string(gathered));
-      Options options = options_of(block, gathered, 1e-11);
-      options.solver.method = SMP::Conformal_method::SPECTRAL;
-      const Mapped found = map(mesh, options);
-      const Report& report = found.report;
-      ASSERT_EQ(report.error, SMP::OK) << report.message;
-      EXPECT_LT(difference(found.uv, expected.uv), 1e-6);
-      const double least = quotient_of(mesh, expected.uv, expected.map.report.energy);
-      EXPECT_NEAR(quotient_of(mesh, found.uv, report.solver.energy), least, 1e-8 * least);
-      EXPECT_EQ(report.flipped_faces, number_of_flips(mesh, expected.uv));
-      EXPECT_EQ(report.levels_in_files > 0, gathered < n);
-      EXPECT_EQ(report.solver.method, "spectral");
-      EXPECT_TRUE(report.solver.pins.empty());
-    }
-  }
+  test_against_memory(SMP::Conformal_method::SPECTRAL);
 }
 
 // There its preconditioner has two pins.
@@ -263,7 +248,7 @@ void count_iterations(SMP::Conformal_method method)
 {
   const bool is_free = method == SMP::Conformal_method::SPECTRAL;
   std::vector<Named_mesh> all = curved_charts(1);
-  all = {all[2], all[3], all[is_free ? 8 : 9], large_charts(8)[1]}; // 9 folds without pins
+  all = {all[2], all[3], all[9], large_charts(8)[1]};
   std::size_t iterations = 0, expected_iterations = 0;
   for(const Named_mesh& chart : all) {
     SCOPED_TRACE(chart.name);
@@ -404,6 +389,45 @@ TEST_F(Distributed_file, is_refused_by_all_ranks)
     MPI_COMM_WORLD, missing.string(), [](std::string_view) {}, options_of(200, 100, 1e-2));
   EXPECT_NE(none.error, SMP::OK);
   EXPECT_NE(none.message.find("missing.ply"), std::string::npos) << none.message;
+}
+
+// As where the disks of machines hold files of one name that are not the same.
+TEST_F(Distributed_file, is_the_same_on_all_ranks)
+{
+  const int rank = rank_in(MPI_COMM_WORLD), last = size_of(MPI_COMM_WORLD) - 1;
+  const std::string own = (folder / ("in" + std::to_string(rank) + ".ply")).string();
+  write_records(with_noise(irregular_grid(20, 20, 1), 0.1, rank == last ? 2 : 3), own);
+  output.clear();
+  const Report report = SMP::map_distributed_chart(
+    MPI_COMM_WORLD, own, [this](std::string_view bytes) { output += bytes; },
+    options_of(200, 100, 1e-2));
+  EXPECT_EQ(report.message, last == 0 ? "" : "the ranks have different files of this name");
+  EXPECT_EQ(output.empty(), last > 0);
+}
+
+// No file of one rank may become longer than some bytes: as on a full disk. All say so, nothing is
+// written, and what was finished can be gone on from.
+TEST_F(Distributed_file, says_that_there_is_no_room)
+{
+  const Indexed_triangle_mesh mesh = shuffled(with_noise(irregular_grid(60, 50, 4), 0.2, 5), 8);
+  write(mesh);
+  Options options = options_of(500, 200, 1e-6);
+  options.work_folder = (folder / "work").string();
+  const bool is_first = rank_in(MPI_COMM_WORLD) == 0; // of many, the last ones may have nothing
+  rlimit old;
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &old), 0);
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small = {is_first ? 2000 : old.rlim_cur, old.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  const Report report = map_file(options);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &old), 0);
+  std::signal(SIGXFSZ, old_handler);
+  EXPECT_NE(report.error, SMP::OK);
+  EXPECT_NE(report.message.find("there is no room for"), std::string::npos) << report.message;
+  EXPECT_TRUE(output.empty());
+  options.resumes = true;
+  EXPECT_EQ(map_file(options).error, SMP::OK);
+  EXPECT_EQ(output.empty(), rank_in(MPI_COMM_WORLD) != 0);
 }
 
 // What the writer throws is thrown where it was called; the others know.

@@ -91,6 +91,7 @@ std::string to_json(const Report& report, const Options& options)
   nlohmann::ordered_json json = of_run(report, options).to_json();
   for(const SMP::Rank_report& rank : report.ranks) {
     json["ranks"].push_back({{"vertices", rank.vertices},
+                             {"seconds_alone", rank.seconds_alone},
                              {"peak_memory_mb", double(rank.peak_memory) / 1048576.},
                              {"bytes_sent", rank.bytes_sent},
                              {"messages", rank.messages}});
@@ -103,7 +104,10 @@ void print(const Report& report, const Options& options)
   const SMP::HLSCM_report& s = report.solver;
   const hlscm::Very_large_report said = of_run(report, options);
   std::size_t memory = 0, bytes = 0, messages = 0;
+  double least = report.ranks.front().seconds_alone, most = least;
   for(const SMP::Rank_report& rank : report.ranks) {
+    least = std::min(least, rank.seconds_alone);
+    most = std::max(most, rank.seconds_alone);
     memory = std::max(memory, rank.peak_memory);
     bytes += rank.bytes_sent;
     messages += rank.messages;
@@ -112,8 +116,9 @@ void print(const Report& report, const Options& options)
             << " ranks\nlevels: " << said.levels() << '\n'
             << s.method << ", " << s.iterations << " iterations, energy " << said.energy() << ", "
             << report.flipped_faces << " flipped faces\nseconds: " << said.seconds(2)
-            << "\nof a rank: " << memory / 1048576 << " MB of memory at most; sent "
-            << bytes / 1000000 << " MB in " << messages << " messages\n";
+            << "\nof a rank: " << least << " to " << most << " seconds before the iteration, "
+            << memory / 1048576 << " MB of memory at most; sent " << bytes / 1000000 << " MB in "
+            << messages << " messages\n";
 }
 
 void say_error(const std::string& sentence)

@@ -42,6 +42,7 @@ struct Distributed_chart
 struct Rank_report
 {
   std::size_t vertices = 0;    ///< of the finest level on it
+  double seconds_alone = 0.;   ///< of its own part of the work before the iteration, without waiting
   std::size_t peak_memory = 0; ///< of its process, in bytes
   std::size_t bytes_sent = 0;  ///< to other ranks, but for sums and the like
   std::size_t messages = 0;    ///< in which they were sent
@@ -87,7 +88,7 @@ Distributed_chart_report map_parts(MPI_Comm comm, const Very_large_chart_options
       struct rusage usage;
       getrusage(RUSAGE_SELF, &usage);
       report.ranks = ranks.all(Rank_report{
-        run.number_of_vertices(), std::size_t(usage.ru_maxrss) * 1024,
+        run.number_of_vertices(), ranks.seconds_alone(), std::size_t(usage.ru_maxrss) * 1024,
         ranks.bytes_sent() + petsc_bytes() - bytes,
         ranks.messages_sent() + petsc_messages() - messages});
       return uv;
@@ -118,8 +119,9 @@ Distributed_chart_report map_parts(MPI_Comm comm, const Very_large_chart_options
 
 Computes the least squares conformal map of a chart that is distributed over the ranks of MPI: that
 of `conformal_map()` with its two far border pins, or without pins if the method is
-`Conformal_method::SPECTRAL`, to the same tolerance, moved into the unit square. All ranks decimate blocks of the surface and share the finer levels, on which PETSc
-iterates; rank 0 has the coarser ones.
+`Conformal_method::SPECTRAL`, to the same tolerance, moved into the unit square. All ranks decimate
+blocks of the surface and share the finer levels, on which PETSc iterates; rank 0 has the coarser
+ones.
 
 \param comm the ranks, all of which call this
 \param chart what this rank has of a connected surface of genus 0 with one or more borders

@@ -7,6 +7,8 @@
 #include <CGAL/Surface_mesh_texturing/Texture_image.h>
 #include <CGAL/Surface_mesh_texturing/internal/writing/Byte_output.h>
 
+#include <boost/predef/other/endian.h>
+
 #include <png.h>
 
 #include <csetjmp>
@@ -25,14 +27,6 @@ namespace internal {
 inline void append_png(png_structp png, png_bytep data, std::size_t size)
 {
   static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<char*>(data), size);
-}
-
-inline bool is_little_endian()
-{
-  const std::uint16_t one = 1;
-  unsigned char first;
-  std::memcpy(&first, &one, 1);
-  return first == 1;
 }
 
 // The samples of an image as libpng takes them, the higher byte of two in either order.
@@ -55,7 +49,7 @@ inline bool put_png(png_structp png, png_infop info, const Png_samples& image, i
                color_types[image.channels - 1], PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                PNG_FILTER_TYPE_DEFAULT);
   png_write_info(png, info);
-  if(image.bits == 16 && is_little_endian())
+  if(image.bits == 16 && BOOST_ENDIAN_LITTLE_BYTE)
     png_set_swap(png);
   const std::size_t row = image.width * image.channels * std::size_t(image.bits) / 8;
   for(std::size_t y = 0; y < image.height; ++y)

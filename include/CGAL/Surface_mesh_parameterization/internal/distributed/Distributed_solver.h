@@ -14,6 +14,7 @@
 #include <cmath>
 #include <complex>
 #include <cstdint>
+#include <iterator>
 #include <new>
 #include <utility>
 #include <vector>
@@ -250,6 +251,14 @@ void Distributed_solver::relax_flips(
   Vec z, const std::vector<Indexed_mesh::Triangle_indices>& triangles, const Values& values)
 {
   const std::size_t finest = number_of_levels();
+  const Distributed_level& fine = level(finest);
+  std::vector<PetscInt> held(fine.pins.begin(), fine.pins.end()); // on rank 0 those of all ranks
+  if(m_hierarchy.is_free()) {
+    for(const std::uint32_t v : rows_of(fine.mass))
+      held.push_back(PetscInt(fine.first + v));
+    held = m_ranks.gathered(held);
+  }
+  std::sort(held.begin(), held.end());
   const auto is_too_large = [&](std::size_t n) {
     return m_ranks.broadcast(n) > largest_relaxed_patch;
   };
@@ -270,14 +279,15 @@ void Distributed_solver::relax_flips(
     check(ISCreateGeneral(PETSC_COMM_SELF, PetscInt(corners.size()), corners.data(),
                           PETSC_COPY_VALUES, around.put()));
     check(MatIncreaseOverlap(level(finest).matrix, 1, around.put(), rings));
+    check(ISSort(around));
     const PetscInt* vertices = nullptr;
     PetscInt count = 0;
     check(ISGetLocalSize(around, &count));
     check(ISGetIndices(around, &vertices));
-    std::vector<PetscInt> free(vertices, vertices + count);
+    std::vector<PetscInt> free;
+    std::set_difference(vertices, vertices + count, held.begin(), held.end(),
+                        std::back_inserter(free));
     check(ISRestoreIndices(around, &vertices));
-    for(const std::uint32_t pin : level(finest).pins)
-      free.erase(std::remove(free.begin(), free.end(), PetscInt(pin)), free.end());
     if(is_too_large(free.size()))
       return;
     minimize_on_patch(z, free);

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_DISTRIBUTED_RANKS_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_DISTRIBUTED_RANKS_H
 
+#include <CGAL/Blocked_execution/Progress.h>
 #include <CGAL/Surface_mesh_parameterization/internal/stored/Streaming_failure.h>
 
 #include <algorithm>
@@ -47,6 +48,7 @@ public:
   std::size_t size() const { return std::size_t(m_size); }
   std::size_t bytes_sent() const { return m_bytes; } // to other ranks, by `exchange()`
   std::size_t messages_sent() const { return m_messages; }
+  double seconds_alone() const { return m_seconds_alone; } // of work that was done `together()`
 
   double sum(double value) const { return reduced(value, MPI_DOUBLE, MPI_SUM); }
   std::size_t sum(std::size_t value) const
@@ -170,6 +172,7 @@ public:
     constexpr int nothing = -1;
     int kind = nothing, error = OK;
     std::string sentence;
+    const Blocked_execution::Stopwatch watch;
     try {
       work();
     } catch(const Streaming_failure& failure) {
@@ -185,6 +188,7 @@ public:
       error = ERROR_CANNOT_SOLVE_LINEAR_SYSTEM;
       sentence = "rank " + std::to_string(rank()) + " cannot go on: " + failure.what();
     }
+    m_seconds_alone += watch.seconds();
     const std::vector<int> kinds = all(kind);
     const auto failed
       = std::find_if(kinds.begin(), kinds.end(), [](int k) { return k != nothing; });
@@ -214,6 +218,7 @@ private:
   MPI_Comm m_comm = MPI_COMM_NULL;
   int m_rank = 0, m_size = 1;
   std::size_t m_bytes = 0, m_messages = 0;
+  mutable double m_seconds_alone = 0.;
 };
 
 // Entries of a distributed array on one rank: its own, which are `local`, and others that it asks

@@ -9,6 +9,7 @@
 #include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 #include <CGAL/Multigrid/Hermitian_matrix.h>
 #include <CGAL/Multigrid/Matrix_builder.h>
+#include <CGAL/Multigrid/Rayleigh_quotient.h>
 #include <CGAL/Multigrid/Sparse_cholesky.h>
 
 #include <algorithm>
@@ -16,6 +17,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -161,6 +163,40 @@ std::vector<std::uint32_t> faces_without_positive_area(const Triangles& triangle
 {
   std::vector<std::uint32_t> result;
   add_faces_without_positive_area(triangles, z, 0, triangles.size(), result);
+  return result;
+}
+
+// A matrix some rows of which are held: their vertices are not free.
+template <class Matrix>
+class Held_rows
+{
+public:
+  Held_rows(const Matrix& h, std::vector<std::uint32_t> held) : m_h(h), m_held(std::move(held))
+  {
+    std::sort(m_held.begin(), m_held.end());
+  }
+
+  const Held_rows& diagonal() const { return *this; }
+  double operator[](std::uint32_t v) const
+  {
+    return std::binary_search(m_held.begin(), m_held.end(), v) ? 0. : m_h.diagonal()[v];
+  }
+  auto slot_of_row(std::uint32_t v) const { return m_h.slot_of_row(v); }
+  template <class Use>
+  void for_each_entry(std::size_t slot, const Use& use) const { m_h.for_each_entry(slot, use); }
+
+private:
+  const Matrix& m_h;
+  std::vector<std::uint32_t> m_held; // ascending
+};
+
+// The rows of a mass. A map without pins has the least energy for the size of its border: while
+// that stays, less energy is always a better map; a border that moved would shrink.
+inline std::vector<std::uint32_t> rows_of(const Multigrid::Diagonal_mass& mass)
+{
+  std::vector<std::uint32_t> result;
+  for(const auto& entry : mass.entries())
+    result.push_back(entry.row);
   return result;
 }
 

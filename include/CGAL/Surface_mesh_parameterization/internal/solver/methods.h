@@ -87,8 +87,12 @@ inline Conformal_vector map_by_monogrid(Conformal_system& system, Run_control& r
 
 inline void relax_flipped_faces(const Conformal_system& system, Conformal_vector& z)
 {
-  relax_flipped_faces(system.hierarchy.finest().matrix,
-                      system.hierarchy.levels().back().mesh.triangles, z);
+  const auto& h = system.hierarchy.finest().matrix;
+  const auto& triangles = system.hierarchy.levels().back().mesh.triangles;
+  if(system.is_free)
+    relax_flipped_faces(Held_rows(h, rows_of(system.masses.back())), triangles, z);
+  else
+    relax_flipped_faces(h, triangles, z);
 }
 
 // What estimate keeps the true gap below the tolerance, on generated charts, a bunny and a camel,

@@ -6,6 +6,8 @@
 
 #include <CGAL/Surface_mesh_parameterization/internal/stored/Mapped_array.h>
 
+#include <boost/predef/other/endian.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,15 +21,6 @@
 namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
-
-// Whether this machine has the lowest byte of a number first.
-inline bool is_little_endian()
-{
-  const std::uint16_t one = 1;
-  char first;
-  std::memcpy(&first, &one, 1);
-  return first == 1;
-}
 
 // Refuses a point that is none.
 inline void check_point(std::size_t v, const std::array<double, 3>& p)
@@ -228,7 +221,7 @@ inline void Ply_records::read_format(std::istringstream& words)
            "reading all of it");
   if(format != "binary_little_endian" && format != "binary_big_endian")
     refuse("the header has the format \"" + format + "\", which PLY does not know");
-  m_is_swapped = is_little_endian() != (format == "binary_little_endian");
+  m_is_swapped = bool(BOOST_ENDIAN_LITTLE_BYTE) != (format == "binary_little_endian");
 }
 
 inline void Ply_records::read_property(std::istringstream& words, bool is_of_vertices)

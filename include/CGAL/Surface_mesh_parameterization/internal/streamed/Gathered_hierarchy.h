@@ -88,7 +88,12 @@ public:
   // The end of a map that is all in memory.
   void relax_flips(Vector& z) const
   {
-    relax_flipped_faces(m_hierarchy.finest().matrix, m_hierarchy.levels().back().mesh.triangles, z);
+    const auto& h = m_hierarchy.finest().matrix;
+    const auto& triangles = m_hierarchy.levels().back().mesh.triangles;
+    if(is_free())
+      relax_flipped_faces(Held_rows(h, rows_of(m_masses[finest()])), triangles, z);
+    else
+      relax_flipped_faces(h, triangles, z);
   }
 
 private:

@@ -8,6 +8,8 @@
 #include <CGAL/Surface_mesh_parameterization/internal/stored/Ply_records.h>
 #include <CGAL/Surface_mesh_parameterization/internal/streamed/Streamed_mesh.h>
 
+#include <boost/predef/other/endian.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -113,7 +115,7 @@ void write_mapped_ply(const Ply_records& ply, const Uv& uv,
   const auto add = [&bytes](auto value) {
     char copy[sizeof(value)];
     std::memcpy(copy, &value, sizeof(value));
-    if(!is_little_endian())
+    if(!BOOST_ENDIAN_LITTLE_BYTE)
       std::reverse(copy, copy + sizeof(value));
     bytes.append(copy, sizeof(value));
   };

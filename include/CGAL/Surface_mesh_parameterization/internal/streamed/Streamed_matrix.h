@@ -88,7 +88,8 @@ public:
     m_begin.release(begin, end);
   }
 
-  // As a `Self_adjoint_matrix` offers it.
+  // As a `Self_adjoint_matrix` offers them.
+  std::size_t slot_of_row(std::uint32_t v) const { return v; }
   template <class Use>
   void for_each_entry(std::size_t row, const Use& use) const;
 

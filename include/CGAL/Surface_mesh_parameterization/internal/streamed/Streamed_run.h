@@ -28,30 +28,7 @@ namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
 
-// A matrix in files whose rows of pins are zero, for those who ask for some of its rows.
-class Pinned_rows
-{
-public:
-  Pinned_rows(const Streamed_level& level) : m_level(level) {}
-
-  const Pinned_rows& diagonal() const { return *this; }
-  double operator[](std::uint32_t v) const
-  {
-    const auto& pins = m_level.pins;
-    return std::find(pins.begin(), pins.end(), v) != pins.end() ? 0. : m_level.matrix.diagonal()[v];
-  }
-  std::size_t slot_of_row(std::uint32_t v) const { return v; }
-  template <class Use>
-  void for_each_entry(std::size_t v, const Use& use) const
-  {
-    m_level.matrix.for_each_entry(v, use);
-  }
-
-private:
-  const Streamed_level& m_level;
-};
-
-// The same for what is in files.
+// Faces as of a map in memory.
 template <class Triangle>
 std::vector<std::uint32_t> faces_without_positive_area(const Mapped_array<Triangle>& triangles,
                                                        const Streamed_map& z)
@@ -212,7 +189,12 @@ inline Streamed_map Streamed_run::map_in_files()
   Streamed_map z = iterate();
   m_hierarchy.remove_gathered();
   std::vector<Streamed_level>& levels = m_hierarchy.levels();
-  relax_flipped_faces(Pinned_rows(levels.back()), m_hierarchy.triangles(), z);
+  const Streamed_level& finest = levels.back();
+  std::vector<std::uint32_t> held = finest.pins;
+  for(const auto& entry : finest.border_mass)
+    if(is_free())
+      held.push_back(entry.row);
+  relax_flipped_faces(Held_rows(finest.matrix, std::move(held)), m_hierarchy.triangles(), z);
   m_report.solver.energy = Streamed_solver::energy(levels.back(), z);
   m_hierarchy.measure_files();
   return z;
