@@ -43,9 +43,9 @@ export class Selection {
 
   /** Marks the vertices to draw from `view` with at most so many triangles, and lists these.
    *  @param view `eye` and `direction` of unit length, arrays of x, y, z; `cosine` of half its angle
-   *  @param rounds how often to look for triangles that are turned over, and to draw their vertices: each
-   *  round is another pass over all triangles, and few are left after three */
-  choose(stream, view, budget, rounds) {
+   *  @param rounds how often to look for triangles that are turned over, and to draw the vertices that they
+   *  stand for: each round is another pass over all triangles, and few are left after three */
+  choose(stream, view, budget, rounds = 0) {
     if (stream.numberOfTriangles <= budget) {
       this.isNeeded.fill(1, 0, this.#number);
       this.list(stream, this.isNeeded, budget);
