@@ -10,7 +10,7 @@ Usage: benchmark/python.py BUILD_DIR [SIDE [REPEAT [COMMAND...]]]
 The chart is a square of SIDE x SIDE vertices (708: a million faces) with hills and noise. Seconds are
 those of the computation, without reading and writing, medians of REPEAT runs (5) of each in turn, all of
 them or those of the COMMANDs; `over_caller_percent` is the median of what the module takes more than the
-caller in each turn. `outside_percent` is the part of a call that is not in the library, by the report of
+caller in each turn, in seconds of processors. `outside_percent` is the part of a call that is not in the library, by the report of
 the same call, which does not depend on what else runs on the machine. Memory is the peak of the process,
 that of the module and of the caller with the arrays of the chart; "nothing" loads these only, so that the
 differences to it are those of the call. BUILD_DIR was built with HLSCM_BUILD_PYTHON and
@@ -46,10 +46,10 @@ import json, sys, time
 import numpy as np
 import hlscm
 vertices, faces = np.load(sys.argv[1]), np.load(sys.argv[2])
-start = time.perf_counter()
+start, processors = time.perf_counter(), time.process_time()
 report = {call}
-seconds = time.perf_counter() - start
-print(seconds, 100 * (1 - report["seconds"] / seconds) if report else 0)
+seconds, processors = time.perf_counter() - start, time.process_time() - processors
+print(seconds, processors, 100 * (1 - report["seconds"] / seconds) if report else 0)
 """
 
 
@@ -96,15 +96,14 @@ def run_module(build, folder, call):
     environment = {**os.environ, "PYTHONPATH": str(build / "python")}
     printed, peak = run([sys.executable, "-c", CALL.replace("{call}", call), folder / "vertices.npy",
                          folder / "faces.npy"], environment)
-    seconds, outside = map(float, printed.split())
-    return seconds, outside, peak
+    return (*map(float, printed.split()), peak)
 
 
 def run_caller(build, folder, words):
     if words is None:
-        return float("nan"), float("nan")
+        return float("nan"), float("nan"), float("nan")
     printed, peak = run([build / "bin/array_caller", folder / "vertices.npy", folder / "faces.npy", *words])
-    return float(printed), peak
+    return (*map(float, printed.split()), peak)
 
 
 def main():
@@ -125,9 +124,9 @@ def main():
             words, keys, call, caller = COMMANDS[name]
             runs = []
             for _ in range(repeat):
-                seconds, mb = run_caller(build, folder, caller)
-                module_seconds, outside, module_mb = run_module(build, folder, call)
-                over = 100 * (module_seconds / seconds - 1) if seconds > 0 else 0.
+                seconds, processors, mb = run_caller(build, folder, caller)
+                module_seconds, module_processors, outside, module_mb = run_module(build, folder, call)
+                over = 100 * (module_processors / processors - 1) if processors > 0 else 0.
                 program_seconds, program_mb = run_program(build, folder, words, keys)
                 runs.append((seconds, program_seconds, module_seconds, over, outside, mb, program_mb,
                              module_mb))

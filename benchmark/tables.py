@@ -294,7 +294,7 @@ def python():
                       f"{peaks[0]:.1f}, {peaks[1]:.1f}",
                       f"{(peaks[1] - peaks[0]) * 1e6 / float(row['faces']):.1f}", row["program_seconds"],
                       row["program_mb"]])
-    return table(["command", "faces", "C++, s", "module, s", "more, %", "outside the library, %",
+    return table(["command", "faces", "C++, s", "module, s", "more of processors, %", "outside the library, %",
                   "peak over that of the arrays, MB: C++, module", "bytes more a face", "program, s",
                   "program, MB"], lines)
 
