@@ -1,16 +1,20 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026  The HLSCM for CGAL authors.
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the Python module costs over C++: time and peak memory of a call beside the program hlscm on
-the same chart, a row for each command.
+"""What the Python module costs over C++: time and peak memory of a call beside those of a program in C++
+that has the same arrays (array_caller.cpp), and of the program hlscm, which has the chart in a file; a
+row for each command.
 
 Usage: benchmark/python.py BUILD_DIR [SIDE [REPEAT [COMMAND...]]]
 
 The chart is a square of SIDE x SIDE vertices (708: a million faces) with hills and noise. Seconds are
-those of the computation, without reading and writing, medians of REPEAT runs (5) of either in turn,
-all of them or those of the COMMANDs. `outside_percent` is the part of a call that is not in the library,
-by the report of the same call, which does not depend on what else runs on the machine. Memory is the
-peak of the process, that of the module with the arrays of the chart, which the program has as well. BUILD_DIR was built with HLSCM_BUILD_PYTHON; python3 must be the one it was built for.
+those of the computation, without reading and writing, medians of REPEAT runs (5) of each in turn, all of
+them or those of the COMMANDs; `over_caller_percent` is the median of what the module takes more than the
+caller in each turn, in seconds of processors. `outside_percent` is the part of a call that is not in the library, by the report of
+the same call, which does not depend on what else runs on the machine. Memory is the peak of the process,
+that of the module and of the caller with the arrays of the chart; "nothing" loads these only, so that the
+differences to it are those of the call. BUILD_DIR was built with HLSCM_BUILD_PYTHON and
+HLSCM_BUILD_BENCHMARKS; python3 must be the one it was built for.
 """
 
 import csv
@@ -22,16 +26,19 @@ import sys
 import tempfile
 from pathlib import Path
 
-# The arguments of the program and the keys of the seconds in its report, and the report of the call
+# The arguments of the program, the keys of the seconds in its report, the report of the call, and the
+# arguments of the caller in C++, if it has that
 COMMANDS = {
     "parameterize": (["parameterize", "{chart}", "-o", "{out}.obj"], ["total"],
-                     "hlscm.parameterize(vertices, faces, full=True)[1]"),
+                     "hlscm.parameterize(vertices, faces, full=True)[1]", ["parameterize", "0"]),
     "parameterize, one thread": (["parameterize", "{chart}", "-o", "{out}.obj", "--threads", "1"],
-                                 ["total"], "hlscm.parameterize(vertices, faces, threads=1, full=True)[1]"),
+                                 ["total"], "hlscm.parameterize(vertices, faces, threads=1, full=True)[1]",
+                                 ["parameterize", "1"]),
     "low-stretch": (["parameterize", "{chart}", "-o", "{out}.obj", "--method", "low-stretch"],
-                    ["total"], "hlscm.low_stretch(vertices, faces, full=True)[1]"),
-    "atlas": (["atlas", "{chart}", "-o", "{out}"], ["atlas"], "hlscm.atlas(vertices, faces, full=True).report"),
-    "nothing": (["info", "{chart}"], [], "None"),
+                    ["total"], "hlscm.low_stretch(vertices, faces, full=True)[1]", ["low-stretch", "0"]),
+    "atlas": (["atlas", "{chart}", "-o", "{out}"], ["atlas"],
+              "hlscm.atlas(vertices, faces, full=True).report", None),
+    "nothing": (["info", "{chart}"], [], "None", ["nothing", "1"]),
 }
 
 CALL = """
@@ -39,10 +46,10 @@ import json, sys, time
 import numpy as np
 import hlscm
 vertices, faces = np.load(sys.argv[1]), np.load(sys.argv[2])
-start = time.perf_counter()
+start, processors = time.perf_counter(), time.process_time()
 report = {call}
-seconds = time.perf_counter() - start
-print(seconds, 100 * (1 - report["seconds"] / seconds) if report else 0)
+seconds, processors = time.perf_counter() - start, time.process_time() - processors
+print(seconds, processors, 100 * (1 - report["seconds"] / seconds) if report else 0)
 """
 
 
@@ -89,8 +96,14 @@ def run_module(build, folder, call):
     environment = {**os.environ, "PYTHONPATH": str(build / "python")}
     printed, peak = run([sys.executable, "-c", CALL.replace("{call}", call), folder / "vertices.npy",
                          folder / "faces.npy"], environment)
-    seconds, outside = map(float, printed.split())
-    return seconds, outside, peak
+    return (*map(float, printed.split()), peak)
+
+
+def run_caller(build, folder, words):
+    if words is None:
+        return float("nan"), float("nan"), float("nan")
+    printed, peak = run([build / "bin/array_caller", folder / "vertices.npy", folder / "faces.npy", *words])
+    return (*map(float, printed.split()), peak)
 
 
 def main():
@@ -101,19 +114,25 @@ def main():
     side = int(sys.argv[2]) if len(sys.argv) > 2 else 708
     repeat = int(sys.argv[3]) if len(sys.argv) > 3 else 5
     writer = csv.writer(sys.stdout, lineterminator="\n")
-    writer.writerow(["command", "faces", "program_seconds", "module_seconds", "outside_percent", "program_mb",
-                     "module_mb"])
+    writer.writerow(["command", "faces", "caller_seconds", "program_seconds", "module_seconds",
+                     "over_caller_percent", "outside_percent", "caller_mb", "program_mb", "module_mb"])
     with tempfile.TemporaryDirectory() as work:
         # By a process of its own: the peak of this one would count as that of those it starts.
         subprocess.run([sys.executable, __file__, "--chart", str(side), work], check=True)
-        faces = 2 * (side - 1) ** 2
+        folder = Path(work)
         for name in sys.argv[4:] or COMMANDS:
-            words, keys, call = COMMANDS[name]
-            runs = [(*run_program(build, Path(work), words, keys), *run_module(build, Path(work), call))
-                    for _ in range(repeat)]
-            seconds, mb, module_seconds, outside, module_mb = (statistics.median(c) for c in zip(*runs))
-            writer.writerow([name, faces, f"{seconds:.3f}", f"{module_seconds:.3f}", f"{outside:.2f}",
-                             f"{mb:.1f}", f"{module_mb:.1f}"])
+            words, keys, call, caller = COMMANDS[name]
+            runs = []
+            for _ in range(repeat):
+                seconds, processors, mb = run_caller(build, folder, caller)
+                module_seconds, module_processors, outside, module_mb = run_module(build, folder, call)
+                over = 100 * (module_processors / processors - 1) if processors > 0 else 0.
+                program_seconds, program_mb = run_program(build, folder, words, keys)
+                runs.append((seconds, program_seconds, module_seconds, over, outside, mb, program_mb,
+                             module_mb))
+            medians = [statistics.median(column) for column in zip(*runs)]
+            writer.writerow([name, 2 * (side - 1) ** 2]
+                            + [f"{x:.{digits}f}" for x, digits in zip(medians, (3, 3, 3, 2, 2, 1, 1, 1))])
             sys.stdout.flush()
 
 

@@ -270,23 +270,33 @@ def streams():
     """The reader of progressive meshes in WebAssembly beside the native one."""
     lines = []
     for row in read("streams.csv"):
-        rates = [float(row[c]) / 1e6 for c in ("webassembly_per_second", "native_per_second")]
+        rates = [float(row[c]) / 1e6 for c in ("webassembly_per_second", "native_per_second",
+                                              "symbols_webassembly_per_second",
+                                              "symbols_native_per_second")]
         lines.append([row["model"].replace("_", " "), f"{int(row['splits']):,}", row["bytes"],
-                      row["module_bytes"]] + [f"{rate:.1f}" for rate in rates])
+                      row["module_bytes"]] + [f"{rate:.2f}" for rate in rates])
     return table(["model", "splits", "bytes", "bytes of the reader",
-                  "million splits a second in WebAssembly", "native"], lines)
+                  "million splits a second in WebAssembly", "native",
+                  "symbols alone in WebAssembly", "native"], lines)
 
 
 def python():
-    """The Python module beside the program."""
+    """The Python module beside a caller in C++ that has arrays, and the program."""
+    rows = read("python.csv")
+    nothing = next(row for row in rows if row["command"] == "nothing")
     lines = []
-    for row in read("python.csv"):
-        more = (float(row["module_mb"]) - float(row["program_mb"])) * 1e6 / float(row["faces"])
-        lines.append([row["command"], f"{int(row['faces']):,}", row["program_seconds"],
-                      row["module_seconds"], row["outside_percent"], row["program_mb"],
-                      row["module_mb"], f"{more:.0f}"])
-    return table(["command", "faces", "program, s", "module, s", "outside the library, %", "program, MB",
-                  "module, MB", "bytes more a face"], lines)
+    for row in rows:
+        if row is nothing:
+            continue
+        peaks = [float(row[c]) - float(nothing[c]) for c in ("caller_mb", "module_mb")]
+        lines.append([row["command"], f"{int(row['faces']):,}", row["caller_seconds"],
+                      row["module_seconds"], row["over_caller_percent"], row["outside_percent"],
+                      f"{peaks[0]:.1f}, {peaks[1]:.1f}",
+                      f"{(peaks[1] - peaks[0]) * 1e6 / float(row['faces']):.1f}", row["program_seconds"],
+                      row["program_mb"]])
+    return table(["command", "faces", "C++, s", "module, s", "more of processors, %", "outside the library, %",
+                  "peak over that of the arrays, MB: C++, module", "bytes more a face", "program, s",
+                  "program, MB"], lines)
 
 
 COMPILED = {"cgal_lscm": "example, CGAL's `LSCM_parameterizer_3`",

@@ -197,6 +197,31 @@ TEST(Repair, works_without_pins_and_with_faces_that_are_not_numbers)
               .unmended_faces.size(), 8u);
 }
 
+TEST(Repair, of_arrays_is_that_of_meshes)
+{
+  const auto mesh = irregular_grid(30, 20, 6);
+  Parameters uv = identity(mesh);
+  const std::vector<std::size_t> pins(mesh.triangles[100].begin(), mesh.triangles[100].end());
+  std::swap(uv[pins[0]], uv[pins[1]]);
+  uv[15 * 31 + 25] += Complex(2., 0.);
+  uv[3 * 31 + 3] = {std::numeric_limits<double>::quiet_NaN(), 0.};
+  for(const bool has_pins : {true, false}) {
+    const Repaired repaired = repair(mesh, uv, has_pins ? pins : std::vector<std::size_t>());
+    std::vector<bool> is_pinned(uv.size(), false);
+    for(const std::size_t v : pins)
+      is_pinned[v] = true;
+    auto points = to_points(uv);
+    const auto report = has_pins ? SMP::repair_flipped_faces(mesh, points, is_pinned)
+                                 : SMP::repair_flipped_faces(mesh, points);
+    EXPECT_EQ(report.flipped_before, repaired.report.flipped_before);
+    EXPECT_EQ(report.unmended_faces, repaired.report.unmended_faces);
+    for(std::size_t v = 0; v < uv.size(); ++v) {
+      const Complex z(points[v].x(), points[v].y());
+      EXPECT_TRUE(z == repaired.uv[v] || (z != z && repaired.uv[v] != repaired.uv[v])) << v;
+    }
+  }
+}
+
 // The position and the unit of map and surface do not matter.
 TEST(Repair, works_at_all_scales)
 {

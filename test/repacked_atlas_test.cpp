@@ -15,6 +15,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <cstring>
@@ -266,6 +267,39 @@ TEST(Repacked_atlas, names_what_it_cannot_keep)
   SMT::Texture_atlas_options none = small_texture();
   none.packing.width = 0;
   EXPECT_NE(SMT::repack_texture_atlas(ring(20, twice), none).error, "");
+}
+
+// Two rings on pages of their own; a ring in two sets cannot be.
+TEST(Repacked_atlas, lies_on_the_pages_of_its_set)
+{
+  const auto flat = [](double a, double r) { return Uv(r * std::cos(a), r * std::sin(a)); };
+  Textured_triangle_mesh mesh = ring(20, flat);
+  const std::size_t faces = mesh.triangles.size();
+  const auto first = Vertex_index(mesh.points.size());
+  for(std::size_t t = 0; t < faces; ++t) {
+    const Triangle_indices f = mesh.triangles[t];
+    mesh.triangles.push_back({first + f[0], first + f[1], first + f[2]});
+  }
+  for(std::size_t v = 0; v < first; ++v) {
+    mesh.points.push_back(mesh.points[v]);
+    mesh.uv.push_back(mesh.uv[v]);
+  }
+  mesh.wedges = mesh.triangles;
+  SMT::Texture_atlas_options options = small_texture();
+  options.page_set.assign(2 * faces, 0);
+  std::fill(options.page_set.begin() + std::ptrdiff_t(faces), options.page_set.end(), 7);
+  SMT::Repacked_atlas_result result = SMT::repack_texture_atlas(mesh, options);
+  ASSERT_EQ(result.error, "");
+  EXPECT_FALSE(result.chart_between_sets);
+  EXPECT_EQ(result.atlas.number_of_pages, 2u);
+  options.page_set[3] = 7;
+  result = SMT::repack_texture_atlas(mesh, options);
+  EXPECT_EQ(result.status, CGAL::Indexed_mesh::Mesh_status::BAD_OPTIONS);
+  EXPECT_EQ(result.error, "triangle 0 and triangle 3 are in one chart, but in different sets of pages");
+  ASSERT_TRUE(result.chart_between_sets);
+  EXPECT_EQ(*result.chart_between_sets, std::make_pair(std::size_t(0), std::size_t(3)));
+  options.page_set.pop_back();
+  EXPECT_NE(SMT::repack_texture_atlas(mesh, options).error, "");
 }
 
 TEST(Repacked_atlas, does_not_depend_on_the_number_of_threads)

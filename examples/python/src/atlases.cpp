@@ -267,25 +267,6 @@ SMT::Texture_atlas_result build(const Indexed_triangle_mesh& mesh, const Atlas_r
            : build(mesh, request, sides_between(mesh, request), charts);
 }
 
-// A chart that is kept as it is cannot lie on the pages of two sets.
-std::string chart_between_sets(const Textured_triangle_mesh& mesh,
-                               const std::vector<std::uint32_t>& set)
-{
-  if(set.empty())
-    return {};
-  const SMT::Face_charts charts = SMT::charts_of_texture(mesh);
-  std::vector<std::size_t> first(charts.number_of_charts, set.size());
-  for(std::size_t t = 0; t < set.size(); ++t) {
-    std::size_t& known = first[charts.chart[t]];
-    if(known == set.size())
-      known = t;
-    else if(set[known] != set[t])
-      return "face " + std::to_string(known) + " and face " + std::to_string(t)
-           + " are in one chart, but on different pages by separate";
-  }
-  return {};
-}
-
 // To Python
 
 py::dict to_dict(const SMT::Texture_atlas_report& report)
@@ -379,24 +360,21 @@ py::dict repack(const Textured_arrays& arrays, const py::dict& options, unsigned
   check_request(request, mesh.triangles.size());
   SMT::Repacked_atlas_result result = run(threads, progress, [&](const auto& function) {
     request.options.progress = function;
-    SMT::Repacked_atlas_result wrong;
-    wrong.fail(Mesh_status::BAD_MESH, CGAL::Indexed_mesh::mesh_error(mesh));
-    wrong.fail(Mesh_status::BAD_MESH, CGAL::Surface_mesh_multiresolution::texture_error(mesh));
-    if(wrong.is_ok())
-      wrong.fail(Mesh_status::BAD_OPTIONS, chart_between_sets(mesh, request.options.page_set));
-    if(!wrong.is_ok())
-      return wrong;
     return request.packer == Packer::HORIZON
              ? SMT::repack_texture_atlas(mesh, request.options, request.repacking,
                                          SMT::Horizon_packer())
              : SMT::repack_texture_atlas(mesh, request.options, request.repacking);
   });
+  const auto face = [](std::size_t t) { return "face " + std::to_string(t); };
+  if(result.chart_between_sets)
+    result.error = face(result.chart_between_sets->first) + " and "
+                 + face(result.chart_between_sets->second)
+                 + " are in one chart, but on different pages by separate";
   check(result);
   py::dict d = to_dict(result);
   py::list defects;
   for(const SMT::Texture_defect& defect : result.defects)
-    defects.append(SMT::sentence_on(
-      defect, [](std::uint32_t t) { return "face " + std::to_string(t); }));
+    defects.append(SMT::sentence_on(defect, face));
   d["report"]["defects"] = defects;
   d["report"]["mirrored_charts"] = result.mirrored_charts;
   return d;

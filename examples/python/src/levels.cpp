@@ -12,6 +12,7 @@
 #include <CGAL/Surface_mesh_multiresolution/build_textured_progressive_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/decimate.h>
 #include <CGAL/Surface_mesh_multiresolution/texture_deviation.h>
+#include <CGAL/Surface_mesh_texturing/IO/GLB.h>
 
 #include <pybind11/stl.h>
 
@@ -143,6 +144,22 @@ public:
     return py::bytes(file.bytes);
   }
 
+  void write_levels(const std::string& path, const std::vector<std::size_t>& positions) const
+  {
+    if(!has_texture())
+      throw Bad_input(Mesh_status::BAD_OPTIONS, "the levels have no uv, which the file needs");
+    for(const std::size_t k : positions)
+      check_position(k);
+    const bool is_written = run(1, [&] {
+      std::vector<std::vector<Triangle_indices>> levels;
+      for(const std::size_t k : positions)
+        levels.push_back(m_levels.triangles(k));
+      return CGAL::Surface_mesh_texturing::IO::write_GLB(
+        path, m_mesh, levels, CGAL::Surface_mesh_texturing::Texture_file());
+    });
+    check_written(is_written, path);
+  }
+
 private:
   void check_position(std::size_t k) const
   {
@@ -235,7 +252,10 @@ void bind_levels(py::module_& m)
          "The mesh after k collapses: vertices, faces, uv, uv_faces, source vertices.", "k"_a)
     .def("deviation", &Progressive::deviation, "The errors after k collapses.", "k"_a, "threads"_a)
     .def("bytes", &Progressive::bytes, "The mesh as a file in memory.", "lossless"_a,
-         "position_bits"_a, "uv_bits"_a);
+         "position_bits"_a, "uv_bits"_a)
+    .def("write_levels", &Progressive::write_levels,
+         "Writes the levels after so many collapses, the finest first, as one GLB file.", "path"_a,
+         "positions"_a);
   m.def("build_textured", &build_textured, "A progressive mesh the levels of which share their uv.",
         "vertices"_a, "faces"_a, "uv"_a, "uv_faces"_a, "locked"_a, "target_vertices"_a, "threads"_a,
         "progress"_a);

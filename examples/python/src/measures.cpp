@@ -270,15 +270,6 @@ py::list border_loops(const py::array& points, const py::array& triangles)
   return loops;
 }
 
-// What the library returns if the metric is that of the surface, is that of every triangle.
-py::array metric_array(SMP::Face_tensors metric, std::size_t n)
-{
-  check(metric);
-  if(metric.tensors.empty())
-    metric.tensors.assign(n, Space_tensor::identity());
-  return to_array<double>(std::move(metric.tensors), {py::ssize_t(n), 6});
-}
-
 py::array signal_metric(const py::array& points, const py::array& triangles,
                         const std::optional<py::array_t<double, py::array::c_style>>& values,
                         double weight)

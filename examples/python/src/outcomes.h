@@ -42,6 +42,15 @@ inline void check(const Mesh_outcome& outcome)
     throw Bad_input(outcome.status, outcome.error);
 }
 
+/// Raises OSError if a file was not written.
+inline void check_written(bool is_written, const std::string& path)
+{
+  if(!is_written) {
+    PyErr_SetString(PyExc_OSError, ("cannot write " + path).c_str());
+    throw py::error_already_set();
+  }
+}
+
 } // namespace hlscm_python
 
 #endif // HLSCM_PYTHON_OUTCOMES_H

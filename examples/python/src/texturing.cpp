@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "arrays.h"
+#include "metrics.h"
 #include "module.h"
 #include "options.h"
 #include "running.h"
@@ -15,6 +16,7 @@
 #include <CGAL/Surface_mesh_texturing/bake_displacement.h>
 #include <CGAL/Surface_mesh_texturing/bake_normal_map.h>
 #include <CGAL/Surface_mesh_texturing/image_importance.h>
+#include <CGAL/Surface_mesh_texturing/surface_signals.h>
 
 #include <pybind11/stl.h>
 
@@ -162,6 +164,17 @@ py::array image_importance(const Textured_arrays& arrays, const Float_array& tex
   return to_array(std::move(result.of_triangles));
 }
 
+py::array image_metric(const Textured_arrays& arrays, const Float_array& texels, double weight)
+{
+  const Textured_triangle_mesh mesh = to_textured(arrays);
+  const SMT::Texture_image image = to_image(texels);
+  return metric_array(run(1, [&] {
+                        return SMP::signal_metric({mesh.points, mesh.triangles},
+                                                  SMT::image_signal(mesh, image), weight);
+                      }),
+                      mesh.triangles.size());
+}
+
 py::tuple bake_image(const Textured_arrays& fine, const py::array& former_uv,
                      const py::array& former_triangles,
                      const Float_array& texels,
@@ -203,10 +216,7 @@ void write_mesh(const std::string& path, const std::string& format, const Textur
          : format == "ply" ? SMT::IO::write_PLY(path, mesh)
                            : SMT::IO::write_GLB(path, model);
   });
-  if(!is_written) {
-    PyErr_SetString(PyExc_OSError, ("cannot write " + path).c_str());
-    throw py::error_already_set();
-  }
+  check_written(is_written, path);
 }
 
 } // namespace
@@ -236,6 +246,9 @@ void bind_texturing(py::module_& m)
         "fine"_a, "former_uv"_a, "former_uv_faces"_a, "image"_a, "light"_a, "options"_a);
   m.def("image_importance", &image_importance,
         "The importance (m,) of the faces of a mesh by an image on it.", "mesh"_a, "image"_a);
+  m.def("image_metric", &image_metric,
+        "The metric (m, 6) of a surface blended with that of an image on it.", "mesh"_a, "image"_a,
+        "weight"_a);
   m.def("write_mesh", &write_mesh,
         "Writes a mesh with texture coordinates, obj, ply or glb, the latter perhaps with a base.",
         "path"_a, "format"_a, "mesh"_a, "base"_a);

@@ -82,8 +82,8 @@ def write_obj(path, vertices, faces, uv, uv_faces, materials=None):
         file.write("\n".join(lines) + "\n")
 
 
-def read_glb_uv(path):
-    """Both sets of texture coordinates (m, 3, 2), float32, of the corners in a GLB file of triangles."""
+def read_glb(path):
+    """What a GLB file of triangles says, and of each part its arrays, by their names or "indices"."""
     with open(path, "rb") as file:
         data = file.read()
     size, = struct.unpack_from("<I", data, 12)
@@ -97,9 +97,15 @@ def read_glb_uv(path):
         at = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
         return np.frombuffer(body, kind, accessor["count"] * columns, at).reshape(-1, columns)
 
-    parts = [part for mesh in scene["meshes"] for part in mesh["primitives"]]
-    corners = [array(part["indices"]).reshape(-1, 3) for part in parts]
-    return [np.concatenate([array(part["attributes"][name])[c] for part, c in zip(parts, corners)])
+    return scene, [{"indices": array(part["indices"]).reshape(-1, 3),
+                    **{name: array(number) for name, number in part["attributes"].items()}}
+                   for mesh in scene["meshes"] for part in mesh["primitives"]]
+
+
+def read_glb_uv(path):
+    """Both sets of texture coordinates (m, 3, 2), float32, of the corners in a GLB file of triangles."""
+    _, parts = read_glb(path)
+    return [np.concatenate([part[name][part["indices"]] for part in parts])
             for name in ("TEXCOORD_0", "TEXCOORD_1")]
 
 

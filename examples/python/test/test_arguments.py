@@ -262,6 +262,8 @@ class Random_calls(unittest.TestCase):
             lambda: hlscm.repack((a(v), a(f), uv, corners), align=x(), density=a(np.ones(m))),
             lambda: hlscm.repack(light, separate=a(f[:, 0]), packer=rng.choice(["raster", x()])),
             lambda: hlscm.image_importance((v, a(f), a(uv), corners), a(np.ones((4, 4, 1)))),
+            lambda: hlscm.image_metric((v, a(f), a(uv), corners), a(np.ones((4, 4, 1))), weight=x()),
+            lambda: pm.write_levels(os.path.join(work, "levels.glb"), [x(), x()]),
             lambda: hlscm.write_mesh(os.path.join(work, rng.choice(["a.glb", "b.ply"])), light,
                                      base_uv=a(uv), base_uv_faces=a(corners)),
             lambda: hlscm.weld(a(v), a(f), distance=x()),

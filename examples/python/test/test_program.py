@@ -187,6 +187,10 @@ class Same_as_program(unittest.TestCase):
         for here, there in zip(meshes.read_glb_uv(self.path("out.glb")),
                                meshes.read_glb_uv(self.path("atlas/atlas.glb"))):
             np.testing.assert_array_equal(here, there)
+        metric = hlscm.image_metric(mesh, picture / np.float32(255))
+        made = hlscm.atlas(mesh.vertices, mesh.faces, metric=metric, full=True)
+        _, _, uv, uv_faces = self.atlas_of_program(self.path("in.obj"), "--signal", self.path("in.png"))
+        self.assert_same_bits(made.uv[made.indices], uv[uv_faces])
 
     def test_pages_for_browsers(self):
         folder = os.path.join(os.path.dirname(os.path.dirname(PROGRAM)), "share", "hlscm")
@@ -205,6 +209,9 @@ class Same_as_program(unittest.TestCase):
         for name in ("index.html", "model.pm", "stream.wasm", "texture.png"):
             with open(self.path(f"site/{name}"), "rb") as here, open(self.path(f"there/{name}"), "rb") as there:
                 self.assertEqual(here.read(), there.read())
+        hlscm.view(self.path("page.html"), self.path("mesh.obj"), program=PROGRAM)  # of a path
+        with open(self.path("page.html")) as here, open(self.path("there.html")) as there:
+            self.assertEqual(here.read(), there.read())
         with self.assertRaises(FileNotFoundError):
             hlscm.view(self.path("page.html"), made, program="/nowhere/hlscm")
         with self.assertRaises(hlscm.MeshError) as caught:
@@ -226,6 +233,17 @@ class Same_as_program(unittest.TestCase):
             self.assert_same_bits(level.vertices, there[0])
             np.testing.assert_array_equal(level.faces, there[1])
             self.assert_same_bits(level.uv[level.uv_faces], there[2][there[3]])
+        self.run_program("levels", self.path("in.obj"), "-o", self.path("glb"), "--faces", "700,200",
+                         "--format", "glb")
+        pm.write_levels(self.path("levels.glb"), [700, 200])
+        here, there = (meshes.read_glb(self.path(file)) for file in ("levels.glb", "glb/levels.glb"))
+        self.assertEqual([node["name"] for node in here[0]["nodes"]],
+                         [node["name"] for node in there[0]["nodes"]])
+        self.assertIn("MSFT_lod", here[0]["nodes"][0]["extensions"])
+        for part, other in zip(here[1], there[1]):
+            for name in ("POSITION", "TEXCOORD_0", "indices"):
+                np.testing.assert_array_equal(part[name], other[name])
+        self.assertEqual(len(here[1]), 2)
 
     def test_normal_maps(self):
         mesh = meshes.hills(60, seed=5)

@@ -5,6 +5,7 @@ import { MORPH } from "./Drawing.js";
 import { Selection } from "./Selection.js";
 
 const SHARE = 0.8; // of the budget for what is needed; the rest is for what glides away
+const ROUNDS = 3; // of unfolding, when nothing moves
 
 /** What is drawn of a ModelStream: all of it, or as much as a budget allows from where the eye is. New
  *  wedges glide from where the surface was, and those that go to where it will be. */
@@ -14,7 +15,7 @@ export class GrowingSurface {
   #arrays = null;          // of each wedge
   #isDrawn = new Uint8Array(0); // of each vertex, those that glide away among them
   #isAll = true;           // whether all that there was is drawn
-  #chosen = { time: -Infinity, key: "" };
+  #chosen = { time: -Infinity, key: "", isUnfolded: false };
   #glides = false;         // whether something glides away
 
   constructor(drawing) {
@@ -36,10 +37,12 @@ export class GrowingSurface {
       return;
     }
     const key = [wedges, budget, ...view.eye, ...view.direction].join();
-    if ((key !== this.#chosen.key || this.#glides) && now - this.#chosen.time > MORPH) {
+    const isStill = key === this.#chosen.key;
+    const isDone = isStill && this.#chosen.isUnfolded && !this.#glides;
+    if (!isDone && now - this.#chosen.time > MORPH) {
       this.#grow(stream, now, false);
-      this.#choose(stream, view, budget, now);
-      this.#chosen = { time: now, key };
+      this.#choose(stream, view, budget, now, isStill ? ROUNDS : 0);
+      this.#chosen = { time: now, key, isUnfolded: isStill };
       this.#isAll = isAll;
     }
   }
@@ -86,13 +89,13 @@ export class GrowingSurface {
     this.#selection.grow(stream);
   }
 
-  #choose(stream, view, budget, now) {
+  #choose(stream, view, budget, now, rounds) {
     const selection = this.#selection;
     const { vertices } = stream;
     const before = selection.representatives(stream, this.#isDrawn); // by what was drawn
     const wasDrawn = this.#isDrawn.slice();
     const wasNeeded = selection.isNeeded.slice();
-    selection.choose(stream, view, SHARE * budget);
+    selection.choose(stream, view, SHARE * budget, rounds);
     const { isNeeded } = selection;
     const after = selection.representatives(stream, isNeeded);
     // What was needed glides away, if there is room for it.

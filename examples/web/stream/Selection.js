@@ -14,6 +14,7 @@ export class Selection {
   #wedge = new Uint32Array(0);          // of each vertex one of its wedges
   #bucket = new Uint16Array(0);         // of each vertex: the lower, the more it counts
   #histogram = new Uint32Array(BUCKETS_AN_OCTAVE * OCTAVES);
+  #source = new Uint32Array(0);         // of each triangle that is listed: that of the stream
 
   constructor() {
     this.isNeeded = new Uint8Array(0);  // of each vertex
@@ -41,8 +42,10 @@ export class Selection {
   }
 
   /** Marks the vertices to draw from `view` with at most so many triangles, and lists these.
-   *  @param view `eye` and `direction` of unit length, arrays of x, y, z; `cosine` of half its angle */
-  choose(stream, view, budget) {
+   *  @param view `eye` and `direction` of unit length, arrays of x, y, z; `cosine` of half its angle
+   *  @param rounds how often to look for triangles that are turned over, and to draw the vertices that they
+   *  stand for: each round is another pass over all triangles, and few are left after three */
+  choose(stream, view, budget, rounds = 0) {
     if (stream.numberOfTriangles <= budget) {
       this.isNeeded.fill(1, 0, this.#number);
       this.list(stream, this.isNeeded, budget);
@@ -51,7 +54,11 @@ export class Selection {
     this.#rank(stream, view);
     for (let limit = this.#limit(budget / 2); limit >= 0; limit -= STEP) {
       this.#mark(limit);
-      if (this.list(stream, this.isNeeded, budget)) {
+      let isWithin = this.list(stream, this.isNeeded, budget);
+      for (let round = 0; isWithin && round < rounds && this.#unfold(stream); ++round) {
+        isWithin = this.list(stream, this.isNeeded, budget);
+      }
+      if (isWithin) {
         return;
       }
     }
@@ -66,8 +73,9 @@ export class Selection {
     const most = Math.min(budget, triangles.length / 3);
     if (this.triangles.length < 3 * most) {
       this.triangles = new Uint32Array(Math.ceil(3.3 * most));
+      this.#source = new Uint32Array(this.triangles.length / 3);
     }
-    const out = this.triangles;
+    const out = this.triangles, source = this.#source;
     let n = 0;
     for (let i = 0; i < triangles.length; i += 3) {
       const a = representative[triangles[i]], b = representative[triangles[i + 1]],
@@ -79,6 +87,7 @@ export class Selection {
       if (n === 3 * Math.floor(most)) {
         return false;
       }
+      source[n / 3] = i / 3;
       out[n] = a;
       out[n + 1] = b;
       out[n + 2] = c;
@@ -126,6 +135,35 @@ export class Selection {
       }
     }
     return bucket;
+  }
+
+  // Marks the vertices of triangles whose representatives are turned over; returns whether there are some.
+  #unfold(stream) {
+    const { positions, triangles, vertices } = stream;
+    const normal = (at, corners, result) => {
+      const a = 3 * corners[at], b = 3 * corners[at + 1], c = 3 * corners[at + 2];
+      for (let i = 0; i < 3; ++i) {
+        const j = (i + 1) % 3, k = (i + 2) % 3;
+        result[i] = (positions[b + j] - positions[a + j]) * (positions[c + k] - positions[a + k])
+          - (positions[b + k] - positions[a + k]) * (positions[c + j] - positions[a + j]);
+      }
+    };
+    const drawn = [0, 0, 0], meant = [0, 0, 0];
+    let isFolded = false;
+    for (let t = 0; t < this.numberOfTriangles; ++t) {
+      normal(3 * t, this.triangles, drawn);
+      normal(3 * this.#source[t], triangles, meant);
+      if (drawn[0] * meant[0] + drawn[1] * meant[1] + drawn[2] * meant[2] >= 0) {
+        continue;
+      }
+      for (let c = 0; c < 3; ++c) {
+        for (let v = vertices[triangles[3 * this.#source[t] + c]]; !this.isNeeded[v]; v = this.#parent[v]) {
+          this.isNeeded[v] = 1;
+          isFolded = true;
+        }
+      }
+    }
+    return isFolded;
   }
 
   // Those up to a bucket, and all that they come from.

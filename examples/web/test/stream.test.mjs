@@ -187,6 +187,20 @@ test("a selection is within its budget, without cracks, and finer near the eye",
   }
   assert.ok(before[1] > 2 * before[0]);
   assert.equal(selection.list(stream, selection.isNeeded, selection.numberOfTriangles - 1), false);
+  // The surface is a height field: what looks down is turned over. Few triangles are, and fewer if that
+  // is looked for, within the budget.
+  const turned = [0, 3].map((rounds) => [300, 500, 1000, 2000, 4000, 8000, 12000].reduce((sum, budget) => {
+    selection.choose(stream, { eye: middle, direction: [1, 0, 0], cosine: Math.SQRT1_2 }, budget, rounds);
+    assert.ok(selection.numberOfTriangles <= budget && selection.numberOfTriangles > budget / 2);
+    for (let t = 0; t < selection.numberOfTriangles; ++t) {
+      const [a, b, c] = [0, 1, 2].map((i) => 3 * selection.triangles[3 * t + i]);
+      const area = (positions[b] - positions[a]) * (positions[c + 1] - positions[a + 1])
+        - (positions[b + 1] - positions[a + 1]) * (positions[c] - positions[a]);
+      sum += area < 0 ? 1 : 0;
+    }
+    return sum;
+  }, 0));
+  assert.ok(turned[0] < 0.01 * 28000 && turned[1] < turned[0] / 2, turned.join());
 });
 
 test("a slow model is drawn early, and ends as the native reader has it", async () => {

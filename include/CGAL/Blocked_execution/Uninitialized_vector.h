@@ -20,11 +20,14 @@
 namespace CGAL {
 namespace Blocked_execution {
 
-/// Asks for the cache line of an address. The empty statement is for GCC: it takes a function that
-/// does nothing but prefetch for one without effects, and leaves out the calls of it.
+/// Asks for the cache line of an address, which has to be one of memory. The empty statement is for GCC:
+/// it takes a function that does nothing but prefetch for one without effects, and leaves out the calls
+/// of it. WebAssembly has no such instruction, but a load that nobody waits for.
 inline void prefetch(const void* address)
 {
-#if defined(__GNUC__)
+#if defined(__wasm__)
+  (void)*static_cast<const volatile char*>(address);
+#elif defined(__GNUC__)
   __builtin_prefetch(address);
   __asm__ __volatile__("");
 #else

@@ -10,7 +10,9 @@
 #include <CGAL/Surface_mesh_texturing/internal/mapped_charts/given_maps.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -24,9 +26,30 @@ struct Repacked_atlas_result
   /// Of each chart that is not one-to-one. The error, if there is one for that, is the first.
   std::vector<Texture_defect> defects;
   std::size_t mirrored_charts = 0; ///< charts that are mirrored as a whole, and stay so
+  /// Two triangles of one chart that have different page sets, if that is the error.
+  std::optional<std::pair<std::size_t, std::size_t>> chart_between_sets;
 };
 
 namespace internal {
+
+// Two triangles of one chart with different page sets: what is kept as it is cannot lie on the pages of
+// two. Nothing for sets of another number of triangles.
+inline std::optional<std::pair<std::size_t, std::size_t>>
+chart_between_sets(const Textured_triangle_mesh& mesh, const std::vector<std::uint32_t>& page_set)
+{
+  if(page_set.empty() || page_set.size() != mesh.triangles.size())
+    return std::nullopt;
+  const Face_charts charts = charts_of_texture(mesh);
+  std::vector<std::size_t> first(charts.number_of_charts, page_set.size());
+  for(std::size_t t = 0; t < page_set.size(); ++t) {
+    std::size_t& known = first[charts.chart[t]];
+    if(known == page_set.size())
+      known = t;
+    else if(page_set[known] != page_set[t])
+      return std::make_pair(known, t);
+  }
+  return std::nullopt;
+}
 
 // The atlas with those charts turned over that are mirrored.
 inline Texture_atlas with_all_upright(Texture_atlas atlas, const std::vector<Chart_report>& charts)
@@ -54,14 +77,14 @@ stays mirrored (`Chart_report::is_mirrored`), and its distortion is that of its 
 chart with flipped triangles, one that overlaps itself, or that has no area,
 `Repacked_atlas_result::defects` names the triangles; it is refused or kept, as
 `Repacking_options::defects` says. What is kept lies on itself in the texture as it did before, but on
-no other chart. Other bad data give an error: that of `build_texture_atlas()`, and texture coordinates
-that are missing or not finite.
+no other chart. Other bad data give an error: that of `build_texture_atlas()`, texture coordinates that
+are missing or not finite, and a chart that would lie on the pages of two sets.
 
 \tparam ConcurrencyTag as for `build_texture_atlas()`
 \tparam Packer a model of `ChartPacker`, or `Default` for `Raster_packer`
 \param mesh the surface and its texture
-\param options of these count `density`, `is_aligned`, `largest_aspect`, `packing`, `page_set`, which
-       is that of a chart's first triangle, `seconds`, `threads` and `progress`
+\param options of these count `density`, `is_aligned`, `largest_aspect`, `packing`, `page_set`,
+       `seconds`, `threads` and `progress`
 \param repacking how charts are taken over, before `options.density` counts
 \param packer what packs them
 
@@ -83,6 +106,14 @@ Repacked_atlas_result repack_texture_atlas(const Textured_triangle_mesh& mesh,
      || result.fail(Mesh_status::BAD_MESH, surface_error(surface))
      || result.fail(Mesh_status::BAD_MESH, texture_error(mesh)))
     return result;
+  result.chart_between_sets = internal::chart_between_sets(mesh, options.page_set);
+  if(result.chart_between_sets) {
+    const auto [first, second] = *result.chart_between_sets;
+    result.fail(Mesh_status::BAD_OPTIONS,
+                "triangle " + std::to_string(first) + " and triangle " + std::to_string(second)
+                + " are in one chart, but in different sets of pages");
+    return result;
+  }
   Texture_atlas_options used = options;
   used.metric.clear();
   used.no_seams.clear();

@@ -36,7 +36,7 @@ __all__ = [
     "Atlas", "Certificate", "Distortion", "Level", "LiveMap", "Mended", "MeshError", "MultigridSolver",
     "ProgressiveMesh", "TexturedMesh", "Unwrapped", "atlas", "bake_displacement", "bake_image",
     "bake_normal_map", "bake_vertex_values", "border_loops", "certify", "cotangent_laplacian",
-    "decimate", "distortion", "encode", "image_importance", "importance_metric", "info",
+    "decimate", "distortion", "encode", "image_importance", "image_metric", "importance_metric", "info",
     "low_stretch", "lscm", "mend", "parameterize", "repack", "repair_flips", "signal_metric", "spectral",
     "unwrap", "view", "web", "weld", "write_mesh", "write_png",
 ]
@@ -646,6 +646,13 @@ def image_importance(mesh: Any, image: ArrayLike, /) -> Array:
                                    np.ascontiguousarray(_real(image, "image"), np.float32))
 
 
+def image_metric(mesh: Any, image: ArrayLike, /, *, weight: float = 4.) -> Array:
+    """The metric (m, 6) of the surface of a TexturedMesh blended with that of an image (height, width, c)
+    on it; see signal_metric()."""
+    return _hlscm.image_metric(_textured(mesh, "the mesh"),
+                               np.ascontiguousarray(_real(image, "image"), np.float32), weight)
+
+
 def _textured(mesh: Any, name: str) -> Tuple[Array, Array, Array, Array]:
     if isinstance(mesh, Atlas):
         mesh = mesh.textured
@@ -802,10 +809,12 @@ def _program(named: Optional[str]) -> str:
 
 
 def _run_on(mesh: Any, arguments: Sequence[str], program: Optional[str]) -> None:
-    """Runs a command of the program on a mesh, whose place among the arguments is "{mesh}"."""
+    """Runs a command of the program on a mesh or a path; its place among the arguments is "{mesh}"."""
     words = [_program(program), *arguments, "--quiet"]
     with tempfile.TemporaryDirectory() as folder:
-        if isinstance(mesh, ProgressiveMesh):
+        if isinstance(mesh, (str, os.PathLike)):
+            file = os.fspath(mesh)
+        elif isinstance(mesh, ProgressiveMesh):
             file = os.path.join(folder, "mesh.pm")
             mesh.write(file)
         else:
@@ -822,7 +831,8 @@ def view(path: Union[str, "os.PathLike[str]"], mesh: Any, /, *,
     """Writes a page for browsers, one file (.html) that needs no network, by the program's `hlscm view`:
     model and texture side by side, distortion, seams, levels of detail.
 
-    mesh: an Atlas, a TexturedMesh, a Level with texture or a ProgressiveMesh.
+    mesh: an Atlas, a TexturedMesh, a Level with texture or a ProgressiveMesh; or the path of what the
+        program takes: a file, or a folder of its commands atlas, bake or levels.
     program: where the program is; by default HLSCM_PROGRAM in the environment, or `hlscm` in the path.
     """
     _run_on(mesh, ["view", "{mesh}", "-o", os.fspath(path)], program)
@@ -913,6 +923,11 @@ class ProgressiveMesh:
         data = self.to_bytes(**options)
         with open(path, "wb") as file:
             file.write(data)
+
+    def write_levels(self, path: Union[str, "os.PathLike[str]"], faces: Sequence[int]) -> None:
+        """Writes levels with at most so many faces, each lighter than the one before, as one file (.glb)
+        that says that one stands for the other far away (MSFT_lod); they share vertices and uv."""
+        self._mesh.write_levels(os.fspath(path), [self._mesh.position_of_faces(n) for n in faces])
 
     @property
     def number_of_faces(self) -> int:
