@@ -10,6 +10,7 @@
 #include <CGAL/Multigrid/Block_values.h>
 #include <CGAL/Multigrid/Monogrid_preconditioners.h>
 #include <CGAL/Multigrid/Patch_corrections.h>
+#include <CGAL/Multigrid/Split_matrix.h>
 
 #include <gtest/gtest.h>
 
@@ -254,7 +255,37 @@ TYPED_TEST(Real_values, have_preconditioners_and_a_factorization)
   EXPECT_LE((this->to_numbers(z) - expected).norm(), this->tolerance * expected.norm());
 }
 
-// A component of a block that no entry concerns stays 0, where a diagonal has no inverse.
+// What is split is the matrix, to the bits of two floats, and its first part the matrix in floats.
+TYPED_TEST(Real_values, are_split)
+{
+  typedef TestFixture Test;
+  typedef typename Split_matrix<TypeParam>::Single Single;
+  const auto h = this->sparse();
+  const Split_matrix<TypeParam> split(h);
+  EXPECT_EQ(this->to_real_dense(split.single()),
+            Eigen::MatrixXd(this->to_real_dense(h).template cast<float>().template cast<double>()));
+  EXPECT_EQ(split.size(), h.size());
+  constexpr double two_floats = 1e-14; // 48 bits
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(Test::rows * Test::size, Test::rows * Test::size);
+  const auto put = [&a](std::uint32_t i, std::uint32_t j, const auto& value) {
+    for(int k = 0; k < Test::rows * Test::rows; ++k)
+      a(Test::rows * i + k / Test::rows, Test::rows * j + k % Test::rows)
+        = Value_traits<TypeParam>::coefficient(value, k / Test::rows, k % Test::rows);
+  };
+  for(std::uint32_t i = 0; i < Test::size; ++i) {
+    put(i, i, split.diagonal(i));
+    split.for_each_entry(split.slot_of_row(i),
+                         [&](std::uint32_t j, const TypeParam& value) { put(i, j, value); });
+  }
+  EXPECT_LE((a - this->to_real_dense(h)).cwiseAbs().maxCoeff(), two_floats * a.cwiseAbs().maxCoeff());
+  const Eigen::VectorXd x = this->random_numbers();
+  typename Test::Vector y(Test::size);
+  split(Test::to_values(x), y);
+  EXPECT_LE((Test::to_numbers(y) - this->dense * x).norm(), Test::tolerance * x.norm());
+  EXPECT_EQ(split.memory(), split.single().memory() - split.single().pattern().memory());
+  static_assert(std::is_same_v<typename Value_traits<typename Single::Vector_value>::Real, float>);
+}
+
 // One patch after the other, by the definition; patches overlap, and some have a pin.
 TYPED_TEST(Real_values, are_corrected_on_patches)
 {
@@ -294,6 +325,7 @@ TYPED_TEST(Real_values, are_corrected_on_patches)
   EXPECT_LE((Test::to_numbers(y) - x).norm(), Test::tolerance * x.norm());
 }
 
+// A component of a block that no entry concerns stays 0, where a diagonal has no inverse.
 TEST(Block_values, inverse_of_a_singular_block)
 {
   typedef Value_traits<Eigen::Matrix2d> Traits;

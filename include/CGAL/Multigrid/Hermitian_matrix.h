@@ -84,6 +84,8 @@ public:
   std::size_t size() const { return m_pattern == nullptr ? 0 : m_pattern->rows; }
   /// Returns the diagonal, by rows.
   const std::vector<Diagonal>& diagonal() const { return m_diagonal; }
+  /// Returns the diagonal entry of row `i`.
+  const Diagonal& diagonal(std::size_t i) const { return m_diagonal[i]; }
   /// Returns the pattern. Precondition: the matrix was built.
   const Sliced_pattern& pattern() const { return *m_pattern; }
 
@@ -130,6 +132,7 @@ public:
   void put_row(std::uint32_t i, const Row& row);
 
   template <class Other> friend class Self_adjoint_matrix;
+  template <class Other> friend class Split_matrix;
   friend class Matrix_builder;
 
   /// Constructs a matrix of the same entries in another precision; the pattern is shared.
@@ -173,31 +176,55 @@ template <class Value>
 double imaginary_part(const Matrix_entry<Value>&) { return 0.; }
 inline double imaginary_part(const Matrix_entry<std::complex<double>>& entry) { return entry.im; }
 
+// Entries as they are stored.
+template <class Stored, class Real>
+struct Stored_entries
+{
+  const Stored* main_parts;
+  const Real* imaginary_parts;
+
+  const Stored* main(std::size_t begin, std::size_t) const { return main_parts + begin; }
+  const Real* imaginary(std::size_t begin, std::size_t) const { return imaginary_parts + begin; }
+};
+
+// The row sums of a matrix of pattern p. What `prepare()` returns for each block of slices has
+// functions of a place and a number of entries: `main()` and `imaginary()` return these.
+template <class Value, class Prepare, class Use>
+void for_each_row_sum(const Sliced_pattern& p, const typename Value_traits<Value>::Vector_value* x,
+                      const Prepare& prepare, const Use& use)
+{
+  Blocked_execution::blocked_for(p.slices(), 1024, [&](std::size_t first, std::size_t last) {
+    auto entries = prepare();
+    for(std::size_t s = first; s < last; ++s) {
+      const std::size_t begin = std::size_t(p.slice_begin[s]) * slice_rows;
+      const std::size_t width = p.slice_begin[s + 1] - p.slice_begin[s];
+      const std::uint32_t* column = p.column.data() + begin;
+      Slice_sums<Value> sum;
+      sum.add(column, entries.main(begin, width * slice_rows), width, x);
+      if constexpr(Value_traits<Value>::is_complex)
+        if(p.imaginary[s] != Sliced_pattern::none)
+          sum.add_imaginary(column,
+                            entries.imaginary(std::size_t(p.imaginary[s]) * slice_rows,
+                                              width * slice_rows),
+                            width, x);
+      const std::size_t slot = s * slice_rows;
+      const std::size_t count = (std::min)(p.rows - slot, std::size_t(slice_rows));
+      for(std::size_t r = 0; r < count; ++r)
+        use(std::size_t(p.row_of_slot[slot + r]), sum[r]);
+    }
+  });
+}
+
 } // namespace internal
 
 template <class Value>
 template <class Use>
 void Self_adjoint_matrix<Value>::for_each_row_sum(const Vector& x, const Use& use) const
 {
-  const Sliced_pattern& p = *m_pattern;
-  const Vector_value* xp = x.data();
-  Blocked_execution::blocked_for(p.slices(), 1024, [&](std::size_t first, std::size_t last) {
-    for(std::size_t s = first; s < last; ++s) {
-      const std::size_t begin = std::size_t(p.slice_begin[s]) * internal::slice_rows;
-      const std::size_t width = p.slice_begin[s + 1] - p.slice_begin[s];
-      internal::Slice_sums<Value> sum;
-      sum.add(p.column.data() + begin, m_main.data() + begin, width, xp);
-      if constexpr(Traits::is_complex)
-        if(p.imaginary[s] != Sliced_pattern::none)
-          sum.add_imaginary(p.column.data() + begin,
-                            m_im.data() + std::size_t(p.imaginary[s]) * internal::slice_rows,
-                            width, xp);
-      const std::size_t slot = s * internal::slice_rows;
-      const std::size_t count = (std::min)(p.rows - slot, std::size_t(internal::slice_rows));
-      for(std::size_t r = 0; r < count; ++r)
-        use(std::size_t(p.row_of_slot[slot + r]), sum[r]);
-    }
-  });
+  const auto prepare = [this] {
+    return internal::Stored_entries<Stored, Real>{m_main.data(), m_im.data()};
+  };
+  internal::for_each_row_sum<Value>(*m_pattern, x.data(), prepare, use);
 }
 
 template <class Value>

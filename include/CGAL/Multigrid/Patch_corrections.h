@@ -25,7 +25,7 @@ The class `Patch_corrections` solves for three unknowns at a time, one such patc
 strongly that no smoother moves them one by one; before and after a cycle, patches on these triangles
 take this part of the error.
 
-\tparam Value an entry of the matrix
+\tparam Value an entry of the matrix, which is a `Self_adjoint_matrix` or a `Split_matrix`
 
 One after the other: the result does not depend on the number of threads. Linear in the number of
 patches and of entries in their rows.
@@ -34,11 +34,11 @@ template <class Value>
 class Patch_corrections
 {
 public:
-  typedef Self_adjoint_matrix<Value> Matrix; ///< the matrix
-  typedef Value_vector<Value> Vector;        ///< a vector
+  typedef Value_vector<Value> Vector; ///< a vector
 
   /// Adds a patch: three unknowns of `h`, which must be the matrix of all patches. Unknowns with
   /// rows of zeros, those of pins, stay as they are.
+  template <class Matrix>
   void add(const Matrix& h, const std::array<std::uint32_t, 3>& unknowns);
 
   /// Returns whether there are no patches.
@@ -46,9 +46,11 @@ public:
 
   /// Begins with x = 0, sets `x` to the corrections in the order of the patches, and `r`, on entry
   /// the right-hand side, to the residual, but for pins.
+  template <class Matrix>
   void correct_forward(const Matrix& h, Vector& r, Vector& x) const;
 
   /// Adds to `x` the corrections for the right-hand side `f` in the reverse order.
+  template <class Matrix>
   void correct_backward(const Matrix& h, const Vector& f, Vector& x) const;
 
   /// Returns the bytes that they take.
@@ -102,6 +104,7 @@ private:
 };
 
 template <class Value>
+template <class Matrix>
 void Patch_corrections<Value>::add(const Matrix& h, const std::array<std::uint32_t, 3>& unknowns)
 {
   constexpr double rounding = 1e-14;
@@ -109,7 +112,7 @@ void Patch_corrections<Value>::add(const Matrix& h, const std::array<std::uint32
   patch.unknown = unknowns;
   Block block = Block::Identity(3 * N, 3 * N), is_free = block;
   const auto is_pin = [&](int i) {
-    return Value_traits<typename Traits::Diagonal>::is_zero(h.diagonal()[unknowns[i]]);
+    return Value_traits<typename Traits::Diagonal>::is_zero(h.diagonal(unknowns[i]));
   };
   for(int i = 0; i < 3; ++i) {
     patch.slot[i] = std::uint32_t(h.slot_of_row(unknowns[i]));
@@ -117,7 +120,7 @@ void Patch_corrections<Value>::add(const Matrix& h, const std::array<std::uint32
       is_free.diagonal().segment(N * i, N).setZero();
       continue;
     }
-    put(Value(h.diagonal()[unknowns[i]]), i, i, block);
+    put(Value(h.diagonal(unknowns[i])), i, i, block);
     h.for_each_entry(patch.slot[i], [&](std::uint32_t column, const Value& value) {
       for(int j = 0; j < 3; ++j)
         if(column == unknowns[j] && !is_pin(j))
@@ -139,6 +142,7 @@ void Patch_corrections<Value>::add(const Matrix& h, const std::array<std::uint32
 }
 
 template <class Value>
+template <class Matrix>
 void Patch_corrections<Value>::correct_forward(const Matrix& h, Vector& r, Vector& x) const
 {
   set_zero(r.size(), x);
@@ -149,7 +153,7 @@ void Patch_corrections<Value>::correct_forward(const Matrix& h, Vector& r, Vecto
     for(int i = 0; i < 3; ++i) {
       const Vector_value d = step(patch, i, b);
       x[patch.unknown[i]] += d;
-      r[patch.unknown[i]] -= h.diagonal()[patch.unknown[i]] * d;
+      r[patch.unknown[i]] -= h.diagonal(patch.unknown[i]) * d;
       h.for_each_entry(patch.slot[i], [&](std::uint32_t j, const Value& value) {
         r[j] -= Traits::adjoint(value) * d;
       });
@@ -158,6 +162,7 @@ void Patch_corrections<Value>::correct_forward(const Matrix& h, Vector& r, Vecto
 }
 
 template <class Value>
+template <class Matrix>
 void Patch_corrections<Value>::correct_backward(const Matrix& h, const Vector& f, Vector& x) const
 {
   Numbers b;
@@ -165,7 +170,7 @@ void Patch_corrections<Value>::correct_backward(const Matrix& h, const Vector& f
     const Patch& patch = m_patches[k];
     for(int i = 0; i < 3; ++i) {
       Vector_value r = f[patch.unknown[i]];
-      r -= h.diagonal()[patch.unknown[i]] * x[patch.unknown[i]];
+      r -= h.diagonal(patch.unknown[i]) * x[patch.unknown[i]];
       h.for_each_entry(patch.slot[i],
                        [&](std::uint32_t j, const Value& value) { r -= value * x[j]; });
       take(r, i, b);

@@ -155,6 +155,17 @@ public:
       d = d + Real(part) * d;
   }
 
+  /// Multiplies all entries by a number.
+  void scale(double factor)
+  {
+    typedef typename Value_traits<Diagonal>::Real Real;
+    for(Diagonal& d : m_diagonal)
+      d = Real(factor) * d;
+    for(Block& block : m_blocks)
+      for(Double& value : block.values)
+        value = Real(factor) * value;
+  }
+
   /// Returns the matrix of these rows with entries of type `Value`. Linear time.
   template <class Value>
   Self_adjoint_matrix<Value> matrix() const

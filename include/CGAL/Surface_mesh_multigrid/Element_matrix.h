@@ -8,6 +8,7 @@
 #include <CGAL/Surface_mesh_multigrid/Surface_hierarchy.h>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <array>
 #include <cmath>

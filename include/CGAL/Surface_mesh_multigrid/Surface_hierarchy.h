@@ -37,7 +37,7 @@ namespace Surface_mesh_multigrid {
 /// The options of `Surface_hierarchy`.
 struct Surface_hierarchy_options
 {
-  double ratio = 3.5;               ///< vertices of a level to those of the next coarser one, > 1
+  double ratio = 5.;                ///< vertices of a level to those of the next coarser one, > 1
   std::size_t coarsest_size = 2000; ///< vertices that the coarsest level should have
   /// For each vertex whether all levels shall have it; empty for none. It is not needed for given
   /// values: coarse levels know of those.
@@ -171,8 +171,8 @@ public:
   const std::vector<Point_3>& points() const { return m_points; }
   /// Returns the mean edge length.
   double mean_edge() const { return m_mean_edge; }
-  /// Returns for each vertex its component, components numbered from 0.
-  const std::vector<std::uint32_t>& component() const { return m_component; }
+  /// Returns the component of vertex `v`, components numbered from 0.
+  std::uint32_t component(Vertex_index v) const { return m_components == 1 ? 0 : m_component[v]; }
   /// Returns the number of components.
   std::size_t number_of_components() const { return m_components; }
 
@@ -190,7 +190,8 @@ public:
   /// Returns the bytes that it takes.
   std::size_t memory() const
   {
-    std::size_t result = m_source.size() * (2 * sizeof(Vertex_index) + sizeof(Point_3))
+    std::size_t result = m_source.size() * (sizeof(Vertex_index) + sizeof(Point_3))
+                       + m_component.size() * sizeof(std::uint32_t)
                        + m_triangles.size() * (sizeof(Triangle_indices) + sizeof(std::uint32_t));
     for(const Level& level : m_levels)
       result += level.from_coarser.memory();
@@ -221,7 +222,8 @@ private:
 
   std::vector<Level> m_levels;
   std::vector<Vertex_index> m_source;
-  std::vector<std::uint32_t> m_source_triangle, m_component;
+  std::vector<std::uint32_t> m_source_triangle;
+  std::vector<std::uint32_t> m_component; // empty if there is one
   std::vector<Triangle_indices> m_triangles;
   std::vector<Point_3> m_points;
   std::size_t m_components = 0;
@@ -333,6 +335,8 @@ CGAL_HLSCM_INLINE void Surface_hierarchy::find_components()
     const Vertex_index first = sets.find(v); // the smallest, so it has its number by now
     m_component[v] = first == v ? std::uint32_t(m_components++) : m_component[first];
   }
+  if(m_components == 1)
+    m_component = {};
 }
 
 #endif // CGAL_HLSCM_DEFINITIONS

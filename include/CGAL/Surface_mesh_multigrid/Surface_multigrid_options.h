@@ -20,7 +20,7 @@ struct Surface_multigrid_options
   double tolerance = 1e-6; ///< of the norm of the residual to that of the right-hand side
   std::size_t maximal_iterations = 100; ///< at most so many
   /// The cycle that preconditions each iteration.
-  Multigrid::Schedule schedule = Multigrid::Schedule::v_cycle(3, 3);
+  Multigrid::Schedule schedule = Multigrid::Schedule::v_cycle(4, 4);
   /// How many threads there may be if the solver has a parallel tag; 0 stands for all.
   unsigned int threads = 0;
   /// Told the part done in [0, 1] from time to time; returning false stops it.

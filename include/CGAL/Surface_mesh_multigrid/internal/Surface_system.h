@@ -5,11 +5,11 @@
 #define CGAL_SURFACE_MESH_MULTIGRID_INTERNAL_SURFACE_SYSTEM_H
 
 #include <CGAL/Blocked_execution/compile_once.h>
-#include <CGAL/Multigrid/Block_values.h>
 #include <CGAL/Multigrid/Multigrid_levels.h>
 #include <CGAL/Multigrid/Patch_corrections.h>
 #include <CGAL/Multigrid/Sparse_cholesky.h>
 #include <CGAL/Multigrid/Sparse_rows.h>
+#include <CGAL/Multigrid/Split_matrix.h>
 #include <CGAL/Surface_mesh_multigrid/Surface_hierarchy.h>
 #include <CGAL/Surface_mesh_multigrid/galerkin_rows.h>
 
@@ -29,16 +29,6 @@ namespace CGAL {
 namespace Surface_mesh_multigrid {
 namespace internal {
 
-// The single precision of a value.
-template <class Value>
-struct Single { typedef float type; };
-template <class Real>
-struct Single<std::complex<Real>> { typedef std::complex<float> type; };
-template <class Real, int N>
-struct Single<Eigen::Matrix<Real, N, N>> { typedef Eigen::Matrix<float, N, N> type; };
-template <class Real, int N>
-struct Single<Multigrid::Columns<Real, N>> { typedef Multigrid::Columns<float, N> type; };
-
 // A matrix on the vertices of a surface with fixed unknowns, and its products with the prolongations
 // on the coarser levels. Vectors are in the order of the hierarchy.
 template <class Value>
@@ -49,7 +39,8 @@ public:
   typedef typename Traits::Double Double;
   typedef Multigrid::Sparse_rows<Double> Rows;
   typedef Multigrid::Value_vector<Value> Vector;
-  typedef typename Single<Value>::type Level_value;
+  typedef typename Multigrid::Single_precision<Value>::type Level_value;
+  typedef Multigrid::Split_matrix<Value> Matrix;
   typedef Multigrid::Sparse_cholesky<
             Eigen::SimplicialLLT<Eigen::SparseMatrix<typename Traits::Inner>>> Coarsest;
   typedef Multigrid::Multigrid_levels<Surface_hierarchy::Prolongation, Coarsest, Level_value> Levels;
@@ -58,7 +49,8 @@ public:
   std::string set(const Surface_hierarchy& surface, Rows rows, std::vector<bool> is_fixed);
 
   bool has_matrix() const { return m_levels != nullptr; }
-  const Multigrid::Self_adjoint_matrix<Value>& matrix() const { return m_matrix; }
+  const Matrix& matrix() const { return *m_matrix; } // A times scale()
+  typename Traits::Real scale() const { return m_scale; }
   const Levels& levels() const { return *m_levels; }
   bool is_fixed(std::size_t i) const { return m_is_fixed[i]; }
 
@@ -73,16 +65,14 @@ public:
   double norm_of_residual(const Vector& f, const Vector& x) const
   {
     Vector r(x.size());
-    m_matrix.multiply(x, r);
+    m_matrix->multiply(x, r);
     Multigrid::for_each_index(r.size(), [&](std::size_t i) { r[i] = f[i] - r[i]; });
     return std::sqrt(Multigrid::squared_norm(r));
   }
 
-  std::size_t memory() const // the finest level shares its pattern
+  std::size_t memory() const
   {
-    return has_matrix() ? m_matrix.memory() - m_matrix.pattern().memory() + m_levels->memory()
-                            + m_patches.memory()
-                        : 0;
+    return has_matrix() ? m_matrix->memory() + m_levels->memory() + m_patches.memory() : 0;
   }
 
 private:
@@ -90,6 +80,7 @@ private:
 
   std::string rows_error(const Surface_hierarchy& surface, const Rows& rows) const;
   void find_kernel(const Surface_hierarchy& surface, const Rows& rows);
+  void find_scale(Rows& rows);
   void find_patches(const Surface_hierarchy& surface, const Rows& rows);
   bool has_kernel() const
   {
@@ -99,12 +90,13 @@ private:
 
   std::vector<bool> m_is_fixed;
   std::vector<bool> m_has_kernel;                  // components on which constants are
-  const std::vector<std::uint32_t>* m_component = nullptr;
+  const Surface_hierarchy* m_surface = nullptr;
   std::vector<std::size_t> m_size_of_component;
-  Multigrid::Self_adjoint_matrix<Value> m_matrix;  // rows of fixed unknowns are zero
+  typename Traits::Real m_scale = 1;               // a power of two
+  std::unique_ptr<Matrix> m_matrix;                // rows of fixed unknowns are zero
   Multigrid::Patch_corrections<Value> m_patches;
   Vector m_residual, m_correction;                 // of cycles between patches
-  std::vector<Multigrid::Self_adjoint_matrix<Level_value>> m_matrices;
+  std::vector<Multigrid::Self_adjoint_matrix<Level_value>> m_matrices; // of all levels but the finest
   std::unique_ptr<Levels> m_levels;
 };
 
@@ -114,25 +106,26 @@ std::string Surface_system<Value>::set(const Surface_hierarchy& surface, Rows ro
 {
   m_levels.reset();
   m_is_fixed = std::move(is_fixed);
-  m_component = &surface.component();
+  m_surface = &surface;
   const std::string error = rows_error(surface, rows);
   if(!error.empty())
     return error;
   find_kernel(surface, rows);
   rows.clear_rows([this](std::uint32_t i) { return m_is_fixed[i]; });
-  m_matrix = rows.template matrix<Value>();
+  find_scale(rows);
+  m_matrix = std::make_unique<Matrix>(rows.template matrix<Value>());
   find_patches(surface, rows);
   const std::size_t count = surface.number_of_levels();
   m_matrices.clear();
-  m_matrices.resize(count);
-  m_matrices.back().assign(m_matrix);
+  m_matrices.resize(count - 1);
   for(std::size_t l = count - 1; l-- > 0;) {
     rows = galerkin_rows(rows, surface.from_coarser(l + 1));
     m_matrices[l] = rows.template matrix<Level_value>();
   }
   m_levels = std::make_unique<Levels>();
   for(std::size_t l = 0; l < count; ++l)
-    m_levels->add_level(m_matrices[l], l == 0 ? nullptr : &surface.from_coarser(l));
+    m_levels->add_level(l + 1 == count ? m_matrix->single() : m_matrices[l],
+                        l == 0 ? nullptr : &surface.from_coarser(l));
   if(factorize(rows))
     return {};
   m_levels.reset();
@@ -166,8 +159,8 @@ void Surface_system<Value>::find_kernel(const Surface_hierarchy& surface, const 
   constexpr double rounding = 1e-22; // of squares
   m_has_kernel.assign(surface.number_of_components(), true);
   m_size_of_component.assign(surface.number_of_components(), 0);
-  for(const std::uint32_t c : surface.component())
-    ++m_size_of_component[c];
+  for(std::uint32_t i = 0; i < rows.size(); ++i)
+    ++m_size_of_component[surface.component(i)];
   for(std::uint32_t i = 0; i < rows.size(); ++i) {
     Double sum = Multigrid::Value_traits<Double>::zero();
     sum += rows.diagonal()[i];
@@ -177,7 +170,25 @@ void Surface_system<Value>::find_kernel(const Surface_hierarchy& surface, const 
       size += double(Multigrid::Value_traits<Double>::squared_norm(rows.values(i)[k]));
     }
     if(m_is_fixed[i] || Multigrid::Value_traits<Double>::squared_norm(sum) > rounding * size)
-      m_has_kernel[surface.component()[i]] = false;
+      m_has_kernel[surface.component(i)] = false;
+  }
+}
+
+// Single precision has a small range: rows that come near its ends are scaled by a power of two.
+template <class Value>
+void Surface_system<Value>::find_scale(Rows& rows)
+{
+  typedef Multigrid::Value_traits<typename Rows::Diagonal> Diagonal_traits;
+  constexpr int far = 32; // in powers of two; the range has 126
+  double largest = 0.;
+  for(const auto& d : rows.diagonal())
+    for(int r = 0; r < Traits::rows; ++r)
+      largest = (std::max)(largest, std::abs(Diagonal_traits::coefficient(d, r, r)));
+  const int exponent = largest > 0. ? std::ilogb(largest) : 0;
+  m_scale = 1;
+  if(exponent > far || exponent < -far) {
+    m_scale = typename Traits::Real(std::ldexp(1., -exponent));
+    rows.scale(double(m_scale));
   }
 }
 
@@ -215,22 +226,22 @@ void Surface_system<Value>::find_patches(const Surface_hierarchy& surface, const
         if(rows.columns(t[j])[k] == t[(j + 1) % 3] && scale(t[j], k) > 0.)
           sum += size(t[j], k) / scale(t[j], k);
     if(sum > enough)
-      m_patches.add(m_matrix, t);
+      m_patches.add(*m_matrix, t);
   }
 }
 
 template <class Value>
 void Surface_system<Value>::precondition(const Multigrid::Schedule& schedule, const Vector& r, Vector& z)
 {
-  const std::size_t finest = m_matrices.size() - 1;
+  const std::size_t finest = m_matrices.size();
   if(m_patches.empty())
     m_levels->precondition(schedule, finest, r, z);
   else {
     m_residual = r;
-    m_patches.correct_forward(m_matrix, m_residual, z);
+    m_patches.correct_forward(*m_matrix, m_residual, z);
     m_levels->precondition(schedule, finest, m_residual, m_correction);
     Multigrid::for_each_index(z.size(), [&](std::size_t i) { z[i] += m_correction[i]; });
-    m_patches.correct_backward(m_matrix, r, z);
+    m_patches.correct_backward(*m_matrix, r, z);
   }
   remove_mean(z);
 }
@@ -254,7 +265,7 @@ double Surface_system<Value>::remove_mean(Vector& f) const
   typedef typename Vector::value_type Vector_value;
   if(!has_kernel())
     return 0.;
-  const std::vector<std::uint32_t>& component = *m_component;
+  const Surface_hierarchy& surface = *m_surface;
   const std::vector<Vector_value> zeros(m_has_kernel.size(), Vector_traits::zero());
   // Sums of blocks that are not smaller than the number of sums
   const std::size_t block = (std::max)(std::size_t(16384), zeros.size());
@@ -263,7 +274,7 @@ double Surface_system<Value>::remove_mean(Vector& f) const
     std::vector<Vector_value>& sum = part[begin / block];
     sum = zeros;
     for(std::size_t i = begin; i < end; ++i)
-      sum[component[i]] += f[i];
+      sum[surface.component(std::uint32_t(i))] += f[i];
   });
   std::vector<Vector_value> mean = zeros;
   double removed = 0.;
@@ -275,7 +286,9 @@ double Surface_system<Value>::remove_mean(Vector& f) const
                          / typename Traits::Real(number));
     removed += number * double(Vector_traits::squared_norm(mean[c]));
   }
-  Multigrid::for_each_index(f.size(), [&](std::size_t i) { f[i] -= mean[component[i]]; });
+  Multigrid::for_each_index(f.size(), [&](std::size_t i) {
+    f[i] -= mean[surface.component(std::uint32_t(i))];
+  });
   return std::sqrt(removed);
 }
 

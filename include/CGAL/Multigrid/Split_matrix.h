@@ -1,0 +1,180 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_MULTIGRID_SPLIT_MATRIX_H
+#define CGAL_MULTIGRID_SPLIT_MATRIX_H
+
+#include <CGAL/Multigrid/Block_values.h>
+#include <CGAL/Multigrid/Hermitian_matrix.h>
+
+#include <complex>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+namespace CGAL {
+namespace Multigrid {
+
+/// \ingroup PkgHLSCMMultigrid
+/// The single precision of a value.
+template <class Value>
+struct Single_precision { typedef float type; };
+
+/// \cond SKIP_IN_MANUAL
+template <class Real>
+struct Single_precision<std::complex<Real>> { typedef std::complex<float> type; };
+template <class Real, int N>
+struct Single_precision<Eigen::Matrix<Real, N, N>> { typedef Eigen::Matrix<float, N, N> type; };
+template <class Real, int N>
+struct Single_precision<Columns<Real, N>> { typedef Columns<float, N> type; };
+/// \endcond
+
+/*!
+\ingroup PkgHLSCMMultigrid
+
+The class `Split_matrix` is a `Self_adjoint_matrix` whose entries are sums of two in single precision,
+with 48 bits together: the first parts are a matrix of their own, which a cycle needs anyway, and the
+second ones take half the memory of a matrix in double precision beside it.
+
+\tparam Value an entry, in double precision
+
+\cgalModels{MultigridOperator}
+*/
+template <class Value>
+class Split_matrix
+{
+public:
+  typedef Value_traits<Value> Traits;                 ///< what is known of its entries
+  typedef typename Traits::Diagonal Diagonal;         ///< a diagonal entry
+  typedef typename Traits::Vector_value Vector_value; ///< an entry of a vector
+  typedef Value_vector<Value> Vector;                 ///< a vector
+  typedef Self_adjoint_matrix<typename Single_precision<Value>::type> Single; ///< in single precision
+
+  Split_matrix() {}
+
+  /// Splits a matrix whose entries single precision has the range of.
+  explicit Split_matrix(const Self_adjoint_matrix<Value>& matrix)
+  {
+    m_first.assign(matrix);
+    subtract(matrix.m_diagonal, m_first.m_diagonal, m_rest_diagonal);
+    subtract(matrix.m_main, m_first.m_main, m_rest);
+    subtract(matrix.m_im, m_first.m_im, m_rest_im);
+  }
+
+  /// Returns the number of rows.
+  std::size_t size() const { return m_first.size(); }
+  /// Returns the matrix rounded to single precision.
+  const Single& single() const { return m_first; }
+  /// Returns the diagonal entry of row `i`.
+  Diagonal diagonal(std::size_t i) const { return sum(m_first.m_diagonal[i], m_rest_diagonal[i]); }
+  /// Returns the slot of row `i`. Constant time.
+  std::size_t slot_of_row(std::uint32_t i) const { return m_first.slot_of_row(i); }
+
+  /// Sets `y`, of the same size, to the product with `x`.
+  void multiply(const Vector& x, Vector& y) const
+  {
+    const auto prepare = [this] { return Joined_entries{*this, {}, {}}; };
+    const auto use = [&](std::size_t i, const Vector_value& s) { y[i] = diagonal(i) * x[i] + s; };
+    internal::for_each_row_sum<Value>(m_first.pattern(), x.data(), prepare, use);
+  }
+  /// Is `multiply()`.
+  void operator()(const Vector& x, Vector& y) const { multiply(x, y); }
+
+  /// Calls `use(j, H_ij)` for the entries beside the diagonal of the row in `slot`, stored zeros
+  /// left out.
+  template <class Use>
+  void for_each_entry(std::size_t slot, const Use& use) const
+  {
+    const Sliced_pattern& p = m_first.pattern();
+    const std::size_t s = slot / internal::slice_rows, r = slot % internal::slice_rows;
+    for(std::size_t k = p.slice_begin[s]; k < p.slice_begin[s + 1]; ++k) {
+      const std::size_t at = k * internal::slice_rows + r;
+      Value value(sum(m_first.m_main[at], m_rest[at]));
+      if constexpr(Traits::is_complex)
+        if(p.imaginary[s] != Sliced_pattern::none) {
+          const std::size_t im = (p.imaginary[s] + k - p.slice_begin[s]) * internal::slice_rows + r;
+          value.imag(double(m_first.m_im[im]) + double(m_rest_im[im]));
+        }
+      if(!Traits::is_zero(value))
+        use(p.column[at], value);
+    }
+  }
+
+  /// Returns the bytes that it takes beside `single()`.
+  std::size_t memory() const
+  {
+    return m_rest_diagonal.size() * sizeof(Diagonal_single) + m_rest.size() * sizeof(Stored_single)
+           + m_rest_im.size() * sizeof(float);
+  }
+
+private:
+  typedef typename Traits::Stored Stored;
+  typedef Value_traits<typename Single_precision<Value>::type> Single_traits;
+  typedef typename Single_traits::Stored Stored_single;
+  typedef typename Single_traits::Diagonal Diagonal_single;
+
+  // A number, or a block, of two in single precision.
+  static double sum(float a, float b) { return double(a) + double(b); }
+  template <class Block>
+  static Stored sum(const Block& a, const Block& b)
+  {
+    return (a.template cast<double>() + b.template cast<double>())
+      .template cast<typename Traits::Real>();
+  }
+  static float difference(double a, float b) { return float(a - double(b)); }
+  static float difference(float a, float b) { return a - b; }
+  template <class Block, class Single_block>
+  static Single_block difference(const Block& a, const Single_block& b)
+  {
+    return (a.template cast<double>() - b.template cast<double>()).template cast<float>();
+  }
+
+  template <class Entries, class Parts, class Rest>
+  static void subtract(const Entries& entries, const Parts& parts, Rest& rest)
+  {
+    rest.resize(entries.size());
+    for_each_index(entries.size(),
+                   [&](std::size_t i) { rest[i] = difference(entries[i], parts[i]); });
+  }
+
+  // The entries of a slice, joined.
+  struct Joined_entries
+  {
+    const Split_matrix& matrix;
+    std::vector<Stored> main_parts;
+    std::vector<typename Traits::Real> imaginary_parts;
+
+    const Stored* main(std::size_t begin, std::size_t count)
+    {
+      return join(matrix.m_first.m_main, matrix.m_rest, begin, count, main_parts);
+    }
+    const typename Traits::Real* imaginary(std::size_t begin, std::size_t count)
+    {
+      return join(matrix.m_first.m_im, matrix.m_rest_im, begin, count, imaginary_parts);
+    }
+
+    template <class Parts, class Entry>
+    static const Entry* join(const Parts& first, const Parts& rest, std::size_t begin,
+                             std::size_t count, std::vector<Entry>& entries)
+    {
+      if(entries.size() < count)
+        entries.resize(count);
+      const auto *a = first.data() + begin, *b = rest.data() + begin;
+      Entry* const e = entries.data();
+      for(std::size_t i = 0; i < count; ++i)
+        e[i] = sum(a[i], b[i]);
+      return e;
+    }
+  };
+
+  Single m_first;
+  std::vector<Diagonal_single> m_rest_diagonal;
+  Blocked_execution::Uninitialized_vector<Stored_single> m_rest;
+  std::vector<float> m_rest_im;
+};
+
+} // namespace Multigrid
+} // namespace CGAL
+
+#endif // CGAL_MULTIGRID_SPLIT_MATRIX_H
