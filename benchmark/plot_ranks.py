@@ -6,7 +6,7 @@
 Times are those of all processors. Grey: what is flat, within 1.4 of the least value. Dashed: the memory that the
 runs are given.
 
-Usage: benchmark/plot_ranks.py ranks.csv -o ranks.png
+Usage: benchmark/plot_ranks.py benchmark/results/ranks.csv -o doc/figures/very_large.png
 """
 
 import argparse

@@ -14,7 +14,6 @@
 #include <csetjmp>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <ostream>
 #include <string>
 #include <type_traits>
