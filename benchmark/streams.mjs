@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // Splits a second that the reader of progressive meshes makes in WebAssembly, and compiled for this
-// machine, on one core: a row for each file, medians of runs in turn. Beside them how many it would be
-// if there were nothing but the symbols to decode (symbols.cpp).
+// machine, on one core: a row for each file, medians of runs in turn, by the time of the processor. Beside
+// them how many it would be if there were nothing but the symbols to decode (symbols.cpp).
 //
 // Usage: node benchmark/streams.mjs BUILD_DIR MODEL.pm...
 // BUILD_DIR was built with HLSCM_BUILD_WEB. Both readers have to come to the same mesh.
@@ -29,11 +29,17 @@ function median(values) {
   return values.sort((a, b) => a - b)[values.length >> 1];
 }
 
+/** What `work` returns, and the seconds of processors that it took. */
+function timed(work) {
+  const start = process.cpuUsage();
+  const result = work();
+  const { user, system } = process.cpuUsage(start);
+  return { result, seconds: (user + system) / 1e6 };
+}
+
 async function secondsOfRead(module, bytes) {
   const stream = await ModelStream.create(module);
-  const start = performance.now();
-  const status = stream.push(bytes);
-  const seconds = (performance.now() - start) / 1000;
+  const { result: status, seconds } = timed(() => stream.push(bytes));
   if (status !== Status.COMPLETE) throw new Error(stream.message);
   return { seconds, stream };
 }
@@ -52,9 +58,9 @@ async function makeSymbols(folder, splits) {
   return {
     bytes,
     webRate() {
-      const start = performance.now();
-      if (instance.exports.decode() !== splits) throw new Error("the symbols differ");
-      return (1000 * splits) / (performance.now() - start);
+      const { result, seconds } = timed(() => instance.exports.decode());
+      if (result !== splits) throw new Error("the symbols differ");
+      return splits / seconds;
     },
     nativeRate: () => Number(execFileSync(native, [String(splits)], { encoding: "utf8" })),
   };

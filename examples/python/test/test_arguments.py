@@ -114,6 +114,14 @@ class Refused(unittest.TestCase):
         self.assert_says("BAD_OPTIONS", "(144, 2) instead of (n, 3)", hlscm.atlas, self.vertices[:, :2],
                          self.faces)
 
+    def test_indices_that_would_be_right_in_32_bits(self):
+        vertices, faces = meshes.hills(8)
+        for kind, more in ((np.int64, 2 ** 32), (np.uint64, 2 ** 32), (np.int64, -2 ** 32)):
+            beyond = faces.astype(kind)
+            beyond[3, 1] += kind(more)
+            with self.assertRaises(hlscm.MeshError):
+                hlscm.parameterize(vertices, beyond)
+
     def test_what_excludes_what_in_atlases(self):
         mesh, labels = (self.vertices, self.faces), np.arange(len(self.faces)) % 2
         for options, text in (({"stack": True, "separate": labels}, "would share a texture"),

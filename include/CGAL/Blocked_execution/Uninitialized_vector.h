@@ -20,9 +20,9 @@
 namespace CGAL {
 namespace Blocked_execution {
 
-/// Asks for the cache line of an address, which has to be one of memory. The empty statement is for GCC:
-/// it takes a function that does nothing but prefetch for one without effects, and leaves out the calls
-/// of it. WebAssembly has no such instruction, but a load that nobody waits for.
+/// Asks for the cache line of an address, which has to be one of memory. The empty statement is for
+/// GCC: it takes a function that does nothing but prefetch for one without effects, and leaves out
+/// the calls of it. WebAssembly has no such instruction, but a load that nobody waits for.
 inline void prefetch(const void* address)
 {
 #if defined(__wasm__)

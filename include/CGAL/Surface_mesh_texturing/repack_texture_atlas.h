@@ -32,8 +32,8 @@ struct Repacked_atlas_result
 
 namespace internal {
 
-// Two triangles of one chart with different page sets: what is kept as it is cannot lie on the pages of
-// two. Nothing for sets of another number of triangles.
+// Two triangles of one chart with different page sets: what is kept as it is cannot lie on the
+// pages of two. Nothing for sets of another number of triangles.
 inline std::optional<std::pair<std::size_t, std::size_t>>
 chart_between_sets(const Textured_triangle_mesh& mesh, const std::vector<std::uint32_t>& page_set)
 {
@@ -77,8 +77,8 @@ stays mirrored (`Chart_report::is_mirrored`), and its distortion is that of its 
 chart with flipped triangles, one that overlaps itself, or that has no area,
 `Repacked_atlas_result::defects` names the triangles; it is refused or kept, as
 `Repacking_options::defects` says. What is kept lies on itself in the texture as it did before, but on
-no other chart. Other bad data give an error: that of `build_texture_atlas()`, texture coordinates that
-are missing or not finite, and a chart that would lie on the pages of two sets.
+no other chart. Other bad data give an error: that of `build_texture_atlas()`, texture coordinates
+that are missing or not finite, and a chart that would lie on the pages of two sets.
 
 \tparam ConcurrencyTag as for `build_texture_atlas()`
 \tparam Packer a model of `ChartPacker`, or `Default` for `Raster_packer`

@@ -927,7 +927,10 @@ class ProgressiveMesh:
     def write_levels(self, path: Union[str, "os.PathLike[str]"], faces: Sequence[int]) -> None:
         """Writes levels with at most so many faces, each lighter than the one before, as one file (.glb)
         that says that one stands for the other far away (MSFT_lod); they share vertices and uv."""
-        self._mesh.write_levels(os.fspath(path), [self._mesh.position_of_faces(n) for n in faces])
+        positions = [self._mesh.position_of_faces(n) for n in faces]
+        if not positions or positions != sorted(positions):
+            raise MeshError("there is no level, or one is not lighter than the one before")
+        self._mesh.write_levels(os.fspath(path), positions)
 
     @property
     def number_of_faces(self) -> int:
