@@ -33,9 +33,9 @@ struct Single_precision<Columns<Real, N>> { typedef Columns<float, N> type; };
 /*!
 \ingroup PkgHLSCMMultigrid
 
-The class `Split_matrix` is a `Self_adjoint_matrix` whose entries are sums of two in single precision,
-with 48 bits together: the first parts are a matrix of their own, which a cycle needs anyway, and the
-second ones take half the memory of a matrix in double precision beside it.
+The class `Split_matrix` is a `Self_adjoint_matrix` whose entries are sums of two in single
+precision, with 48 bits together: the first parts are a matrix of their own, which a cycle needs
+anyway, and the second ones take half the memory of a matrix in double precision beside it.
 
 \tparam Value an entry, in double precision
 
@@ -49,7 +49,8 @@ public:
   typedef typename Traits::Diagonal Diagonal;         ///< a diagonal entry
   typedef typename Traits::Vector_value Vector_value; ///< an entry of a vector
   typedef Value_vector<Value> Vector;                 ///< a vector
-  typedef Self_adjoint_matrix<typename Single_precision<Value>::type> Single; ///< in single precision
+  /// The matrix in single precision
+  typedef Self_adjoint_matrix<typename Single_precision<Value>::type> Single;
 
   Split_matrix() {}
 

@@ -292,7 +292,9 @@ Surface_multigrid_report Surface_multigrid_solver<Value, Tag>::solve(const B& b,
   const Vector_value zero = Vector_traits::zero();
   Vector f(size()), u(size()), given(size());
   Multigrid::for_each_index(size(), [&](std::size_t i) {
-    f[i] = m_system.is_fixed(i) ? zero : Vector_value(m_system.scale() * Vector_value(b[source[i]]));
+    f[i] = zero;
+    if(!m_system.is_fixed(i))
+      f[i] = m_system.scale() * Vector_value(b[source[i]]);
     u[i] = Vector_value(x[source[i]]);
     given[i] = m_system.is_fixed(i) ? u[i] : zero;
   });

@@ -25,7 +25,7 @@ gradients have these directions and the length 1.
 
 Heat falls by a factor e over the length that it reaches. Gradients count where it is above a ten
 millionth of that at the source, a thousand times above the tolerance; farther away they are those
-of heat that reaches four times as far.
+of heat that reaches eight times as far.
 
 \param solver the solver of `mesh`, of real numbers; its matrix and tolerance become others
 \param mesh the surface
@@ -52,7 +52,7 @@ Surface_multigrid_report heat_distances(Solver& solver,
   solver.options().tolerance = 1e-3 * above_rounding;
   std::size_t iterations = 0;
   bool is_everywhere = false;
-  for(int i = 2; i < 12 && !is_everywhere; i += 2) {
+  for(int i = 3; i < 13 && !is_everywhere; i += 3) {
     const double reach = std::ldexp(solver.hierarchy()->mean_edge(), i);
     report = solver.set_element(Laplace_element{reach * reach, 1.});
     if(!report.is_ok())

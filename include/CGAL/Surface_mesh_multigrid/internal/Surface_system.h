@@ -96,7 +96,7 @@ private:
   std::unique_ptr<Matrix> m_matrix;                // rows of fixed unknowns are zero
   Multigrid::Patch_corrections<Value> m_patches;
   Vector m_residual, m_correction;                 // of cycles between patches
-  std::vector<Multigrid::Self_adjoint_matrix<Level_value>> m_matrices; // of all levels but the finest
+  std::vector<Multigrid::Self_adjoint_matrix<Level_value>> m_matrices; // but the finest
   std::unique_ptr<Levels> m_levels;
 };
 
