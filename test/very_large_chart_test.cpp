@@ -114,7 +114,7 @@ void Very_large_chart::test_against_memory(SMP::Conformal_method method)
     in_memory.tolerance = tolerance;
     in_memory.coarsest_size = 200;
     const SMP::Conformal_map expected = expected_map(mesh, in_memory);
-    ASSERT_EQ(expected.error, SMP::OK) << expected.report.message;
+    ASSERT_EQ(expected.error, "");
     for(const auto& [block, gathered] : {std::make_pair(n, n), std::make_pair(n, n / 2),
                                          std::make_pair(n / 3, n / 2), std::make_pair(n / 17, n / 5)}) {
       SCOPED_TRACE(std::to_string(block) + " vertices a block, in memory " + std::to_string(gathered));
