@@ -70,7 +70,7 @@ void run(const Mesh& mesh, Row& row)
   SMP::Conformal_map map;
   row.seconds.push_back(timing::seconds_of([&] { map = SMP::conformal_map(mesh, row.pins); }));
   row.cpu_seconds.push_back(double(std::clock() - before) / CLOCKS_PER_SEC);
-  if(map.error != SMP::OK)
+  if(!map.is_ok())
     throw std::runtime_error(map.report.message);
   row.report = map.report;
 }
@@ -79,7 +79,7 @@ void print_rows(const std::string& path, int repetitions)
 {
   const Mesh mesh = read_mesh(path);
   const SMP::Conformal_map map = SMP::conformal_map(mesh);
-  if(map.error != SMP::OK)
+  if(!map.is_ok())
     throw std::runtime_error(path + ": " + map.report.message);
   std::vector<Row> rows = {{map.report.pins, {}, {}, {}}};
   for(const std::size_t number : {100, 1000, 10000})

@@ -4,48 +4,67 @@
 // The same bad inputs at every door: an error and a sentence, never a signal.
 //
 // To add a door, write a struct with `what_is_wrong(input)`, which returns the sentence ("" if all
-// went well), and add it to `Doors`; if a bad input means nothing to it, it says so by
-// `concerns(input)`. To add a bad input, add a row to `bad_inputs()`: every door meets it.
+// went well), and with what it `needs`, and add it to `Doors`. To add a bad input, add a row to
+// `bad_inputs()`: every door that needs as much meets it.
 
+#include <support/bad_arrays.h>
 #include <support/conformal_maps.h>
+#include <support/texturing_options.h>
 
+#include <CGAL/Surface_mesh_multigrid/heat_distances.h>
+#include <CGAL/Surface_mesh_multiresolution/decimate.h>
 #include <CGAL/Surface_mesh_parameterization/Hierarchical_conformal_map.h>
+#include <CGAL/Surface_mesh_parameterization/Live_low_stretch_map.h>
+#include <CGAL/Surface_mesh_parameterization/Low_stretch_parameterizer_3.h>
+#include <CGAL/Surface_mesh_parameterization/Map_certificate.h>
+#include <CGAL/Surface_mesh_parameterization/Signal_metric.h>
 #include <CGAL/Surface_mesh_parameterization/Spectral_conformal_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/border_first_map.h>
-#include <CGAL/Surface_mesh_parameterization/textured_progressive_mesh_of_chart.h>
 #include <CGAL/Surface_mesh_parameterization/conformal_map.h>
+#include <CGAL/Surface_mesh_parameterization/face_distortion.h>
+#include <CGAL/Surface_mesh_parameterization/low_stretch_map.h>
+#include <CGAL/Surface_mesh_parameterization/repair_flipped_faces.h>
+#include <CGAL/Surface_mesh_parameterization/textured_progressive_mesh_of_chart.h>
+#include <CGAL/Surface_mesh_texturing/build_texture_atlas.h>
+#include <CGAL/Surface_mesh_texturing/map_surface.h>
+#include <CGAL/Surface_mesh_texturing/surface_signals.h>
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 #include <string>
 #include <vector>
 
 namespace bad_input_test {
 
+namespace SMM = CGAL::Surface_mesh_multiresolution;
+namespace SMT = CGAL::Surface_mesh_texturing;
 using namespace test_support;
+using CGAL::Indexed_mesh::Mesh_outcome;
+using CGAL::Indexed_mesh::Mesh_status;
 
 // How the halfedge is chosen that a door of a mesh with halfedges asks for.
 enum class Border { ITS_OWN, NONE, INSIDE, FOREIGN };
+
+// What a door needs, each more than the one before; a mesh that lacks it is bad input for the door:
+// arrays that can be read, triangles with three vertices, a manifold with lengths, a border and no handle.
+enum class Needs { ARRAYS, TRIANGLES, SURFACE, CHART };
 
 struct Input
 {
   std::string name;
   Indexed_triangle_mesh mesh;
   Border border;
+  Needs lacks;
+  std::string named; // what the sentence must name
 };
 
 Indexed_triangle_mesh hills() { return with_hills(irregular_grid(12, 9, 1), 3., 2); }
 
-Indexed_triangle_mesh with_point(Indexed_triangle_mesh mesh, double x)
+Indexed_triangle_mesh with_triangle(Indexed_triangle_mesh mesh, const Triangle_indices& t)
 {
-  mesh.points[5] = Point_3(0., x, 0.);
-  return mesh;
-}
-
-Indexed_triangle_mesh with_index(Indexed_triangle_mesh mesh, Vertex_index v)
-{
-  mesh.triangles[7][1] = v;
+  mesh.triangles[7] = t;
   return mesh;
 }
 
@@ -58,32 +77,37 @@ Indexed_triangle_mesh in_one_point(Indexed_triangle_mesh mesh)
 
 std::vector<Input> bad_inputs()
 {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const double infinity = std::numeric_limits<double>::infinity();
-  return {
-    {"no vertices", Indexed_triangle_mesh(), Border::NONE},
-    {"no faces", {hills().points, {}}, Border::NONE},
-    {"closed, null halfedge", sphere(2), Border::NONE},
-    {"closed, some halfedge", sphere(2), Border::INSIDE},
-    {"null halfedge", hills(), Border::NONE},
-    {"halfedge inside", hills(), Border::INSIDE},
-    {"halfedge of a larger mesh", hills(), Border::FOREIGN},
-    {"index out of range", with_index(hills(), 10000), Border::ITS_OWN},
-    {"greatest index", with_index(hills(), Vertex_index(-1)), Border::ITS_OWN},
-    {"NaN", with_point(hills(), nan), Border::ITS_OWN},
-    {"infinite", with_point(hills(), infinity), Border::ITS_OWN},
-    {"genus 1", with_holes(torus(20, 10), 2, 1), Border::ITS_OWN},
-    {"all in one point", in_one_point(hills()), Border::ITS_OWN},
-  };
+  std::vector<Input> result;
+  for(const auto& [name, mesh] : bad_arrays(hills())) {
+    const bool is_empty = mesh.triangles.empty();
+    const bool is_of_points = name == "NaN" || name == "infinite";
+    result.push_back({name, mesh, is_empty ? Border::NONE : Border::ITS_OWN, Needs::ARRAYS,
+                      is_empty ? "" : is_of_points ? "vertex 5 " : "triangle 7 "});
+  }
+  const Triangle_indices first = hills().triangles[0];
+  const std::vector<Input> others = {
+    {"vertex twice", with_triangle(hills(), {first[0], first[1], first[1]}), Border::ITS_OWN,
+     Needs::TRIANGLES, ""},
+    {"triangle twice", with_triangle(hills(), first), Border::ITS_OWN, Needs::SURFACE, "vertex "},
+    {"all in one point", in_one_point(hills()), Border::ITS_OWN, Needs::SURFACE, ""},
+    {"closed, null halfedge", sphere(2), Border::NONE, Needs::CHART, ""},
+    {"closed, some halfedge", sphere(2), Border::INSIDE, Needs::CHART, ""},
+    {"null halfedge", hills(), Border::NONE, Needs::CHART, ""},
+    {"halfedge inside", hills(), Border::INSIDE, Needs::CHART, ""},
+    {"halfedge of a larger mesh", hills(), Border::FOREIGN, Needs::CHART, ""},
+    {"genus 1", with_holes(torus(20, 10), 2, 1), Border::ITS_OWN, Needs::CHART, ""}};
+  result.insert(result.end(), others.begin(), others.end());
+  return result;
 }
 
-bool has_valid_indices(const Indexed_triangle_mesh& mesh)
+// Whether there is such a mesh with halfedges.
+bool has_halfedges(const Indexed_triangle_mesh& mesh)
 {
-  for(const auto& t : mesh.triangles)
-    for(const Vertex_index v : t)
-      if(v >= mesh.points.size())
-        return false;
-  return true;
+  return !mesh.triangles.empty() ? CGAL::Indexed_mesh::index_error(mesh.triangles, mesh.points.size()).empty()
+                                     && CGAL::Indexed_mesh::repeated_vertex_error(mesh.triangles).empty()
+                                     && CGAL::Indexed_mesh::Vertex_rings(mesh).defect()
+                                          == CGAL::Indexed_mesh::Ring_defect::NONE
+                                 : true;
 }
 
 Surface_mesh::Halfedge_index chosen_halfedge(const Surface_mesh& mesh, Border border)
@@ -99,7 +123,18 @@ Surface_mesh::Halfedge_index chosen_halfedge(const Surface_mesh& mesh, Border bo
 // Doors of meshes with halfedges, which cannot have wrong indices.
 struct Mesh_door
 {
-  static bool concerns(const Input& input) { return has_valid_indices(input.mesh); }
+  static constexpr Needs needs = Needs::CHART;
+  static bool concerns(const Input& input) { return has_halfedges(input.mesh); }
+
+  static std::string sentence_of(const SMP::Low_stretch_parameterizer_3<Surface_mesh>& parameterizer)
+  {
+    return parameterizer.outcome().error;
+  }
+  template <class Parameterizer_3>
+  static std::string sentence_of(const Parameterizer_3& parameterizer)
+  {
+    return parameterizer.report().message;
+  }
 
   // The sentence of a parameterizer; its error must go with it.
   template <class Parameterizer_3>
@@ -109,12 +144,12 @@ struct Mesh_door
     const Uv_map uvmap = new_uv_map(mesh);
     const SMP::Error_code error
       = parameterizer.parameterize(mesh, chosen_halfedge(mesh, input.border), uvmap);
-    EXPECT_EQ(error == SMP::OK, parameterizer.report().message.empty());
+    EXPECT_EQ(error == SMP::OK, sentence_of(parameterizer).empty());
     if(error != SMP::OK) {
       for(const std::complex<double>& z : parameters(mesh, uvmap))
         EXPECT_EQ(z, std::complex<double>(untouched, untouched)) << "written in spite of an error";
     }
-    return parameterizer.report().message;
+    return sentence_of(parameterizer);
   }
 };
 
@@ -134,6 +169,15 @@ struct Spectral_door
   static std::string what_is_wrong(const Input& input)
   {
     return message_of(SMP::Spectral_conformal_parameterizer_3<Surface_mesh>(), input);
+  }
+};
+
+struct Low_stretch_parameterizer_door
+  : public Mesh_door
+{
+  static std::string what_is_wrong(const Input& input)
+  {
+    return message_of(SMP::Low_stretch_parameterizer_3<Surface_mesh>(), input);
   }
 };
 
@@ -162,49 +206,233 @@ struct Live_door
   }
 };
 
-// Doors of arrays, which have no halfedge to choose.
-struct Array_door
+// Doors that have no halfedge to choose: a struct with `outcome_of(mesh)`.
+template <class Door>
+struct Without_halfedge
 {
+  static constexpr Needs needs = Door::needs;
   static bool concerns(const Input& input)
   {
-    return input.border == Border::ITS_OWN || input.mesh.triangles.empty()
-        || input.name == "closed, null halfedge";
+    return (input.border == Border::ITS_OWN || input.mesh.triangles.empty()
+            || input.name == "closed, null halfedge")
+        && (!Door::has_halfedges || has_halfedges(input.mesh));
+  }
+  static std::string what_is_wrong(const Input& input)
+  {
+    const Mesh_outcome outcome = Door::outcome_of(input.mesh);
+    EXPECT_EQ(outcome.status, outcome.is_ok() ? Mesh_status::OK : Mesh_status::BAD_MESH);
+    return outcome.error;
   }
 };
 
-struct Conformal_map_door
-  : public Array_door
+template <Needs Needed, bool Has_halfedges = false>
+struct Door
 {
-  static std::string what_is_wrong(const Input& input)
+  static constexpr Needs needs = Needed;
+  static constexpr bool has_halfedges = Has_halfedges;
+
+  typedef std::vector<CGAL::Simple_cartesian<double>::Point_2> Uv;
+
+  // A parameter for each vertex.
+  static Uv some_uv(const Indexed_triangle_mesh& mesh)
   {
-    const SMP::Conformal_map map = SMP::conformal_map(input.mesh);
-    EXPECT_EQ(map.error == SMP::OK, map.report.message.empty());
-    EXPECT_EQ(map.error == SMP::OK, !map.uv.empty());
-    return map.report.message;
+    Uv uv;
+    for(const Point_3& p : mesh.points)
+      uv.emplace_back(std::isfinite(p.x()) ? p.x() : 0., std::isfinite(p.y()) ? p.y() : 0.);
+    return uv;
+  }
+  static SMT::Textured_triangle_mesh textured(const Indexed_triangle_mesh& mesh)
+  {
+    return {mesh.points, mesh.triangles, some_uv(mesh), mesh.triangles};
   }
 };
 
-struct Pinned_map_door
-  : public Array_door
+// The result, if it has as much as it says.
+template <class Result>
+Result with_uv(const Result& map)
 {
-  static std::string what_is_wrong(const Input& input)
+  EXPECT_EQ(map.is_ok(), !map.uv.empty());
+  return map;
+}
+
+struct Conformal_map_door : Door<Needs::CHART>
+{
+  static Mesh_outcome outcome_of(const Indexed_triangle_mesh& mesh)
   {
-    const SMP::Conformal_map map = SMP::conformal_map(input.mesh, {{0, 0., 0.}, {3, 1., 0.}});
-    EXPECT_EQ(map.error == SMP::OK, map.report.message.empty());
-    return map.report.message;
+    const SMP::Conformal_map map = with_uv(SMP::conformal_map(mesh));
+    EXPECT_EQ(map.code == SMP::OK, map.is_ok());
+    EXPECT_EQ(map.report.message, map.error);
+    return map;
   }
 };
 
-struct Border_first_door
-  : public Array_door
+struct Pinned_map_door : Door<Needs::CHART>
 {
-  static std::string what_is_wrong(const Input& input)
+  static Mesh_outcome outcome_of(const Indexed_triangle_mesh& mesh)
   {
-    const SMP::Border_first_map map = SMP::border_first_map(input.mesh);
-    EXPECT_EQ(map.is_ok(), !map.uv.empty());
-    EXPECT_EQ(map.status, map.is_ok() ? CGAL::Indexed_mesh::Mesh_status::OK
-                                      : CGAL::Indexed_mesh::Mesh_status::BAD_MESH);
-    return map.error;
+    return with_uv(SMP::conformal_map(mesh, {{0, 0., 0.}, {3, 1., 0.}}));
+  }
+};
+
+struct Border_first_door : Door<Needs::CHART>
+{
+  static Mesh_outcome outcome_of(const Indexed_triangle_mesh& mesh)
+  {
+    return with_uv(SMP::border_first_map(mesh));
+  }
+};
+
+struct Low_stretch_door : Door<Needs::CHART>
+{
+  static Mesh_outcome outcome_of(const Indexed_triangle_mesh& mesh)
+  {
+    return with_uv(SMP::low_stretch_map(mesh));
+  }
+};
+
+struct Live_low_stretch_door : Door<Needs::CHART>
+{
+  static Mesh_outcome outcome_of(const Indexed_triangle_mesh& mesh)
+  {
+    SMP::Live_low_stretch_map<> map(mesh);
+    const Mesh_outcome result = map.outcome();
+    EXPECT_EQ(map.has_map(), result.is_ok());
+    EXPECT_EQ(map.uv().empty(), !result.is_ok());
+    EXPECT_EQ(map.solve(), result.is_ok());
+    map.set_pin(std::size_t(-1), Point_2(0., 0.));
+    EXPECT_FALSE(map.solve());
+    return result;
+  }
+};
+
+struct Surface_map_door : Door<Needs::SURFACE>
+{
+  static Mesh_outcome outcome_of(const Indexed_triangle_mesh& mesh)
+  {
+    return SMT::map_surface(mesh);
+  }
+};
+
+struct Atlas_door : Door<Needs::SURFACE>
+{
+  static Mesh_outcome outcome_of(const Indexed_triangle_mesh& mesh)
+  {
+    return SMT::build_texture_atlas(mesh, small_texture());
+  }
+};
+
+struct Mesh_atlas_door : Door<Needs::SURFACE, true>
+{
+  static Mesh_outcome outcome_of(const Indexed_triangle_mesh& arrays)
+  {
+    Surface_mesh mesh = to_surface_mesh(arrays);
+    const auto uv = mesh.add_property_map<Surface_mesh::Halfedge_index, Point_2>("h:uv").first;
+    const auto chart = mesh.add_property_map<Surface_mesh::Face_index, std::size_t>("f:chart").first;
+    return SMT::build_texture_atlas(mesh, uv, chart, small_texture());
+  }
+};
+
+struct Decimation_door : Door<Needs::SURFACE>
+{
+  static Mesh_outcome outcome_of(Indexed_triangle_mesh mesh)
+  {
+    const Indexed_triangle_mesh before = mesh;
+    SMM::Decimation_options options;
+    options.target_vertices = 20;
+    const SMM::Decimation_result result = SMM::decimate(mesh, options);
+    EXPECT_EQ(result.is_ok(), mesh.triangles != before.triangles);
+    return result;
+  }
+};
+
+struct Mesh_decimation_door : Door<Needs::SURFACE, true>
+{
+  static Mesh_outcome outcome_of(const Indexed_triangle_mesh& arrays)
+  {
+    Surface_mesh mesh = to_surface_mesh(arrays);
+    SMM::Decimation_options options;
+    options.target_vertices = 20;
+    const SMM::Decimation_result result = SMM::decimate(mesh, options);
+    EXPECT_EQ(result.is_ok(), mesh.number_of_faces() < arrays.triangles.size());
+    return result;
+  }
+};
+
+struct Progressive_mesh_door : Door<Needs::SURFACE>
+{
+  static Mesh_outcome outcome_of(const Indexed_triangle_mesh& mesh)
+  {
+    const SMM::Progressive_surface result = SMM::build_progressive_mesh(mesh);
+    EXPECT_EQ(result.is_ok(), !result.progressive_mesh.collapses.empty());
+    return result;
+  }
+};
+
+struct Mesh_progressive_mesh_door : Door<Needs::SURFACE, true>
+{
+  static Mesh_outcome outcome_of(const Indexed_triangle_mesh& mesh)
+  {
+    return SMM::build_progressive_mesh(to_surface_mesh(mesh));
+  }
+};
+
+struct Hierarchy_door : Door<Needs::SURFACE>
+{
+  static Mesh_outcome outcome_of(const Indexed_triangle_mesh& mesh)
+  {
+    CGAL::Surface_mesh_multigrid::Surface_multigrid_solver<> solver(mesh);
+    std::vector<double> distance;
+    const Mesh_outcome result
+      = CGAL::Surface_mesh_multigrid::heat_distances(solver, mesh, 0, distance);
+    EXPECT_EQ(result.is_ok(), !distance.empty());
+    EXPECT_EQ(solver.hierarchy()->error, result.error);
+    return result;
+  }
+};
+
+struct Signal_metric_door : Door<Needs::ARRAYS>
+{
+  static Mesh_outcome outcome_of(const Indexed_triangle_mesh& mesh)
+  {
+    const std::vector<double> importance(mesh.triangles.size(), 1.);
+    EXPECT_EQ(SMP::importance_metric(mesh, importance).is_ok(),
+              CGAL::Indexed_mesh::mesh_error(mesh).empty());
+    return SMP::signal_metric(mesh, SMT::normal_signal(mesh));
+  }
+};
+
+struct Distortion_door : Door<Needs::ARRAYS>
+{
+  static Mesh_outcome outcome_of(const Indexed_triangle_mesh& mesh)
+  {
+    SMP::measure_face_distortion(textured(mesh)); // no signal
+    return SMP::measure_distortion(textured(mesh));
+  }
+};
+
+struct Certificate_door : Door<Needs::TRIANGLES>
+{
+  static Mesh_outcome outcome_of(const Indexed_triangle_mesh& mesh)
+  {
+    const SMP::Map_certificate result = SMP::certify_map(mesh, some_uv(mesh));
+    EXPECT_TRUE(result.is_ok() || !result.is_one_to_one());
+    const Uv uv = some_uv(mesh); // no signal:
+    SMP::has_global_overlap(SMP::Uv_arrays(mesh, uv));
+    return result;
+  }
+};
+
+struct Repair_door : Door<Needs::TRIANGLES>
+{
+  static Mesh_outcome outcome_of(const Indexed_triangle_mesh& mesh)
+  {
+    Uv uv = some_uv(mesh);
+    for(std::size_t v = 0; v < uv.size(); v += 7) // so that there is something to do
+      uv[v] = Point_2(-uv[v].y(), uv[v].x());
+    const Uv before = uv;
+    const SMP::Flip_repair_report result = SMP::repair_flipped_faces(mesh, uv);
+    EXPECT_EQ(result.is_ok(), uv != before);
+    return result;
   }
 };
 
@@ -216,19 +444,30 @@ class Bad_input
 typedef testing::Types<Parameterizer_door<SMP::Conformal_method::HLSCM>,
                        Parameterizer_door<SMP::Conformal_method::CASCADIC>,
                        Parameterizer_door<SMP::Conformal_method::LSCM>,
-                       Parameterizer_door<SMP::Conformal_method::DIRECT>, Spectral_door, Live_door,
-                       Conformal_map_door, Pinned_map_door, Border_first_door>
+                       Parameterizer_door<SMP::Conformal_method::DIRECT>, Spectral_door,
+                       Low_stretch_parameterizer_door, Live_door,
+                       Without_halfedge<Conformal_map_door>, Without_halfedge<Pinned_map_door>,
+                       Without_halfedge<Border_first_door>, Without_halfedge<Low_stretch_door>,
+                       Without_halfedge<Live_low_stretch_door>, Without_halfedge<Surface_map_door>,
+                       Without_halfedge<Atlas_door>, Without_halfedge<Mesh_atlas_door>,
+                       Without_halfedge<Decimation_door>, Without_halfedge<Mesh_decimation_door>,
+                       Without_halfedge<Progressive_mesh_door>,
+                       Without_halfedge<Mesh_progressive_mesh_door>,
+                       Without_halfedge<Hierarchy_door>, Without_halfedge<Signal_metric_door>,
+                       Without_halfedge<Distortion_door>, Without_halfedge<Certificate_door>,
+                       Without_halfedge<Repair_door>>
   Doors;
 TYPED_TEST_SUITE(Bad_input, Doors);
 
 TYPED_TEST(Bad_input, gives_an_error_and_a_sentence)
 {
   for(const Input& input : bad_inputs()) {
-    if(!TypeParam::concerns(input))
+    if(!TypeParam::concerns(input) || input.lacks > TypeParam::needs)
       continue;
     SCOPED_TRACE(input.name);
     const std::string sentence = TypeParam::what_is_wrong(input);
     EXPECT_GT(sentence.size(), 10u);
+    EXPECT_NE((sentence + " ").find(input.named), std::string::npos) << sentence;
     EXPECT_NE(sentence.find(' '), std::string::npos);
   }
 }
@@ -236,14 +475,60 @@ TYPED_TEST(Bad_input, gives_an_error_and_a_sentence)
 // So that the doors are not simply shut.
 TYPED_TEST(Bad_input, is_not_seen_in_a_good_one)
 {
-  EXPECT_EQ(TypeParam::what_is_wrong({"good", hills(), Border::ITS_OWN}), "");
+  EXPECT_EQ(TypeParam::what_is_wrong({"good", hills(), Border::ITS_OWN, Needs::CHART, ""}), "");
+}
+
+// Arrays that belong to no mesh of this size: a sentence, or nothing.
+TEST(Bad_arrays, of_another_length_are_not_read)
+{
+  const Indexed_triangle_mesh mesh = hills();
+  const std::size_t n = mesh.points.size();
+  typedef std::vector<CGAL::Simple_cartesian<double>::Point_2> Uv;
+  const Uv good(n, Point_2(0., 0.));
+  for(const std::size_t size : {std::size_t(0), n - 1, n + 1}) {
+    SCOPED_TRACE(size);
+    Uv uv(size, Point_2(0., 0.)), fitting = good;
+    for(const Mesh_outcome& outcome :
+        {Mesh_outcome(SMP::certify_map(mesh, uv)), Mesh_outcome(SMP::repair_flipped_faces(mesh, uv)),
+         Mesh_outcome(SMP::repair_flipped_faces(mesh, fitting, std::vector<bool>(size)))}) {
+      EXPECT_EQ(outcome.status, Mesh_status::BAD_OPTIONS);
+      EXPECT_NE(outcome.error.find(std::to_string(size) + " entries"), std::string::npos);
+    }
+    EXPECT_EQ(num_faces(SMP::Uv_arrays(mesh, uv)), size < n ? 0u : mesh.triangles.size());
+    EXPECT_EQ(SMP::measure_face_distortion(mesh, uv).empty(), size < n);
+    EXPECT_EQ(SMT::measure_chart_distortion(mesh, uv).area, 0.);
+    EXPECT_TRUE(
+      CGAL::Surface_mesh_multigrid::surface_gradients(mesh, std::vector<double>(size)).empty());
+    EXPECT_TRUE(CGAL::Surface_mesh_multigrid::weak_divergences(
+                  mesh, std::vector<CGAL::Surface_mesh_multigrid::Surface_vector>(size)).empty());
+  }
+  for(const auto& [name, bad] : bad_arrays(mesh)) {
+    if(name == "NaN" || name == "infinite" || bad.triangles.empty())
+      continue;
+    EXPECT_EQ(SMT::measure_chart_distortion(bad, good).area, 0.) << name;
+    EXPECT_TRUE(
+      CGAL::Surface_mesh_multigrid::surface_gradients(bad, std::vector<double>(n)).empty()) << name;
+    EXPECT_TRUE(CGAL::Surface_mesh_multigrid::weak_divergences(
+                  bad, std::vector<CGAL::Surface_mesh_multigrid::Surface_vector>(
+                         bad.triangles.size())).empty()) << name;
+  }
+  Uv uv = good;
+  uv[5] = Point_2(0., std::numeric_limits<double>::quiet_NaN());
+  EXPECT_FALSE(SMP::repair_flipped_faces(mesh, uv).unmended_faces.empty());
+  EXPECT_GT(SMP::certify_map(mesh, uv).degenerate_faces, 0u);
+  CGAL::Surface_mesh_multigrid::Surface_multigrid_solver<> solver(mesh);
+  std::vector<double> distance;
+  EXPECT_EQ(CGAL::Surface_mesh_multigrid::heat_distances(solver, grid(3, 3), 0, distance).status,
+            Mesh_status::BAD_OPTIONS);
+  EXPECT_TRUE(distance.empty());
 }
 
 TEST(Bad_pins, of_arrays)
 {
   const auto message = [](const std::vector<SMP::HLSCM_pin>& pins) {
     const SMP::Conformal_map map = SMP::conformal_map(hills(), pins);
-    EXPECT_EQ(map.error, SMP::ERROR_WRONG_PARAMETER);
+    EXPECT_EQ(map.code, SMP::ERROR_WRONG_PARAMETER);
+    EXPECT_EQ(map.status, Mesh_status::BAD_OPTIONS);
     EXPECT_TRUE(map.uv.empty());
     return map.report.message;
   };
@@ -261,7 +546,7 @@ TEST(Pins_of_arrays, are_met_and_give_the_map_of_the_parameterizer)
 {
   const std::vector<SMP::HLSCM_pin> pins = {{3, 0., 0.}, {40, 2., 1.}, {77, -1., 3.}};
   const SMP::Conformal_map map = SMP::conformal_map(hills(), pins);
-  ASSERT_EQ(map.error, SMP::OK) << map.report.message;
+  ASSERT_EQ(map.error, "");
   Surface_mesh mesh = to_surface_mesh(hills());
   Pins same;
   for(const SMP::HLSCM_pin& pin : pins) {

@@ -3,6 +3,7 @@
 //
 // Bad input at the doors of texturing: each gives a sentence, no result and no signal.
 
+#include <support/bad_arrays.h>
 #include <support/chart_generators.h>
 #include <support/textured_meshes.h>
 #include <support/texturing_options.h>
@@ -64,21 +65,9 @@ void expect_good(const Mesh_outcome& result, const std::string& where)
 }
 
 // Meshes that no door takes.
-std::vector<Named_mesh> bad_meshes()
-{
-  const Indexed_triangle_mesh good = grid(4, 4);
-  std::vector<Named_mesh> result = {{"empty", {}}, {"points only", good}, {"NaN", good},
-                                    {"infinite", good}, {"index out of range", good},
-                                    {"largest index", good}};
-  result[1].mesh.triangles.clear();
-  result[2].mesh.points[7] = Indexed_triangle_mesh::Point_3(0., nan, 0.);
-  result[3].mesh.points[7] = Indexed_triangle_mesh::Point_3(0., 0., infinity);
-  result[4].mesh.triangles[5][1] = Vertex_index(good.points.size());
-  result[5].mesh.triangles[5][1] = Vertex_index(-1);
-  return result;
-}
+std::vector<Named_mesh> bad_meshes() { return bad_arrays(grid(4, 4)); }
 
-// Those that have no charts, either.
+// These, and those that have no charts.
 std::vector<Named_mesh> meshes_without_charts()
 {
   std::vector<Named_mesh> result = bad_meshes();

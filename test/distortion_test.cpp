@@ -9,6 +9,8 @@
 
 #include <CGAL/Surface_mesh_parameterization/face_distortion.h>
 
+#include <CGAL/boost/graph/Euler_operations.h>
+
 #include <Eigen/Dense>
 
 #include <gtest/gtest.h>
@@ -211,6 +213,43 @@ TEST(Measures, of_nothing)
 }
 
 // --- The energy, by gradients
+
+TEST(Measures, take_the_points_that_are_given)
+{
+  const Indexed_triangle_mesh arrays = with_hills(irregular_grid(8, 6, 1), 1., 2);
+  const Parameters uv = map_of(arrays, [](std::complex<double> w) { return w * w; });
+  Surface_mesh mesh = to_surface_mesh(arrays), flat = mesh;
+  typedef Surface_mesh::Vertex_index Vertex;
+  const auto place = flat.add_property_map<Vertex, Surface_mesh::Point>("v:place").first;
+  for(const Vertex v : flat.vertices()) {
+    place[v] = flat.point(v);
+    flat.point(v) = Surface_mesh::Point(0., 0., 0.);
+  }
+  const auto np = CGAL::parameters::vertex_point_map(place).geom_traits(
+    CGAL::Simple_cartesian<double>());
+  const Distortion_measures expected = SMP::measure_distortion(mesh, to_uv_map(mesh, uv));
+  const Distortion_measures given = SMP::measure_distortion(flat, to_uv_map(flat, uv), np);
+  EXPECT_GT(expected.stretch_L2, 1.);
+  EXPECT_EQ(given.stretch_L2, expected.stretch_L2);
+  EXPECT_EQ(given.conformal_energy, expected.conformal_energy);
+  typedef Surface_mesh::Face_index Face;
+  const auto map = mesh.add_property_map<Face, SMP::Face_distortion>("f:d").first;
+  const auto of_flat = flat.add_property_map<Face, SMP::Face_distortion>("f:d").first;
+  EXPECT_TRUE(SMP::measure_face_distortion(mesh, to_uv_map(mesh, uv), map));
+  EXPECT_TRUE(SMP::measure_face_distortion(flat, to_uv_map(flat, uv), of_flat, np));
+  for(const Face f : mesh.faces())
+    EXPECT_EQ(map[f].quasi_conformal, of_flat[f].quasi_conformal);
+}
+
+TEST(Measures, of_polygons_are_an_error)
+{
+  Surface_mesh mesh = to_surface_mesh(grid(2, 2));
+  CGAL::Euler::join_face(mesh.halfedge(Surface_mesh::Vertex_index(4)), mesh);
+  const Distortion_measures measures
+    = SMP::measure_distortion(mesh, to_uv_map(mesh, map_of(grid(2, 2), [](std::complex<double> w) { return w; })));
+  EXPECT_EQ(measures.status, CGAL::Indexed_mesh::Mesh_status::BAD_MESH);
+  EXPECT_EQ(measures.error, "not all faces are triangles; triangulate the mesh first");
+}
 
 TEST(Energy, is_dirichlet_minus_area)
 {

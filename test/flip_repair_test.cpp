@@ -222,6 +222,29 @@ TEST(Repair, of_arrays_is_that_of_meshes)
   }
 }
 
+TEST(Repair, takes_the_points_that_are_given_and_does_to_arrays_what_it_does_to_meshes)
+{
+  const auto arrays = with_hills(irregular_grid(16, 12, 7), 1., 8);
+  Parameters uv = identity(arrays);
+  uv[100] = uv[40];
+  Surface_mesh mesh = to_surface_mesh(arrays);
+  const auto place
+    = mesh.add_property_map<Surface_mesh::Vertex_index, Surface_mesh::Point>("v:place").first;
+  for(const auto v : mesh.vertices()) {
+    place[v] = mesh.point(v);
+    mesh.point(v) = Surface_mesh::Point(0., 0., 0.);
+  }
+  const Uv_map uvmap = to_uv_map(mesh, uv);
+  auto points = to_points(uv);
+  const Flip_repair_report of_mesh = SMP::repair_flipped_faces(
+    mesh, uvmap, Flip_repair_options(), CGAL::parameters::vertex_point_map(place));
+  const Flip_repair_report of_arrays = SMP::repair_flipped_faces(arrays, points);
+  EXPECT_GT(of_arrays.flipped_before, 0u);
+  EXPECT_EQ(of_arrays.flipped_after, 0u);
+  EXPECT_EQ(of_mesh.energy_after, of_arrays.energy_after);
+  EXPECT_EQ(to_points(parameters(mesh, uvmap)), points);
+}
+
 // The position and the unit of map and surface do not matter.
 TEST(Repair, works_at_all_scales)
 {

@@ -308,8 +308,7 @@ TEST(Map_surface, faces_of_four_corners_are_not_cut)
 
 TEST(Map_surface, what_is_wrong_is_said)
 {
-  EXPECT_EQ(map_surface(Indexed_triangle_mesh()).error, "the mesh has no triangles");
-  Indexed_triangle_mesh mesh = grid(2, 2);
+  const Indexed_triangle_mesh mesh = grid(2, 2);
   Surface_map_options options;
   options.no_seams.resize(3);
   EXPECT_FALSE(map_surface(mesh, options).is_ok());
@@ -317,9 +316,6 @@ TEST(Map_surface, what_is_wrong_is_said)
   options.solver.progress = [](double) { return false; };
   options.solver.method = CGAL::Surface_mesh_parameterization::Conformal_method::HLSCM;
   EXPECT_EQ(map_surface(mesh, options).error, "cancelled");
-  for(auto& p : mesh.points)
-    p = Point_3(1., 1., 1.);
-  EXPECT_FALSE(map_surface(mesh).is_ok());
 }
 
 } // namespace map_surface_test

@@ -230,12 +230,8 @@ TEST(Build_progressive_mesh, refuses_bad_data_in_a_sentence)
   };
   const Surface_mesh good = SMM::internal::surface_mesh_of(grid(4, 4));
   Surface_mesh mesh = good;
-  EXPECT_NE(error_of(Surface_mesh()), "");
   mesh.add_vertex(Point_3(9, 9, 9));
   EXPECT_EQ(error_of(mesh), "vertex 25 has no face; remove it first");
-  mesh = good;
-  mesh.point(Surface_mesh::Vertex_index(7)) = Point_3(0, std::nan(""), 0);
-  EXPECT_EQ(error_of(mesh), "vertex 7 has a coordinate that is not a finite number");
   mesh = good;
   CGAL::Euler::remove_center_vertex(mesh.halfedge(Surface_mesh::Vertex_index(12)), mesh);
   EXPECT_EQ(error_of(mesh), "not all faces are triangles; triangulate the mesh first");
@@ -243,10 +239,6 @@ TEST(Build_progressive_mesh, refuses_bad_data_in_a_sentence)
   const auto a = mesh.add_vertex(Point_3(-1, -1, 0)), b = mesh.add_vertex(Point_3(-1, 0, 0));
   mesh.add_face(Surface_mesh::Vertex_index(0), b, a);
   EXPECT_EQ(error_of(mesh), "the faces at vertex 0 do not form one fan; split the vertex first");
-  mesh = good;
-  for(const auto v : mesh.vertices())
-    mesh.point(v) = Point_3(1, 2, 3);
-  EXPECT_EQ(error_of(mesh), "all edges are without length");
 }
 
 } // namespace progressive_mesh_test

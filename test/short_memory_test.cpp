@@ -142,7 +142,7 @@ TEST(Scarce_memory, direct_map)
   const SMP::Conformal_map right = map_of(mesh, Conformal_method::DIRECT);
   const std::size_t failures = number_of_failures([&]() -> std::string {
     const SMP::Conformal_map map = map_of(mesh, Conformal_method::DIRECT);
-    return map.error != SMP::OK || map.uv == right.uv ? "" : "another map";
+    return !map.is_ok() || map.uv == right.uv ? "" : "another map";
   });
   EXPECT_GT(failures, 10u);
 }
@@ -217,7 +217,7 @@ TEST(Long_strips, converge)
   };
   for(const Indexed_triangle_mesh& mesh : {grid(50001, 2, straight), grid(3001, 2, wound)}) {
     const SMP::Conformal_map map = map_of(mesh, Conformal_method::HLSCM);
-    EXPECT_EQ(map.error, SMP::OK) << map.report.message;
+    EXPECT_EQ(map.error, "");
     EXPECT_TRUE(map.report.converged);
     EXPECT_LT(std::abs(map.report.energy), 1e-11);
     EXPECT_LT(map.report.iterations, 200u);

@@ -147,16 +147,9 @@ TEST(Surface_multigrid, says_what_is_wrong_with_the_mesh)
     out << solver << *solver.hierarchy();
     return report.error;
   };
-  EXPECT_EQ(error({}), "the mesh has no triangles");
   auto mesh = grid(3, 3);
   mesh.points.push_back({9., 9., 9.});
   EXPECT_EQ(error(mesh), "vertex 16 has no face; remove it first");
-  mesh = grid(3, 3);
-  mesh.triangles[3][1] = 99;
-  EXPECT_EQ(error(mesh), "triangle 3 has a vertex that does not exist");
-  mesh = grid(3, 3);
-  mesh.points[5] = {0., std::nan(""), 0.};
-  EXPECT_EQ(error(mesh), "vertex 5 has a coordinate that is not a finite number");
   mesh = grid(3, 3);
   mesh.triangles.push_back(mesh.triangles.front());
   EXPECT_NE(error(mesh).find("more than two faces"), std::string::npos);

@@ -1,9 +1,13 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include <support/mesh_generators.h>
+
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/Surface_mesh_multiresolution/decimate.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_parameterizer_3.h>
+#include <CGAL/Surface_mesh_parameterization/conformal_map.h>
 #include <CGAL/boost/graph/generators.h>
 
 #include <CGAL/Polygon_mesh_processing/measure.h>
@@ -67,6 +71,49 @@ TEST(Threads, do_not_change_a_bit_of_the_map)
         << threads << " threads";
     }
   }
+}
+
+// One rule for all functions: a tag and the number of the options, or else the scope of the caller.
+template <class Run>
+void test_choice(const Run& run)
+{
+  using CGAL::Blocked_execution::Thread_scope;
+  const auto threads_in = [&run](auto tag) {
+    unsigned int seen = 0;
+    run(tag, [&seen](double) {
+      seen = Thread_scope::concurrency();
+      return true;
+    });
+    return seen;
+  };
+  const auto threads_of = [](unsigned int threads) {
+    const Thread_scope scope(threads);
+    return Thread_scope::concurrency();
+  };
+  EXPECT_EQ(threads_in(CGAL::Default()), 1u);
+  EXPECT_EQ(threads_in(CGAL::Parallel_if_available_tag()), threads_of(3));
+  const Thread_scope scope(2);
+  EXPECT_EQ(threads_in(CGAL::Default()), threads_of(2));
+  EXPECT_EQ(threads_in(CGAL::Sequential_tag()), 1u);
+}
+
+TEST(Threads, are_chosen_by_tag_and_number)
+{
+  const auto mesh = test_support::irregular_grid(60, 50, 1);
+  test_choice([&mesh](auto tag, const auto& progress) {
+    SMP::HLSCM_options options;
+    options.progress = progress;
+    options.threads = 3;
+    EXPECT_TRUE(SMP::conformal_map<decltype(tag)>(mesh, options).is_ok());
+  });
+  test_choice([&mesh](auto tag, const auto& progress) {
+    CGAL::Surface_mesh_multiresolution::Decimation_options options;
+    options.progress = progress;
+    options.threads = 3;
+    options.target_vertices = 500;
+    auto copy = mesh;
+    EXPECT_TRUE(CGAL::Surface_mesh_multiresolution::decimate<decltype(tag)>(copy, options).is_ok());
+  });
 }
 
 } // namespace threads_test

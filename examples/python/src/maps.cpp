@@ -57,21 +57,6 @@ struct Conformal_choice
   }
 };
 
-// CGAL's code for a wrong parameter does not say whether that is the mesh.
-Mesh_status status_of(const SMP::Conformal_map& map, const Indexed_triangle_mesh& mesh)
-{
-  if(map.report.cancelled)
-    return Mesh_status::CANCELLED;
-  switch(map.error) {
-  case SMP::ERROR_WRONG_PARAMETER:
-    return CGAL::Indexed_mesh::manifold_error(mesh).empty() ? Mesh_status::BAD_OPTIONS
-                                                            : Mesh_status::BAD_MESH;
-  case SMP::ERROR_CANNOT_SOLVE_LINEAR_SYSTEM:
-  case SMP::ERROR_NO_1_TO_1_MAPPING: return Mesh_status::FAILED;
-  default: return Mesh_status::BAD_MESH;
-  }
-}
-
 py::tuple parameterize(const py::array& points, const py::array& triangles, bool is_pinned,
                        const Numbers& pinned, const py::array& places,
                        const std::optional<py::array>& metric, const Conformal_choice& choice,
@@ -89,8 +74,7 @@ py::tuple parameterize(const py::array& points, const py::array& triangles, bool
     return pins ? SMP::conformal_map(std::move(mesh), *pins, options)
                 : SMP::conformal_map(std::move(mesh), options);
   });
-  if(map.error != SMP::OK || map.report.cancelled)
-    throw Bad_input(status_of(map, to_mesh(points, triangles)), map.report.message);
+  check(map);
   return py::make_tuple(to_array(std::move(map.uv)), to_dict(map.report));
 }
 

@@ -9,11 +9,13 @@
 #include <CGAL/Default.h>
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/assertions.h>
+#include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/iterator.h>
 #include <CGAL/boost/graph/named_params_helper.h>
 #include <CGAL/boost/graph/properties.h>
 #include <CGAL/number_utils.h>
 
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -27,6 +29,15 @@ constexpr bool has_geom_traits
   = !std::is_same<typename internal_np::Lookup_named_param_def<internal_np::geom_traits_t,
                                                                NamedParameters, Default>::type,
                   Default>::value;
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// Says whether a mesh has a face that is no triangle.
+template <class FaceGraph>
+std::string polygon_error(const FaceGraph& mesh)
+{
+  return is_triangle_mesh(mesh)
+           ? std::string() : "not all faces are triangles; triangulate the mesh first";
+}
 
 /// \ingroup PkgHLSCMIndexedMesh
 /// Gives each vertex its position in `vertices(mesh)`; returns their number.
@@ -57,6 +68,23 @@ std::vector<Triangle_indices> copy_triangles(const TriangleMesh& mesh,
   return result;
 }
 
+/// \ingroup PkgHLSCMIndexedMesh
+/// Returns a point in double precision, with the named parameter `geom_traits` of `copy_points()`.
+template <class Point, class NamedParameters>
+Indexed_triangle_mesh::Point_3 double_point(const Point& p, const NamedParameters& np)
+{
+  typedef Indexed_triangle_mesh::Point_3 Result;
+  if constexpr(has_geom_traits<NamedParameters>) {
+    const auto& traits = parameters::get_parameter(np, internal_np::geom_traits);
+    return Result(to_double(traits.compute_x_3_object()(p)),
+                  to_double(traits.compute_y_3_object()(p)),
+                  to_double(traits.compute_z_3_object()(p)));
+  } else {
+    (void)np;
+    return Result(to_double(p[0]), to_double(p[1]), to_double(p[2]));
+  }
+}
+
 /*!
 \ingroup PkgHLSCMIndexedMesh
 
@@ -76,17 +104,8 @@ copy_points(const TriangleMesh& mesh, const NamedParameters& np = parameters::de
   const auto vpm
     = parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
                                    get_const_property_map(CGAL::vertex_point, mesh));
-  for(const auto v : vertices(mesh)) {
-    const auto& p = get(vpm, v);
-    if constexpr(has_geom_traits<NamedParameters>) {
-      const auto& traits = parameters::get_parameter(np, internal_np::geom_traits);
-      result.emplace_back(to_double(traits.compute_x_3_object()(p)),
-                          to_double(traits.compute_y_3_object()(p)),
-                          to_double(traits.compute_z_3_object()(p)));
-    } else {
-      result.emplace_back(to_double(p[0]), to_double(p[1]), to_double(p[2]));
-    }
-  }
+  for(const auto v : vertices(mesh))
+    result.push_back(double_point(get(vpm, v), np));
   return result;
 }
 

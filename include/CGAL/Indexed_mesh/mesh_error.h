@@ -127,6 +127,16 @@ std::string mesh_error(const Mesh& mesh, const std::string& name = {})
 }
 
 /// \ingroup PkgHLSCMIndexedMesh
+/// Says whether an array, by its name, has another number of entries than there are `things`.
+inline std::string size_error(const std::string& name, std::size_t entries, std::size_t number,
+                              const std::string& things = "vertices")
+{
+  return entries == number ? std::string()
+                           : name + " has " + std::to_string(entries) + " entries for "
+                               + std::to_string(number) + " " + things;
+}
+
+/// \ingroup PkgHLSCMIndexedMesh
 /// Says whether a metric has another number of tensors than there are triangles.
 inline std::string metric_size_error(std::size_t tensors, std::size_t triangles)
 {
@@ -184,6 +194,18 @@ inline std::string surface_error(const Indexed_triangle_mesh& mesh)
 {
   const std::string error = mesh_error(mesh);
   return error.empty() ? repeated_vertex_error(mesh.triangles) : error;
+}
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// Says what is wrong with the map `uv` of the vertices of a mesh of two arrays, of which no triangle
+/// may have a vertex twice. Linear time.
+inline Mesh_outcome map_error(const Indexed_triangle_mesh& mesh,
+                              const std::vector<Simple_cartesian<double>::Point_2>& uv)
+{
+  Mesh_outcome result;
+  result.fail(Mesh_status::BAD_MESH, surface_error(mesh));
+  result.fail(Mesh_status::BAD_OPTIONS, size_error("uv", uv.size(), mesh.points.size()));
+  return result;
 }
 
 /// \ingroup PkgHLSCMIndexedMesh

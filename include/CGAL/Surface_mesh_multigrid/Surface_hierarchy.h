@@ -237,10 +237,9 @@ Surface_hierarchy::options_error(const Mesh& mesh, const Surface_hierarchy_optio
 {
   if(!(options.ratio > 1.))
     return "the ratio of levels must be greater than 1";
-  if(!options.is_locked.empty() && options.is_locked.size() != mesh.points.size())
-    return "is_locked has " + std::to_string(options.is_locked.size()) + " entries for "
-         + std::to_string(mesh.points.size()) + " vertices";
-  return {};
+  return options.is_locked.empty() ? std::string()
+                                   : Indexed_mesh::size_error("is_locked", options.is_locked.size(),
+                                                              mesh.points.size());
 }
 
 CGAL_HLSCM_INLINE void Surface_hierarchy::build(const Mesh& mesh, const Surface_hierarchy_options& options)

@@ -169,9 +169,7 @@ private:
   // Says that an array has not one entry a vertex.
   std::string size_error(const std::string& name, std::size_t entries) const
   {
-    return entries == size() ? std::string()
-                             : name + " has " + std::to_string(entries) + " entries for "
-                                 + std::to_string(size()) + " vertices";
+    return Indexed_mesh::size_error(name, entries, size());
   }
   template <class Make_rows>
   Surface_multigrid_report set_rows(const std::vector<bool>& is_fixed, const Make_rows& make_rows);

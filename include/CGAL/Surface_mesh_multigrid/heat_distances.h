@@ -32,7 +32,8 @@ of heat that reaches eight times as far.
 \param source the vertex
 \param distance for each vertex its distance, 0 at the source
 
-\return the report of the last solution, with the iterations of all
+\return the report of the last solution, with the iterations of all; with `error` set and without
+        distances if the solver has none, or is not one of this mesh, or `source` is no vertex of it
 */
 template <class Solver>
 Surface_multigrid_report heat_distances(Solver& solver,
@@ -42,6 +43,11 @@ Surface_multigrid_report heat_distances(Solver& solver,
   const std::size_t n = mesh.points.size();
   Surface_multigrid_report report;
   if(report.fail(*solver.hierarchy())
+     || report.fail(Indexed_mesh::Mesh_status::BAD_MESH,
+                    Indexed_mesh::index_error(mesh.triangles, n))
+     || report.fail(Indexed_mesh::Mesh_status::BAD_OPTIONS,
+                    n == solver.hierarchy()->number_of_vertices()
+                      ? std::string() : "the solver is not one of this mesh")
      || report.fail(Indexed_mesh::Mesh_status::BAD_OPTIONS,
                     source < n ? std::string() : "the source is no vertex of the mesh"))
     return report;

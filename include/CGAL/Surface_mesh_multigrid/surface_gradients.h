@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_MULTIGRID_SURFACE_GRADIENTS_H
 #define CGAL_SURFACE_MESH_MULTIGRID_SURFACE_GRADIENTS_H
 
-#include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
+#include <CGAL/Indexed_mesh/mesh_error.h>
 
 #include <CGAL/Simple_cartesian.h>
 
@@ -48,12 +48,16 @@ inline Hat_gradients hat_gradients(const Indexed_mesh::Indexed_triangle_mesh& me
 
 /// \ingroup PkgHLSCMSurfaceMultigrid
 /// Returns the gradient, in each triangle, of the function that is linear there and has the values
-/// `u` at the vertices; 0 in triangles without area. Linear time.
+/// `u` at the vertices; 0 in triangles without area. Linear time. Nothing is returned if an index is out
+/// of range or `u` has not a value for each vertex.
 template <class Values>
 std::vector<Surface_vector> surface_gradients(const Indexed_mesh::Indexed_triangle_mesh& mesh,
                                               const Values& u)
 {
   std::vector<Surface_vector> result;
+  if(std::size_t(u.size()) != mesh.points.size()
+     || !Indexed_mesh::index_error(mesh.triangles, mesh.points.size()).empty())
+    return result;
   result.reserve(mesh.triangles.size());
   for(std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto g = internal::hat_gradients(mesh, t).at;
@@ -67,10 +71,14 @@ std::vector<Surface_vector> surface_gradients(const Indexed_mesh::Indexed_triang
 /// \ingroup PkgHLSCMSurfaceMultigrid
 /// Returns for each vertex the integral of the gradient of its hat function times `field`, a vector
 /// in each triangle: the right-hand side of the function whose gradients are nearest to the field
-/// (`Laplace_element` is the matrix), minus the integrated divergence. Linear time.
+/// (`Laplace_element` is the matrix), minus the integrated divergence. Linear time. Nothing is returned
+/// if an index is out of range or `field` has not a vector for each triangle.
 inline std::vector<double> weak_divergences(const Indexed_mesh::Indexed_triangle_mesh& mesh,
                                             const std::vector<Surface_vector>& field)
 {
+  if(field.size() != mesh.triangles.size()
+     || !Indexed_mesh::index_error(mesh.triangles, mesh.points.size()).empty())
+    return {};
   std::vector<double> result(mesh.points.size(), 0.);
   for(std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto hats = internal::hat_gradients(mesh, t);

@@ -58,6 +58,7 @@ struct Progressive_mesh_options
   double angular_defect_bound = 70.; ///< a vertex of no smaller defect stays; degrees
   /// For each vertex, in the order of the mesh, whether it must stay; empty for none.
   std::vector<bool> is_locked;
+  unsigned int threads = 0; ///< with a parallel tag; 0: as many as there are processors
 };
 
 /// \ingroup PkgHLSCMMultiresolution

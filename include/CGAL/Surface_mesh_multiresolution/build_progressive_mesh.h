@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_BUILD_PROGRESSIVE_MESH_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_BUILD_PROGRESSIVE_MESH_H
 
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_surface.h>
 #include <CGAL/Indexed_mesh/mesh_arrays.h>
@@ -26,13 +27,12 @@ template <class TriangleMesh, class NamedParameters>
 Progressive_surface copy_surface_of(const TriangleMesh& mesh, const NamedParameters& np)
 {
   Progressive_surface result;
-  if(is_triangle_mesh(mesh)) {
+  if(!result.fail(Mesh_status::BAD_MESH, Indexed_mesh::polygon_error(mesh))) {
     Indexed_triangle_mesh arrays = Indexed_mesh::copy_mesh(mesh, np);
     result.points = std::move(arrays.points);
     result.progressive_mesh.triangles = std::move(arrays.triangles);
   } else {
     result.points = Indexed_mesh::copy_points(mesh, np);
-    result.fail(Mesh_status::BAD_MESH, "not all faces are triangles; triangulate the mesh first");
   }
   result.fail(Mesh_status::BAD_MESH, point_error(result.points));
   result.progressive_mesh.number_of_vertices = result.points.size();
@@ -52,9 +52,11 @@ inline Progressive_surface copy_surface(const Indexed_triangle_mesh& mesh)
 // What is wrong with the locks of a mesh of n vertices.
 inline Mesh_outcome lock_error(const Progressive_mesh_options& options, std::size_t n)
 {
-  if(options.is_locked.empty() || options.is_locked.size() == n)
-    return {};
-  return {Mesh_status::BAD_OPTIONS, "is_locked does not have an entry for each vertex"};
+  Mesh_outcome result;
+  if(!options.is_locked.empty())
+    result.fail(Mesh_status::BAD_OPTIONS,
+                Indexed_mesh::size_error("is_locked", options.is_locked.size(), n));
+  return result;
 }
 
 // Appends the collapses that `run(engine, prepared)` returns, in terms of the input of the mesh that
@@ -113,6 +115,8 @@ inline auto to_target(const Progressive_mesh_options& options)
 
 Returns a progressive mesh of `mesh`, made by `Flat_collapse_engine` with its default policies.
 
+\tparam ConcurrencyTag `Sequential_tag`, `Parallel_tag` (`Progressive_mesh_options::threads`) or
+        `Default` for the threads of the caller's `Blocked_execution::Thread_scope`
 \tparam TriangleMesh a model of `FaceListGraph`
 \tparam NamedParameters a sequence of named parameters
 \param mesh a triangle mesh of any size and place, which is not changed
@@ -126,12 +130,14 @@ Expected linear time; see `Flat_collapse_engine`.
 
 \sa `decimate()`, which changes the mesh
 */
-template <class TriangleMesh, class NamedParameters = parameters::Default_named_parameters>
+template <class ConcurrencyTag = Default, class TriangleMesh,
+          class NamedParameters = parameters::Default_named_parameters>
 Progressive_surface
 build_progressive_mesh(const TriangleMesh& mesh,
                        const Progressive_mesh_options& options = Progressive_mesh_options(),
                        const NamedParameters& np = parameters::default_values())
 {
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   Progressive_surface result = internal::copy_surface_of(mesh, np);
   internal::decimate_normalized(options, internal::to_target(options), result);
   return result;
@@ -140,10 +146,12 @@ build_progressive_mesh(const TriangleMesh& mesh,
 /// \ingroup PkgHLSCMMultiresolution
 /// Returns a progressive mesh of two arrays, as of any mesh. A triangle with a vertex that
 /// does not exist is bad data, too.
-inline Progressive_surface
+template <class ConcurrencyTag = Default>
+Progressive_surface
 build_progressive_mesh(const Indexed_triangle_mesh& mesh,
                        const Progressive_mesh_options& options = Progressive_mesh_options())
 {
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   Progressive_surface result = internal::copy_surface(mesh);
   internal::decimate_normalized(options, internal::to_target(options), result);
   return result;
@@ -156,18 +164,21 @@ Returns a progressive mesh of `mesh`, made by `Flat_collapse_engine` with the gi
 see the coordinates of `mesh` (those of this package want edge lengths of about 1, that is between
 1e-6 and 1e6) and a `Flat_collapse_profile`. `options.angular_defect_bound` is not used.
 
-\tparam TriangleMesh a model of `FaceListGraph` with a point property
+\tparam TriangleMesh a model of `FaceListGraph`
 \tparam Cost a model of CGAL's concept `GetCost`
 \tparam Filter a model of CGAL's concept `PlacementFilter`
 
-Bad data: as above.
+Tag, named parameters and bad data: as above.
 */
-template <class TriangleMesh, class Cost, class Filter>
-Progressive_surface build_progressive_mesh(const TriangleMesh& mesh,
-                                           const Progressive_mesh_options& options,
-                                           const Cost& cost, const Filter& filter)
+template <class ConcurrencyTag = Default, class TriangleMesh, class Cost, class Filter,
+          class NamedParameters = parameters::Default_named_parameters>
+Progressive_surface
+build_progressive_mesh(const TriangleMesh& mesh, const Progressive_mesh_options& options,
+                       const Cost& cost, const Filter& filter,
+                       const NamedParameters& np = parameters::default_values())
 {
-  Progressive_surface result = internal::copy_surface_of(mesh, parameters::default_values());
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
+  Progressive_surface result = internal::copy_surface_of(mesh, np);
   internal::decimate_as_it_is(options, cost, filter, internal::to_target(options), result);
   return result;
 }

@@ -72,8 +72,8 @@ elements are removed as by the Euler operations of CGAL: a `Surface_mesh` or a m
 has garbage to collect. If the input is bad the mesh is not changed; if it was cancelled, as far as
 that. The result does not depend on the number of threads.
 
-\tparam ConcurrencyTag `Sequential_tag` (default; what the caller's `Blocked_execution::Thread_scope`
-        allows), `Parallel_tag` or `Parallel_if_available_tag` (all threads of the machine)
+\tparam ConcurrencyTag `Sequential_tag`, `Parallel_tag` (`Decimation_options::threads`, or those of the
+        machine) or `Default` for the threads of the caller's `Blocked_execution::Thread_scope`
 \tparam TriangleMesh a model of `MutableFaceGraph` and `FaceListGraph`
 \tparam StopPredicate a model of CGAL's concept `StopPredicate` for any profile, such as
         `Surface_mesh_simplification::Count_stop_predicate` and `Count_ratio_stop_predicate`
@@ -105,7 +105,7 @@ Policies that are given see the coordinates of `mesh`; see `build_progressive_me
 
 Expected linear time (`Collapse_order::BATCHED`); about 150 bytes a vertex of temporary memory.
 */
-template <class ConcurrencyTag = Sequential_tag, class TriangleMesh, class StopPredicate,
+template <class ConcurrencyTag = Default, class TriangleMesh, class StopPredicate,
           class NamedParameters = parameters::Default_named_parameters>
 Decimation_result decimate(TriangleMesh& mesh, const StopPredicate& stop,
                            const NamedParameters& np = parameters::default_values())
@@ -113,9 +113,8 @@ Decimation_result decimate(TriangleMesh& mesh, const StopPredicate& stop,
   Progressive_surface surface = internal::copy_surface_of(mesh, np);
   Decimation_result result;
   if(surface.is_ok())
-    result.is_exhausted = internal::run_with_threads<ConcurrencyTag>([&] {
-      return internal::decimate_by(stop, np, internal::locked_vertices(mesh, np), surface);
-    });
+    result.is_exhausted = internal::decimate_by<ConcurrencyTag>(
+      stop, np, internal::locked_vertices(mesh, np), surface);
   if(result.fail(surface) && result.status != Mesh_status::CANCELLED)
     return result;
   result.number_of_collapses = surface.progressive_mesh.collapses.size();
@@ -130,7 +129,7 @@ Simplifies a mesh of two arrays in place, as any other mesh; of the named parame
 `filter` and `get_placement` count. Vertices and triangles that are left keep their order and become
 consecutive. A triangle with a vertex that does not exist is bad data, too.
 */
-template <class ConcurrencyTag = Sequential_tag, class StopPredicate,
+template <class ConcurrencyTag = Default, class StopPredicate,
           class NamedParameters = parameters::Default_named_parameters>
 Decimation_result decimate(Indexed_triangle_mesh& mesh, const StopPredicate& stop,
                            const NamedParameters& np = parameters::default_values())
@@ -138,9 +137,7 @@ Decimation_result decimate(Indexed_triangle_mesh& mesh, const StopPredicate& sto
   Progressive_surface surface = internal::copy_surface(mesh);
   Decimation_result result;
   if(surface.is_ok())
-    result.is_exhausted = internal::run_with_threads<ConcurrencyTag>([&] {
-      return internal::decimate_by(stop, np, {}, surface);
-    });
+    result.is_exhausted = internal::decimate_by<ConcurrencyTag>(stop, np, {}, surface);
   if(result.fail(surface) && result.status != Mesh_status::CANCELLED)
     return result;
   const Progressive_mesh& pm = surface.progressive_mesh;

@@ -102,10 +102,9 @@ double mean_side_length(std::size_t faces, const VisitSides& visit_sides)
 }
 
 // The mean length of the sides of the faces; 1 if there are none, or all are points.
-template <class TriangleMesh>
-double mean_edge_length(const TriangleMesh& mesh)
+template <class TriangleMesh, class VertexPointMap>
+double mean_edge_length(const TriangleMesh& mesh, VertexPointMap vpm)
 {
-  const auto vpm = get(CGAL::vertex_point, mesh);
   return mean_side_length(num_faces(mesh), [&](const auto& use) {
     for(const auto f : faces(mesh))
       for(const auto h : halfedges_around_face(halfedge(f, mesh), mesh)) {
@@ -117,14 +116,19 @@ double mean_edge_length(const TriangleMesh& mesh)
   });
 }
 
+template <class TriangleMesh>
+double mean_edge_length(const TriangleMesh& mesh)
+{
+  return mean_edge_length(mesh, get(CGAL::vertex_point, mesh));
+}
+
 // The face on the surface, its first corner in the origin, lengths in units of `mean_edge`: squares
 // of lengths exist whatever the unit of the mesh.
-template <class TriangleMesh>
+template <class TriangleMesh, class VertexPointMap>
 Conformal_triangle
-conformal_triangle(const TriangleMesh& mesh,
+conformal_triangle(const TriangleMesh& mesh, VertexPointMap vpm,
                    typename boost::graph_traits<TriangleMesh>::face_descriptor f, double mean_edge)
 {
-  const auto vpm = get(CGAL::vertex_point, mesh);
   const auto h = halfedge(f, mesh), h1 = next(h, mesh);
   const auto& origin = get(vpm, target(h, mesh));
   const auto corner = [&](auto v) {
@@ -135,6 +139,14 @@ conformal_triangle(const TriangleMesh& mesh,
   };
   return Conformal_triangle(Conformal_triangle::Point_3(0., 0., 0.), corner(target(h1, mesh)),
                             corner(target(next(h1, mesh), mesh)));
+}
+
+template <class TriangleMesh>
+Conformal_triangle
+conformal_triangle(const TriangleMesh& mesh,
+                   typename boost::graph_traits<TriangleMesh>::face_descriptor f, double mean_edge)
+{
+  return conformal_triangle(mesh, get(CGAL::vertex_point, mesh), f, mean_edge);
 }
 
 inline Conformal_triangle

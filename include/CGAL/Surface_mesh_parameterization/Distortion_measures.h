@@ -4,6 +4,8 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_DISTORTION_MEASURES_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_DISTORTION_MEASURES_H
 
+#include <CGAL/Indexed_mesh/mesh_arrays.h>
+#include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/Conformal_triangle.h>
 #include <CGAL/Surface_mesh_parameterization/self_overlap.h>
@@ -31,9 +33,10 @@ On each face the map from the surface to the plane is linear, with the singular 
 \f$ \sigma_1 \ge \sigma_2 \f$. The means, the quantile and the extremes are over the *regular*
 faces, those with an area on the surface and a positive one in the plane; flipped and degenerate
 faces, on which ratios and stretch would be infinite, are counted instead. If no face is regular,
-the measures are 0.
+the measures are 0, as they are if there is an error.
 */
 struct Distortion_measures
+  : Indexed_mesh::Mesh_outcome
 {
   /// Dirichlet energy minus signed area, \f$ \frac12 \sum A (\sigma_1 \mp \sigma_2)^2 \f$ (minus;
   /// plus on flipped faces), over all faces; see `Conformal_triangle`. In units of the plane's
@@ -162,18 +165,29 @@ Measures the map `uvmap` over all faces of `mesh`.
 \tparam TriangleMesh a model of `FaceListGraph` whose faces are triangles
 \tparam VertexUVMap a model of `ReadablePropertyMap` with the vertex descriptor as key and a model
         of `Kernel::Point_2` as value; the parameters are taken as numbers of type `double`
+\param mesh the mesh
+\param uvmap the map
+\param np optional named parameters: `vertex_point_map`
 
-Linear time: two passes over the faces, and 8 bytes a face.
+Faces that are no triangles are an error. Linear time: two passes over the faces, and 8 bytes a face.
 */
-template <class TriangleMesh, class VertexUVMap>
-Distortion_measures measure_distortion(const TriangleMesh& mesh, VertexUVMap uvmap)
+template <class TriangleMesh, class VertexUVMap,
+          class NamedParameters = parameters::Default_named_parameters>
+Distortion_measures measure_distortion(const TriangleMesh& mesh, VertexUVMap uvmap,
+                                       const NamedParameters& np = parameters::default_values())
 {
+  Distortion_measures error;
+  if(error.fail(Indexed_mesh::Mesh_status::BAD_MESH, Indexed_mesh::polygon_error(mesh)))
+    return error;
+  const auto vpm
+    = parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
+                                   get_const_property_map(CGAL::vertex_point, mesh));
   const Uv_view<TriangleMesh, VertexUVMap> view(mesh, uvmap);
-  const double mean_edge = internal::mean_edge_length(mesh);
+  const double mean_edge = internal::mean_edge_length(mesh, vpm);
   Distortion_summary summary;
   for(const auto f : faces(mesh)) {
     const Uv_triangle uv = view.triangle(f);
-    summary.add(internal::conformal_triangle(mesh, f, mean_edge), uv,
+    summary.add(internal::conformal_triangle(mesh, vpm, f, mean_edge), uv,
                 orientation_of(uv));
   }
   return summary.result();
@@ -182,15 +196,17 @@ Distortion_measures measure_distortion(const TriangleMesh& mesh, VertexUVMap uvm
 /*!
 \ingroup PkgHLSCMMeasures
 
-The same for a mesh with its texture coordinates, which may have seams. Zero measures if an index is
-out of range. Linear time.
+The same for a mesh with its texture coordinates, which may have seams. A `mesh_error()` or a
+`texture_error()` is an error. Linear time.
 */
 inline Distortion_measures
 measure_distortion(const Surface_mesh_multiresolution::Textured_triangle_mesh& mesh)
 {
   typedef Surface_mesh_multiresolution::Textured_triangle_mesh Mesh;
-  if(!mesh_error(mesh).empty() || !texture_error(mesh).empty())
-    return Distortion_measures();
+  Distortion_measures error;
+  if(error.fail(Indexed_mesh::Mesh_status::BAD_MESH, mesh_error(mesh))
+     || error.fail(Indexed_mesh::Mesh_status::BAD_MESH, texture_error(mesh)))
+    return error;
   const auto side = [&mesh](const Triangle_indices& t, int from, int to, double unit) {
     const auto &p = mesh.points[t[from]], &q = mesh.points[t[to]];
     return Mesh::Point_3((q.x() - p.x()) / unit, (q.y() - p.y()) / unit, (q.z() - p.z()) / unit);

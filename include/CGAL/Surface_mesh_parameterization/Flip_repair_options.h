@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_FLIP_REPAIR_OPTIONS_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_FLIP_REPAIR_OPTIONS_H
 
-#include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
+#include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Surface_mesh_parameterization/Conformal_triangle.h>
 
 #include <complex>
@@ -18,8 +18,9 @@ namespace CGAL {
 namespace Surface_mesh_parameterization {
 
 /// \ingroup PkgHLSCMMeasures
-/// What `repair_flipped_faces()` did. Flips are counted by an exact predicate.
+/// What `repair_flipped_faces()` did, or why it did nothing. Flips are counted by an exact predicate.
 struct Flip_repair_report
+  : Indexed_mesh::Mesh_outcome
 {
   std::size_t flipped_before = 0;    ///< faces with negative area in the plane
   std::size_t degenerate_before = 0; ///< faces without area in the plane
@@ -60,6 +61,7 @@ struct Flip_repair_options
   /// are counted, so that the result is the same on any machine. Then there is one more try with the
   /// smallest patches; if flipped faces are left, `Flip_repair_report::stopped_early` says so.
   double effort = 2e5;
+  unsigned int threads = 0; ///< with a parallel tag; 0: as many as there are processors
   /// Told between patches which part of them is done, in [0, 1], in rounds of larger and larger
   /// patches; returning `false` stops: what is mended by then stays so.
   std::function<bool(double)> progress;

@@ -22,12 +22,11 @@ dragged. The hierarchy is built once, and every solution begins with the map bef
 between the two has a flipped face, and the pins are where they are wanted, exactly.
 
 \tparam Energy a model of `StretchEnergy`
-
-The threads are those of the caller's `Blocked_execution::Thread_scope`.
+\tparam ConcurrencyTag as of `low_stretch_map()`
 
 \sa `Hierarchical_conformal_map`, which does the same for conformal maps
 */
-template <class Energy = Symmetric_dirichlet_energy>
+template <class Energy = Symmetric_dirichlet_energy, class ConcurrencyTag = Default>
 class Live_low_stretch_map
 {
 public:
@@ -38,8 +37,9 @@ public:
   /// be with `low_stretch_map()`; then there will be no map.
   explicit Live_low_stretch_map(Mesh mesh, const Low_stretch_options& options = Low_stretch_options(),
                                 const Energy& energy = Energy())
-    : m_chart(mesh.points.size(), options, energy)
+    : m_chart(mesh.points.size(), options, energy), m_threads(options.threads)
   {
+    const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(m_threads);
     for(const HLSCM_pin& pin : options.pins)
       m_pins[pin.vertex] = Point_2(pin.u, pin.v);
     const auto faces = internal::faces_if_asked_for(mesh, options);
@@ -69,6 +69,7 @@ public:
   {
     if(!has_map())
       return false;
+    const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(m_threads);
     std::vector<HLSCM_pin> pins;
     for(const auto& [v, p] : m_pins)
       pins.push_back({v, p.x(), p.y()});
@@ -90,6 +91,7 @@ private:
   std::map<std::size_t, Point_2> m_pins;
   Low_stretch_map m_map;
   Indexed_mesh::Mesh_outcome m_outcome;
+  unsigned int m_threads;
 };
 
 } // namespace Surface_mesh_parameterization

@@ -41,7 +41,7 @@ struct Low_stretch_options
   /// by an energy that grows without bound where they come near; checked exactly in the end.
   bool is_one_to_one = false;
   double time_limit = 0.;              ///< seconds after which nothing more is improved; 0: none
-  unsigned int threads = 0;    ///< of a parallel parameterizer; 0: as many as there are processors
+  unsigned int threads = 0;    ///< with a parallel tag; 0: as many as there are processors
   /// Told the part done in [0, 1] from time to time. When it returns false, or the time is over, the
   /// map is finished without improving it any further, in a small part of the whole time: it has no
   /// flipped triangle either, but more stretch. There is none if pins are still on their way then.

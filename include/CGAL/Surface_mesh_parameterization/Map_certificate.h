@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_MAP_CERTIFICATE_H
 
 #include <CGAL/Indexed_mesh/Triangle_adjacency.h>
+#include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Surface_mesh_parameterization/Distortion_measures.h>
 #include <CGAL/Surface_mesh_parameterization/self_overlap.h>
 
@@ -25,9 +26,11 @@ namespace Surface_mesh_parameterization {
 /*!
 \ingroup PkgHLSCMMeasures
 
-What keeps a map from being one-to-one, decided exactly for parameters of type `double`.
+What keeps a map from being one-to-one, decided exactly for parameters of type `double`, or why that
+cannot be said.
 */
 struct Map_certificate
+  : Indexed_mesh::Mesh_outcome
 {
   std::size_t flipped_faces = 0;    ///< faces with negative area in the plane
   std::size_t degenerate_faces = 0; ///< faces without area, or with a parameter that is not finite
@@ -35,7 +38,10 @@ struct Map_certificate
 
   /// Returns whether the map is one-to-one and keeps the orientation. Points of the border may
   /// coincide with other points of the border, for instance along a seam.
-  bool is_one_to_one() const { return flipped_faces == 0 && degenerate_faces == 0 && !overlaps; }
+  bool is_one_to_one() const
+  {
+    return is_ok() && flipped_faces == 0 && degenerate_faces == 0 && !overlaps;
+  }
 };
 
 /*!
@@ -107,7 +113,7 @@ runs counterclockwise, with the surface on its inner side: again no winding numb
 the cycles, is greater than 1. Where the borders meet, or the mesh has several components, the faces
 are compared in pairs, by `has_global_overlap()`.
 
-Linear time for the faces, and \f$ O(b \log^2 b) \f$ for \f$ b \f$ border edges; more if the images
+Points in space are not looked at. Linear time for the faces, and \f$ O(b \log^2 b) \f$ for \f$ b \f$ border edges; more if the images
 of the borders meet.
 */
 template <class TriangleMesh, class VertexUVMap>
@@ -128,9 +134,8 @@ Map_certificate certify_map(const TriangleMesh& mesh, VertexUVMap uvmap)
 \ingroup PkgHLSCMMeasures
 
 The class `Uv_arrays` is a view of a map of a mesh that is two arrays, for `certify_map()` and
-`visit_overlapping_faces()`. Both arrays must live as long.
-
-\pre the mesh is a manifold: `Indexed_mesh::manifold_error()` is empty; there is a parameter for each vertex
+`visit_overlapping_faces()`. Both arrays must live as long. It has no faces if a vertex of a triangle
+does not exist or has no parameter.
 */
 class Uv_arrays
 {
@@ -139,10 +144,10 @@ public:
 
   /// Constructs it from the mesh and the parameter of each vertex.
   Uv_arrays(const Indexed_mesh::Indexed_triangle_mesh& mesh, const std::vector<Point_2>& uv)
-    : m_triangles(mesh.triangles), m_uv(uv)
-  {
-    CGAL_precondition(uv.size() == mesh.points.size());
-  }
+    : m_triangles(Indexed_mesh::index_error(mesh.triangles, uv.size()).empty() ? mesh.triangles
+                                                                               : no_triangles())
+    , m_uv(uv)
+  {}
 
   /// Returns the image of a vertex.
   Uv_point point(Indexed_mesh::Vertex_index v) const { return Uv_point(m_uv[v].x(), m_uv[v].y()); }
@@ -167,6 +172,12 @@ public:
   }
 
 private:
+  static const std::vector<Indexed_mesh::Triangle_indices>& no_triangles()
+  {
+    static const std::vector<Indexed_mesh::Triangle_indices> none;
+    return none;
+  }
+
   const std::vector<Indexed_mesh::Triangle_indices>& m_triangles;
   const std::vector<Point_2>& m_uv;
 };
@@ -225,13 +236,15 @@ inline bool has_global_overlap(const Uv_arrays& view)
 }
 
 /// \ingroup PkgHLSCMMeasures
-/// The same as `certify_map()` for a mesh that is two arrays, with the parameter `uv[v]` of each vertex.
-/// \pre that of `Uv_arrays`
+/// The same for a mesh that is two arrays, with the parameter `uv[v]` of each vertex. Nothing is
+/// counted and `error` set if there is an `Indexed_mesh::map_error()`.
 inline Map_certificate certify_map(const Indexed_mesh::Indexed_triangle_mesh& mesh,
                                    const std::vector<Simple_cartesian<double>::Point_2>& uv)
 {
-  const Uv_arrays view(mesh, uv);
   Map_certificate certificate;
+  if(certificate.fail(Indexed_mesh::map_error(mesh, uv)))
+    return certificate;
+  const Uv_arrays view(mesh, uv);
   for(std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Orientation sign = orientation_of(view.triangle(t));
     certificate.flipped_faces += sign == RIGHT_TURN ? 1 : 0;

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_CONFORMAL_MAP_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_CONFORMAL_MAP_H
 
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
@@ -19,11 +20,12 @@ namespace Surface_mesh_parameterization {
 /// \ingroup PkgHLSCMParameterizer
 /// What `conformal_map()` returns.
 struct Conformal_map
+  : Indexed_mesh::Mesh_outcome
 {
   /// The parameter of each vertex; (0, 0) for vertices without a face; empty if there is an error.
   std::vector<Simple_cartesian<double>::Point_2> uv;
-  HLSCM_report report; ///< what was done; `message` tells why there is no map
-  Error_code error = OK; ///< `OK`, or what is wrong with the mesh or the options
+  HLSCM_report report;  ///< what was done; its `message` is `error`
+  Error_code code = OK; ///< what `HLSCM_parameterizer_3` would return
 };
 
 namespace internal {
@@ -43,15 +45,23 @@ CGAL_HLSCM_INLINE Conformal_map map_arrays(Indexed_mesh::Indexed_triangle_mesh m
     run.make_room_for_repair();
     kept = mesh;
   }
+  using Indexed_mesh::Mesh_status;
   Prepared_chart prepared = {{}, run.status()};
-  if(run.status().is_ok())
+  Mesh_status why = Mesh_status::BAD_OPTIONS; // of the mesh and the options, if they are wrong
+  if(run.status().is_ok()) {
     prepared = chart_of_arrays(std::move(mesh), options.metric);
+    if(!prepared.status.is_ok() && prepared.chart.metric_error.empty())
+      why = Mesh_status::BAD_MESH;
+  }
   Chart_map map = map_chart_conformally(std::move(prepared), n, wanted, Coarsest_solver(), run);
   if(options.repair_flips && !run.is_stopped())
     repair_arrays(kept, Indexed_mesh::ranks(map.source, n), map.pins, run, map.z);
   if(!run.is_stopped())
     result.uv = points_of_values(map.source, map.z, n);
-  result.error = run.finish();
+  result.code = run.finish();
+  const bool is_unsolved = result.code == ERROR_CANNOT_SOLVE_LINEAR_SYSTEM;
+  result.fail(result.report.cancelled ? Mesh_status::CANCELLED
+              : is_unsolved           ? Mesh_status::FAILED : why, result.report.message);
   return result;
 }
 #endif
@@ -63,16 +73,20 @@ CGAL_HLSCM_INLINE Conformal_map map_arrays(Indexed_mesh::Indexed_triangle_mesh m
 
 Returns the least squares conformal map with a free border of a connected mesh of genus 0 that has a
 border: what `HLSCM_parameterizer_3` computes, with pins of its own choice, for a mesh that is two
-arrays. `HLSCM_options::threads` and `keep_progressive_mesh` do not count here: the threads are those of
-the caller's `Blocked_execution::Thread_scope`.
+arrays. `HLSCM_options::keep_progressive_mesh` does not count here.
+
+\tparam ConcurrencyTag `Sequential_tag`, `Parallel_tag` (`HLSCM_options::threads`) or `Default` for the
+        threads of the caller's `Blocked_execution::Thread_scope`
 
 Time and memory as for `HLSCM_parameterizer_3`; meshes of less than about 10,000 triangles are best
 mapped with `Conformal_method::DIRECT`. Bad data (indices out of range, coordinates that are not
-finite, no faces, no border) give a result with `error` set and `report.message` in words.
+finite, no faces, no border) give a result with `error` set.
 */
-inline Conformal_map conformal_map(Indexed_mesh::Indexed_triangle_mesh mesh,
-                                   const HLSCM_options& options = HLSCM_options())
+template <class ConcurrencyTag = Default>
+Conformal_map conformal_map(Indexed_mesh::Indexed_triangle_mesh mesh,
+                            const HLSCM_options& options = HLSCM_options())
 {
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   return internal::map_arrays(std::move(mesh), std::nullopt, options);
 }
 
@@ -86,10 +100,12 @@ The same with pins.
        one that is no vertex of a triangle, `error` is set
 \param options as above
 */
-inline Conformal_map conformal_map(Indexed_mesh::Indexed_triangle_mesh mesh,
-                                   const std::vector<HLSCM_pin>& pins,
-                                   const HLSCM_options& options = HLSCM_options())
+template <class ConcurrencyTag = Default>
+Conformal_map conformal_map(Indexed_mesh::Indexed_triangle_mesh mesh,
+                            const std::vector<HLSCM_pin>& pins,
+                            const HLSCM_options& options = HLSCM_options())
 {
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   return internal::map_arrays(std::move(mesh), pins, options);
 }
 

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_FACE_DISTORTION_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_FACE_DISTORTION_H
 
+#include <CGAL/Indexed_mesh/mesh_arrays.h>
 #include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/Conformal_triangle.h>
 
@@ -129,7 +130,7 @@ Tells for each face of a mesh how the map `uvmap` distorts it. Linear time.
        vertex descriptor as key, or the halfedge descriptor, for the corner at its target
 \param distortionmap a model of `WritablePropertyMap` with the face descriptor as key and
        `Face_distortion` as value
-\param np optional named parameters: `vertex_point_map`
+\param np optional named parameters: `vertex_point_map`, `geom_traits`; see `Indexed_mesh::copy_points()`
 
 \return `false`, and does nothing, if not all faces are triangles
 */
@@ -146,18 +147,17 @@ bool measure_face_distortion(const FaceGraph& mesh, UVMap uvmap, FaceDistortionM
     = parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
                                    get_const_property_map(CGAL::vertex_point, mesh));
   for(const auto f : faces(mesh)) {
-    std::array<std::array<double, 3>, 3> p;
+    std::array<Conformal_triangle::Point_3, 3> p;
     std::array<std::array<double, 2>, 3> uv;
     auto h = halfedge(f, mesh);
     for(int c = 0; c < 3; ++c, h = next(h, mesh)) {
-      const auto& point = get(vpm, target(h, mesh));
       const auto parameter = [&] {
         if constexpr(std::is_same<Key, Halfedge_descriptor>::value)
           return get(uvmap, h);
         else
           return get(uvmap, target(h, mesh));
       }();
-      p[c] = {to_double(point[0]), to_double(point[1]), to_double(point[2])};
+      p[c] = Indexed_mesh::double_point(get(vpm, target(h, mesh)), np);
       uv[c] = {to_double(parameter[0]), to_double(parameter[1])};
     }
     put(distortionmap, f, internal::face_distortion(p, uv));

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_LOW_STRETCH_MAP_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_LOW_STRETCH_MAP_H
 
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_parameterization/Low_stretch_options.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Stretched_chart.h>
 
@@ -30,6 +31,8 @@ over; their linear systems are solved by conjugate gradients with multigrid cycl
 vertex the map is one-to-one. Parts of the surface that are far from each other may overlap in the
 plane, see `certify_map()`, unless `Low_stretch_options::is_one_to_one`.
 
+\tparam ConcurrencyTag `Sequential_tag`, `Parallel_tag` (`Low_stretch_options::threads`) or `Default`
+        for the threads of the caller's `Blocked_execution::Thread_scope`
 \tparam Energy a model of `StretchEnergy`
 
 \param mesh a connected surface of genus 0 with at least one border, in any unit of length
@@ -45,11 +48,12 @@ says the sentence.
 
 Expected linear time. The result does not depend on the number of threads.
 */
-template <class Energy = Symmetric_dirichlet_energy>
+template <class ConcurrencyTag = Default, class Energy = Symmetric_dirichlet_energy>
 Low_stretch_map low_stretch_map(Indexed_mesh::Indexed_triangle_mesh mesh,
                                 const Low_stretch_options& options = Low_stretch_options(),
                                 const Energy& energy = Energy())
 {
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   internal::Stretched_chart<Energy> chart(mesh.points.size(), options, energy);
   const std::vector<Indexed_mesh::Triangle_indices> faces = internal::faces_if_asked_for(mesh, options);
   return chart.map(internal::chart_of_arrays(std::move(mesh), options.metric), faces);

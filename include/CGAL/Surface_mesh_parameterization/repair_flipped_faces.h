@@ -5,7 +5,10 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_REPAIR_FLIPPED_FACES_H
 
 #include <CGAL/Blocked_execution/Progress.h>
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Blocked_execution/compile_once.h>
+#include <CGAL/Indexed_mesh/mesh_arrays.h>
+#include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Surface_mesh_parameterization/Flip_repair_options.h>
 #include <CGAL/Surface_mesh_parameterization/internal/repair/mapped_faces.h>
 
@@ -107,6 +110,8 @@ rings around the faces.
 The border of the surface is free: faces that do not overlap before may do so afterwards; see
 `certify_map()`.
 
+\tparam ConcurrencyTag `Sequential_tag`, `Parallel_tag` (`Flip_repair_options::threads`) or `Default`
+        for the threads of the caller's `Blocked_execution::Thread_scope`
 \tparam TriangleMesh a model of `FaceListGraph` whose faces are triangles
 \tparam VertexUVMap a model of `ReadWritePropertyMap` with the vertex descriptor as key and a model
         of `Kernel::Point_2` as value, whose coordinates are made of numbers of type `double`
@@ -118,74 +123,85 @@ The border of the surface is free: faces that do not overlap before may do so af
 \param is_pinned the vertices that must not move. If a whole component is in one patch and fewer
        than two of its vertices are pinned, the ones farthest to the left and to the right stay.
 \param options the options
+\param np named parameters: `vertex_point_map`, `geom_traits`; see `Indexed_mesh::copy_points()`
 
 \return what was done, and the faces that could not be mended, for instance those with three pinned
         vertices, or of images that are smaller than 1e-13 of their coordinates
 
 Linear time, plus that of a sparse Cholesky factorization of the unknowns of a patch for each of
-some ten to some hundred steps of Newton's method. Patches are worked on in parallel within a
-`Blocked_execution::Thread_scope`; the result does not depend on it.
+some ten to some hundred steps of Newton's method. The result does not depend on the number of threads.
 */
-template <class TriangleMesh, class VertexUVMap, class VertexPinnedMap>
+template <class ConcurrencyTag = Default, class TriangleMesh, class VertexUVMap,
+          class VertexPinnedMap,
+          class NamedParameters = parameters::Default_named_parameters>
 Flip_repair_report repair_flipped_faces(const TriangleMesh& mesh, VertexUVMap uvmap,
                                         VertexPinnedMap is_pinned,
-                                        const Flip_repair_options& options = Flip_repair_options())
+                                        const Flip_repair_options& options = Flip_repair_options(),
+                                        const NamedParameters& np = parameters::default_values())
 {
   typedef typename boost::property_traits<VertexUVMap>::value_type Point_2;
-  const auto place = get(CGAL::dynamic_vertex_property_t<std::uint32_t>(), mesh);
-  std::vector<std::complex<double>> z;
+  Flip_repair_report report;
+  if(report.fail(Indexed_mesh::Mesh_status::BAD_MESH, Indexed_mesh::polygon_error(mesh)))
+    return report;
+  std::vector<Simple_cartesian<double>::Point_2> uv;
   std::vector<bool> is_fixed;
   for(const auto v : vertices(mesh)) {
-    const auto uv = get(uvmap, v);
-    put(place, v, std::uint32_t(z.size()));
-    z.push_back({to_double(uv.x()), to_double(uv.y())});
+    const auto p = get(uvmap, v);
+    uv.emplace_back(to_double(p.x()), to_double(p.y()));
     is_fixed.push_back(get(is_pinned, v));
   }
-  const std::vector<std::complex<double>> before = z;
-  const internal::Mapped_faces<TriangleMesh> mapped(mesh, place);
-  Map_to_repair map
-    = {mapped.triangles, is_fixed, internal::shapes_of_faces(mesh, mapped, options.weights), z};
-  Flip_repair_report report = internal::repair_map(map, options);
-  for(std::size_t& face : report.unmended_faces)
-    face = mapped.positions[face];
+  const auto before = uv;
+  report = repair_flipped_faces<ConcurrencyTag>(Indexed_mesh::copy_mesh(mesh, np), uv, is_fixed,
+                                                options);
+  std::size_t i = 0;
   for(const auto v : vertices(mesh)) {
-    const std::uint32_t i = get(place, v);
-    if(z[i] != before[i])
-      put(uvmap, v, Point_2(z[i].real(), z[i].imag()));
+    if(uv[i] != before[i])
+      put(uvmap, v, Point_2(uv[i].x(), uv[i].y()));
+    ++i;
   }
   return report;
 }
 
 /// \ingroup PkgHLSCMMeasures
 /// The same without pins.
-template <class TriangleMesh, class VertexUVMap>
+template <class ConcurrencyTag = Default, class TriangleMesh, class VertexUVMap,
+          class NamedParameters = parameters::Default_named_parameters>
 Flip_repair_report repair_flipped_faces(const TriangleMesh& mesh, VertexUVMap uvmap,
-                                        const Flip_repair_options& options = Flip_repair_options())
+                                        const Flip_repair_options& options = Flip_repair_options(),
+                                        const NamedParameters& np = parameters::default_values())
 {
   typedef typename boost::graph_traits<TriangleMesh>::vertex_descriptor vertex_descriptor;
-  return repair_flipped_faces(mesh, uvmap, Constant_property_map<vertex_descriptor, bool>(false),
-                              options);
+  return repair_flipped_faces<ConcurrencyTag>(
+    mesh, uvmap, Constant_property_map<vertex_descriptor, bool>(false), options, np);
 }
 
 /*!
 \ingroup PkgHLSCMMeasures
 
-The same for a mesh that is two arrays, with the parameter `uv[v]` of each vertex.
+The same for a mesh that is two arrays, with the parameter `uv[v]` of each vertex. Nothing is changed
+and `error` set if there is an `Indexed_mesh::map_error()` or `is_pinned` has another length.
 */
-inline Flip_repair_report
+template <class ConcurrencyTag = Default>
+Flip_repair_report
 repair_flipped_faces(const Indexed_mesh::Indexed_triangle_mesh& mesh,
                      std::vector<Simple_cartesian<double>::Point_2>& uv,
                      const std::vector<bool>& is_pinned,
                      const Flip_repair_options& options = Flip_repair_options())
 {
-  CGAL_precondition(uv.size() == mesh.points.size() && is_pinned.size() == uv.size());
+  using Indexed_mesh::Mesh_status;
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
+  Flip_repair_report report;
   std::vector<std::complex<double>> z;
   for(const auto& p : uv)
     z.push_back({p.x(), p.y()});
+  if(report.fail(Indexed_mesh::map_error(mesh, uv))
+     || report.fail(Mesh_status::BAD_OPTIONS,
+                    Indexed_mesh::size_error("is_pinned", is_pinned.size(), uv.size())))
+    return report;
   const std::vector<std::complex<double>> before = z;
   Map_to_repair map = {mesh.triangles, is_pinned,
                        internal::shapes_of_triangles(mesh, options.weights), z};
-  const Flip_repair_report report = internal::repair_map(map, options);
+  report = internal::repair_map(map, options);
   for(std::size_t v = 0; v < z.size(); ++v)
     if(z[v] != before[v])
       uv[v] = Simple_cartesian<double>::Point_2(z[v].real(), z[v].imag());
@@ -194,12 +210,14 @@ repair_flipped_faces(const Indexed_mesh::Indexed_triangle_mesh& mesh,
 
 /// \ingroup PkgHLSCMMeasures
 /// The same without pins.
-inline Flip_repair_report
+template <class ConcurrencyTag = Default>
+Flip_repair_report
 repair_flipped_faces(const Indexed_mesh::Indexed_triangle_mesh& mesh,
                      std::vector<Simple_cartesian<double>::Point_2>& uv,
                      const Flip_repair_options& options = Flip_repair_options())
 {
-  return repair_flipped_faces(mesh, uv, std::vector<bool>(uv.size(), false), options);
+  return repair_flipped_faces<ConcurrencyTag>(mesh, uv, std::vector<bool>(uv.size(), false),
+                                              options);
 }
 
 } // namespace Surface_mesh_parameterization

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_TEXTURED_PROGRESSIVE_MESH_OF_CHART_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_TEXTURED_PROGRESSIVE_MESH_OF_CHART_H
 
+#include <CGAL/Indexed_mesh/mesh_arrays.h>
 #include <CGAL/Surface_mesh_multiresolution/build_textured_progressive_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
 
@@ -46,16 +47,19 @@ texture coordinates, from the collapses with which it was parameterized.
        value
 \param chart what `HLSCM_parameterizer_3::progressive_mesh()` returns
 \param options see the other overloads; `is_locked` is in the order of `chart.vertices`
+\param np `vertex_point_map` and `geom_traits`; see `Indexed_mesh::copy_points()`
 
 A chart of another mesh, or one without collapses, and coordinates that are not finite give a result
 with `error` set. Linear time.
 */
-template <class TriangleMesh, class VertexUVMap>
+template <class TriangleMesh, class VertexUVMap,
+          class NamedParameters = parameters::Default_named_parameters>
 Surface_mesh_multiresolution::Textured_progressive_mesh_result
 build_textured_progressive_mesh(
   const TriangleMesh& mesh, VertexUVMap uvmap, const Chart_progressive_mesh& chart,
   const Surface_mesh_multiresolution::Textured_progressive_mesh_options& options
-  = Surface_mesh_multiresolution::Textured_progressive_mesh_options())
+  = Surface_mesh_multiresolution::Textured_progressive_mesh_options(),
+  const NamedParameters& np = parameters::default_values())
 {
   namespace SMM = Surface_mesh_multiresolution;
   SMM::Textured_progressive_mesh_result result;
@@ -68,16 +72,16 @@ build_textured_progressive_mesh(
   const auto rank = Indexed_mesh::ranks(chart.vertices, num_vertices(mesh));
   std::vector<SMM::Textured_triangle_mesh::Point_3> points(chart.vertices.size());
   std::vector<SMM::Textured_triangle_mesh::Point_2> uv(chart.vertices.size());
-  const auto vpm = get(CGAL::vertex_point, mesh);
+  const auto vpm
+    = parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
+                                   get_const_property_map(CGAL::vertex_point, mesh));
   std::size_t position = 0;
   for(const auto v : vertices(mesh)) {
     const CGAL::Indexed_mesh::Vertex_index r = rank[position++];
     if(r == CGAL::Indexed_mesh::no_vertex)
       continue;
-    const auto& p = get(vpm, v);
     const auto& q = get(uvmap, v);
-    points[r] = SMM::Textured_triangle_mesh::Point_3(to_double(p[0]), to_double(p[1]),
-                                                     to_double(p[2]));
+    points[r] = Indexed_mesh::double_point(get(vpm, v), np);
     uv[r] = SMM::Textured_triangle_mesh::Point_2(to_double(q[0]), to_double(q[1]));
   }
   result = SMM::build_textured_progressive_mesh(chart.progressive_mesh, std::move(points),

@@ -4,10 +4,8 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_CHART_DISTORTION_H
 #define CGAL_SURFACE_MESH_TEXTURING_CHART_DISTORTION_H
 
-#include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
+#include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Surface_mesh_parameterization/self_overlap.h>
-
-#include <CGAL/assertions.h>
 
 #include <algorithm>
 #include <cmath>
@@ -101,16 +99,18 @@ Triangle_distortion triangle_distortion(const Vector_3& x, const Vector_3& y, co
 /*!
 \ingroup PkgHLSCMTexturing
 
-Measures the map `uv` of the vertices of `mesh`. Triangles without area on the surface are left out.
-Time \f$ O(n \log n) \f$.
+Measures the map `uv` of the vertices of `mesh`. Triangles without area on the surface are left out;
+nothing is measured if an index is out of range or `uv` has another length. Time \f$ O(n \log n) \f$.
 */
 inline Chart_distortion
 measure_chart_distortion(const Indexed_mesh::Indexed_triangle_mesh& mesh,
                          const std::vector<Simple_cartesian<double>::Point_2>& uv)
 {
   namespace SMP = Surface_mesh_parameterization;
-  CGAL_precondition(uv.size() == mesh.points.size());
   Chart_distortion result;
+  if(uv.size() != mesh.points.size()
+     || !Indexed_mesh::index_error(mesh.triangles, uv.size()).empty())
+    return result;
   std::vector<std::pair<float, float>> scales, ratios;
   for(const auto& t : mesh.triangles) {
     const internal::Triangle_distortion d = internal::triangle_distortion(

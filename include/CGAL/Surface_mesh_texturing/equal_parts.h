@@ -314,14 +314,16 @@ inline Texture_atlas_result stacked_atlas(const Indexed_triangle_mesh& mesh,
 \ingroup PkgHLSCMTexturing
 
 Returns how many charts have an equal one: there is a chart whose triangles have the same stand-ins.
-
-\pre `charts` are those of the surface whose parts these are
+None if these are not charts of the surface whose parts these are.
 
 Time \f$ O(n \log n) \f$.
 */
 inline std::size_t number_of_charts_with_equals(const Equal_parts& parts, const Face_charts& charts)
 {
-  CGAL_precondition(charts.chart.size() == parts.stand_in.size());
+  if(charts.chart.size() != parts.stand_in.size()
+     || std::any_of(charts.chart.begin(), charts.chart.end(),
+                    [&charts](std::size_t chart) { return chart >= charts.number_of_charts; }))
+    return 0;
   std::vector<std::vector<Triangle_index>> models(charts.number_of_charts);
   for(Triangle_index t = 0; t < parts.stand_in.size(); ++t)
     models[charts.chart[t]].push_back(parts.stand_in[t]);

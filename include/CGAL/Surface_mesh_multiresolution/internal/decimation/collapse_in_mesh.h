@@ -117,22 +117,6 @@ void collapse_in_mesh(const std::vector<Halfedge_collapse>& collapses, TriangleM
   }
 }
 
-// Calls `body` with all threads if the tag says so.
-template <class ConcurrencyTag, class Body>
-auto run_with_threads(const Body& body)
-{
-  constexpr bool is_parallel = std::is_convertible<ConcurrencyTag, Parallel_tag>::value;
-#ifndef CGAL_LINKED_WITH_TBB
-  static_assert(!is_parallel, "Parallel_tag needs a program that is linked with TBB.");
-#endif
-  if constexpr(is_parallel) {
-    const Blocked_execution::Thread_scope scope(0);
-    return body();
-  } else {
-    return body();
-  }
-}
-
 template <class NamedParameters, class Parameter>
 constexpr bool is_given = !parameters::is_default_parameter<NamedParameters, Parameter>::value;
 
@@ -223,7 +207,7 @@ std::vector<bool> locked_vertices(const TriangleMesh& mesh, const NamedParameter
 
 // Appends the collapses until `stop`, or says in `surface` what is wrong; returns whether nothing more
 // could be collapsed before.
-template <class StopPredicate, class NamedParameters>
+template <class ConcurrencyTag, class StopPredicate, class NamedParameters>
 bool decimate_by(const StopPredicate& stop, const NamedParameters& np,
                  const std::vector<bool>& is_locked, Progressive_surface& surface)
 {
@@ -237,6 +221,7 @@ bool decimate_by(const StopPredicate& stop, const NamedParameters& np,
   options.angular_defect_bound = 360.;
   if constexpr(std::is_convertible<const StopPredicate&, const Progressive_mesh_options&>::value)
     options = stop;
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   if(options.is_locked.empty())
     options.is_locked = is_locked;
   else

@@ -74,11 +74,13 @@ inline Map_to_repair::Shape_of_face
 shapes_of_triangles(const Indexed_mesh::Indexed_triangle_mesh& mesh,
                     Conformal_weights weights)
 {
-  double sum = 0.;
-  for(const auto& t : mesh.triangles)
-    for(int c = 0; c < 3; ++c)
-      sum += std::sqrt(squared_distance(mesh.points[t[c]], mesh.points[t[(c + 1) % 3]]));
-  const double unit = sum > 0. ? sum / (3. * double(mesh.triangles.size())) : 1.;
+  const double unit = mean_side_length(mesh.triangles.size(), [&mesh](const auto& use) {
+    for(const auto& t : mesh.triangles)
+      for(int c = 0; c < 3; ++c) {
+        const auto side = mesh.points[t[(c + 1) % 3]] - mesh.points[t[c]];
+        use(side.x(), side.y(), side.z());
+      }
+  });
   return [&mesh, weights, unit](std::uint32_t t) {
     const auto corner = [&](int c) {
       const auto d = mesh.points[mesh.triangles[t][c]] - mesh.points[mesh.triangles[t][0]];
