@@ -48,7 +48,8 @@ using CGAL::Indexed_mesh::Mesh_status;
 enum class Border { ITS_OWN, NONE, INSIDE, FOREIGN };
 
 // What a door needs, each more than the one before; a mesh that lacks it is bad input for the door:
-// arrays that can be read, triangles with three vertices, a manifold with lengths, a border and no handle.
+// arrays that can be read, triangles with three vertices, a manifold with lengths, a border and no
+// handle.
 enum class Needs { ARRAYS, TRIANGLES, SURFACE, CHART };
 
 struct Input
@@ -103,11 +104,11 @@ std::vector<Input> bad_inputs()
 // Whether there is such a mesh with halfedges.
 bool has_halfedges(const Indexed_triangle_mesh& mesh)
 {
-  return !mesh.triangles.empty() ? CGAL::Indexed_mesh::index_error(mesh.triangles, mesh.points.size()).empty()
-                                     && CGAL::Indexed_mesh::repeated_vertex_error(mesh.triangles).empty()
-                                     && CGAL::Indexed_mesh::Vertex_rings(mesh).defect()
-                                          == CGAL::Indexed_mesh::Ring_defect::NONE
-                                 : true;
+  using namespace CGAL::Indexed_mesh;
+  return mesh.triangles.empty()
+      || (index_error(mesh.triangles, mesh.points.size()).empty()
+          && repeated_vertex_error(mesh.triangles).empty()
+          && Vertex_rings(mesh).defect() == Ring_defect::NONE);
 }
 
 Surface_mesh::Halfedge_index chosen_halfedge(const Surface_mesh& mesh, Border border)
@@ -126,7 +127,8 @@ struct Mesh_door
   static constexpr Needs needs = Needs::CHART;
   static bool concerns(const Input& input) { return has_halfedges(input.mesh); }
 
-  static std::string sentence_of(const SMP::Low_stretch_parameterizer_3<Surface_mesh>& parameterizer)
+  static std::string
+  sentence_of(const SMP::Low_stretch_parameterizer_3<Surface_mesh>& parameterizer)
   {
     return parameterizer.outcome().error;
   }
@@ -327,7 +329,8 @@ struct Mesh_atlas_door : Door<Needs::SURFACE, true>
   {
     Surface_mesh mesh = to_surface_mesh(arrays);
     const auto uv = mesh.add_property_map<Surface_mesh::Halfedge_index, Point_2>("h:uv").first;
-    const auto chart = mesh.add_property_map<Surface_mesh::Face_index, std::size_t>("f:chart").first;
+    const auto chart
+      = mesh.add_property_map<Surface_mesh::Face_index, std::size_t>("f:chart").first;
     return SMT::build_texture_atlas(mesh, uv, chart, small_texture());
   }
 };

@@ -151,7 +151,7 @@ TEST_P(Stop_predicates, bounds_the_cost)
   const auto np = CGAL::parameters::get_cost(Length_cost()).filter(SMS::internal::Accept_all_filter());
   surface.progressive_mesh.number_of_vertices = mesh.points.size();
   surface.progressive_mesh.triangles = mesh.triangles;
-  EXPECT_FALSE(SMM::internal::decimate_by(options, np, {}, surface)); // not exhausted
+  EXPECT_FALSE(SMM::internal::decimate_by<CGAL::Default>(options, np, {}, surface)); // not exhausted
   EXPECT_EQ(surface.error, "");
   ASSERT_GT(surface.progressive_mesh.collapses.size(), mesh.points.size() / 10);
   for(std::size_t i = 0; i < surface.progressive_mesh.collapses.size(); ++i)

@@ -245,8 +245,8 @@ TEST(Measures, of_polygons_are_an_error)
 {
   Surface_mesh mesh = to_surface_mesh(grid(2, 2));
   CGAL::Euler::join_face(mesh.halfedge(Surface_mesh::Vertex_index(4)), mesh);
-  const Distortion_measures measures
-    = SMP::measure_distortion(mesh, to_uv_map(mesh, map_of(grid(2, 2), [](std::complex<double> w) { return w; })));
+  const Parameters uv = map_of(grid(2, 2), [](std::complex<double> w) { return w; });
+  const Distortion_measures measures = SMP::measure_distortion(mesh, to_uv_map(mesh, uv));
   EXPECT_EQ(measures.status, CGAL::Indexed_mesh::Mesh_status::BAD_MESH);
   EXPECT_EQ(measures.error, "not all faces are triangles; triangulate the mesh first");
 }

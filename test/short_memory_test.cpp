@@ -172,7 +172,7 @@ TEST(Doubted_maps, of_the_largest_meshes_are_right)
     for(const double unit : {1e-300, 1e300, 1e308}) {
       const SMP::Conformal_map map = map_of(mesh, method);
       const SMP::Conformal_map large = map_of(hills(20, unit), method);
-      EXPECT_EQ(large.error, SMP::OK) << large.report.message;
+      EXPECT_EQ(large.error, "");
       EXPECT_TRUE(large.report.converged);
       EXPECT_FALSE(std::isnan(large.report.energy));
       const double size = method == Conformal_method::SPECTRAL ? unit : 1.;
@@ -193,7 +193,7 @@ TEST(Doubted_maps, without_area_have_not_converged)
     options.method = method;
     const SMP::Conformal_map flat
       = SMP::conformal_map(mesh, {{0, 0., 0.}, {1, 1., 0.}, {2, 2., 0.}}, options);
-    EXPECT_EQ(flat.error, SMP::OK);
+    EXPECT_EQ(flat.error, "");
     EXPECT_FALSE(flat.report.converged);
     ASSERT_EQ(flat.report.warnings.size(), 1u);
     EXPECT_EQ(flat.report.warnings[0],

@@ -86,7 +86,7 @@ void Very_large_chart::test_against_memory(SMP::Conformal_method method)
     in_memory.tolerance = chart.tolerance;
     in_memory.coarsest_size = 200;
     const SMP::Conformal_map expected = expected_map(mesh, in_memory);
-    ASSERT_EQ(expected.error, SMP::OK) << expected.report.message;
+    ASSERT_EQ(expected.error, "");
     for(const auto& [block, gathered] : chart.sizes) {
       SCOPED_TRACE(std::to_string(block) + " vertices a block, in memory " + std::to_string(gathered));
       Options o = options(block, gathered, chart.tolerance);

@@ -197,8 +197,8 @@ inline std::string surface_error(const Indexed_triangle_mesh& mesh)
 }
 
 /// \ingroup PkgHLSCMIndexedMesh
-/// Says what is wrong with the map `uv` of the vertices of a mesh of two arrays, of which no triangle
-/// may have a vertex twice. Linear time.
+/// Says what is wrong with the map `uv` of the vertices of a mesh of two arrays, of which no
+/// triangle may have a vertex twice. Linear time.
 inline Mesh_outcome map_error(const Indexed_triangle_mesh& mesh,
                               const std::vector<Simple_cartesian<double>::Point_2>& uv)
 {

@@ -48,8 +48,8 @@ inline Hat_gradients hat_gradients(const Indexed_mesh::Indexed_triangle_mesh& me
 
 /// \ingroup PkgHLSCMSurfaceMultigrid
 /// Returns the gradient, in each triangle, of the function that is linear there and has the values
-/// `u` at the vertices; 0 in triangles without area. Linear time. Nothing is returned if an index is out
-/// of range or `u` has not a value for each vertex.
+/// `u` at the vertices; 0 in triangles without area. Linear time. Nothing is returned if an
+/// index is out of range or `u` has not a value for each vertex.
 template <class Values>
 std::vector<Surface_vector> surface_gradients(const Indexed_mesh::Indexed_triangle_mesh& mesh,
                                               const Values& u)
@@ -71,8 +71,8 @@ std::vector<Surface_vector> surface_gradients(const Indexed_mesh::Indexed_triang
 /// \ingroup PkgHLSCMSurfaceMultigrid
 /// Returns for each vertex the integral of the gradient of its hat function times `field`, a vector
 /// in each triangle: the right-hand side of the function whose gradients are nearest to the field
-/// (`Laplace_element` is the matrix), minus the integrated divergence. Linear time. Nothing is returned
-/// if an index is out of range or `field` has not a vector for each triangle.
+/// (`Laplace_element` is the matrix), minus the integrated divergence. Linear time. Nothing
+/// is returned if an index is out of range or `field` has not a vector for each triangle.
 inline std::vector<double> weak_divergences(const Indexed_mesh::Indexed_triangle_mesh& mesh,
                                             const std::vector<Surface_vector>& field)
 {

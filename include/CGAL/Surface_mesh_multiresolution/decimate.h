@@ -72,8 +72,8 @@ elements are removed as by the Euler operations of CGAL: a `Surface_mesh` or a m
 has garbage to collect. If the input is bad the mesh is not changed; if it was cancelled, as far as
 that. The result does not depend on the number of threads.
 
-\tparam ConcurrencyTag `Sequential_tag`, `Parallel_tag` (`Decimation_options::threads`, or those of the
-        machine) or `Default` for the threads of the caller's `Blocked_execution::Thread_scope`
+\tparam ConcurrencyTag `Sequential_tag`, `Parallel_tag` (`Decimation_options::threads`, or those of
+        the machine) or `Default` for the threads of the caller's `Blocked_execution::Thread_scope`
 \tparam TriangleMesh a model of `MutableFaceGraph` and `FaceListGraph`
 \tparam StopPredicate a model of CGAL's concept `StopPredicate` for any profile, such as
         `Surface_mesh_simplification::Count_stop_predicate` and `Count_ratio_stop_predicate`

@@ -169,7 +169,8 @@ Measures the map `uvmap` over all faces of `mesh`.
 \param uvmap the map
 \param np optional named parameters: `vertex_point_map`
 
-Faces that are no triangles are an error. Linear time: two passes over the faces, and 8 bytes a face.
+Faces that are no triangles are an error. Linear time: two passes over the faces, and 8 bytes a
+face.
 */
 template <class TriangleMesh, class VertexUVMap,
           class NamedParameters = parameters::Default_named_parameters>

@@ -18,7 +18,8 @@ namespace CGAL {
 namespace Surface_mesh_parameterization {
 
 /// \ingroup PkgHLSCMMeasures
-/// What `repair_flipped_faces()` did, or why it did nothing. Flips are counted by an exact predicate.
+/// What `repair_flipped_faces()` did, or why it did nothing. Flips are counted by an exact
+/// predicate.
 struct Flip_repair_report
   : Indexed_mesh::Mesh_outcome
 {

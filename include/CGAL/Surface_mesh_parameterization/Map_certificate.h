@@ -113,8 +113,8 @@ runs counterclockwise, with the surface on its inner side: again no winding numb
 the cycles, is greater than 1. Where the borders meet, or the mesh has several components, the faces
 are compared in pairs, by `has_global_overlap()`.
 
-Points in space are not looked at. Linear time for the faces, and \f$ O(b \log^2 b) \f$ for \f$ b \f$ border edges; more if the images
-of the borders meet.
+Points in space are not looked at. Linear time for the faces, and \f$ O(b \log^2 b) \f$ for
+\f$ b \f$ border edges; more if the images of the borders meet.
 */
 template <class TriangleMesh, class VertexUVMap>
 Map_certificate certify_map(const TriangleMesh& mesh, VertexUVMap uvmap)
@@ -134,8 +134,8 @@ Map_certificate certify_map(const TriangleMesh& mesh, VertexUVMap uvmap)
 \ingroup PkgHLSCMMeasures
 
 The class `Uv_arrays` is a view of a map of a mesh that is two arrays, for `certify_map()` and
-`visit_overlapping_faces()`. Both arrays must live as long. It has no faces if a vertex of a triangle
-does not exist or has no parameter.
+`visit_overlapping_faces()`. Both arrays must live as long. It has no faces if a vertex of a
+triangle does not exist or has no parameter.
 */
 class Uv_arrays
 {

@@ -75,8 +75,8 @@ Returns the least squares conformal map with a free border of a connected mesh o
 border: what `HLSCM_parameterizer_3` computes, with pins of its own choice, for a mesh that is two
 arrays. `HLSCM_options::keep_progressive_mesh` does not count here.
 
-\tparam ConcurrencyTag `Sequential_tag`, `Parallel_tag` (`HLSCM_options::threads`) or `Default` for the
-        threads of the caller's `Blocked_execution::Thread_scope`
+\tparam ConcurrencyTag `Sequential_tag`, `Parallel_tag` (`HLSCM_options::threads`) or `Default` for
+        the threads of the caller's `Blocked_execution::Thread_scope`
 
 Time and memory as for `HLSCM_parameterizer_3`; meshes of less than about 10,000 triangles are best
 mapped with `Conformal_method::DIRECT`. Bad data (indices out of range, coordinates that are not

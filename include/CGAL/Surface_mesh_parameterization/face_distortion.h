@@ -130,7 +130,8 @@ Tells for each face of a mesh how the map `uvmap` distorts it. Linear time.
        vertex descriptor as key, or the halfedge descriptor, for the corner at its target
 \param distortionmap a model of `WritablePropertyMap` with the face descriptor as key and
        `Face_distortion` as value
-\param np optional named parameters: `vertex_point_map`, `geom_traits`; see `Indexed_mesh::copy_points()`
+\param np optional named parameters: `vertex_point_map`, `geom_traits`; see
+       `Indexed_mesh::copy_points()`
 
 \return `false`, and does nothing, if not all faces are triangles
 */

@@ -31,8 +31,8 @@ over; their linear systems are solved by conjugate gradients with multigrid cycl
 vertex the map is one-to-one. Parts of the surface that are far from each other may overlap in the
 plane, see `certify_map()`, unless `Low_stretch_options::is_one_to_one`.
 
-\tparam ConcurrencyTag `Sequential_tag`, `Parallel_tag` (`Low_stretch_options::threads`) or `Default`
-        for the threads of the caller's `Blocked_execution::Thread_scope`
+\tparam ConcurrencyTag `Sequential_tag`, `Parallel_tag` (`Low_stretch_options::threads`) or
+        `Default` for the threads of the caller's `Blocked_execution::Thread_scope`
 \tparam Energy a model of `StretchEnergy`
 
 \param mesh a connected surface of genus 0 with at least one border, in any unit of length

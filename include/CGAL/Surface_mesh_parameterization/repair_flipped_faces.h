@@ -110,8 +110,8 @@ rings around the faces.
 The border of the surface is free: faces that do not overlap before may do so afterwards; see
 `certify_map()`.
 
-\tparam ConcurrencyTag `Sequential_tag`, `Parallel_tag` (`Flip_repair_options::threads`) or `Default`
-        for the threads of the caller's `Blocked_execution::Thread_scope`
+\tparam ConcurrencyTag `Sequential_tag`, `Parallel_tag` (`Flip_repair_options::threads`) or
+        `Default` for the threads of the caller's `Blocked_execution::Thread_scope`
 \tparam TriangleMesh a model of `FaceListGraph` whose faces are triangles
 \tparam VertexUVMap a model of `ReadWritePropertyMap` with the vertex descriptor as key and a model
         of `Kernel::Point_2` as value, whose coordinates are made of numbers of type `double`
@@ -129,7 +129,8 @@ The border of the surface is free: faces that do not overlap before may do so af
         vertices, or of images that are smaller than 1e-13 of their coordinates
 
 Linear time, plus that of a sparse Cholesky factorization of the unknowns of a patch for each of
-some ten to some hundred steps of Newton's method. The result does not depend on the number of threads.
+some ten to some hundred steps of Newton's method. The result does not depend on the number of
+threads.
 */
 template <class ConcurrencyTag = Default, class TriangleMesh, class VertexUVMap,
           class VertexPinnedMap,
@@ -178,8 +179,8 @@ Flip_repair_report repair_flipped_faces(const TriangleMesh& mesh, VertexUVMap uv
 /*!
 \ingroup PkgHLSCMMeasures
 
-The same for a mesh that is two arrays, with the parameter `uv[v]` of each vertex. Nothing is changed
-and `error` set if there is an `Indexed_mesh::map_error()` or `is_pinned` has another length.
+The same for a mesh that is two arrays, with the parameter `uv[v]` of each vertex. Nothing is
+changed and `error` set if there is an `Indexed_mesh::map_error()` or `is_pinned` has another length.
 */
 template <class ConcurrencyTag = Default>
 Flip_repair_report

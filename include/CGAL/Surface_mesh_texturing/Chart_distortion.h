@@ -100,7 +100,8 @@ Triangle_distortion triangle_distortion(const Vector_3& x, const Vector_3& y, co
 \ingroup PkgHLSCMTexturing
 
 Measures the map `uv` of the vertices of `mesh`. Triangles without area on the surface are left out;
-nothing is measured if an index is out of range or `uv` has another length. Time \f$ O(n \log n) \f$.
+nothing is measured if an index is out of range or `uv` has another length.
+Time \f$ O(n \log n) \f$.
 */
 inline Chart_distortion
 measure_chart_distortion(const Indexed_mesh::Indexed_triangle_mesh& mesh,

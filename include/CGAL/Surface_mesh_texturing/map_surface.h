@@ -281,7 +281,7 @@ private:
     if(component.report.cancelled)
       m_result.cancel();
     else if(!component.is_mapped && (m_parts.size() == 1 || !pins.empty()))
-      m_result.fail(Mesh_status::FAILED, component.report.message);
+      m_result.fail(map.is_ok() ? Mesh_status::FAILED : map.status, component.report.message);
     if(!component.is_mapped)
       map.uv.assign(part.mesh.points.size(), Point_2(0., 0.));
     m_uv.push_back(std::move(map.uv));
