@@ -8,6 +8,7 @@
 
 #include <CGAL/Surface_mesh_multigrid/heat_distances.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
 
 #include <gtest/gtest.h>
