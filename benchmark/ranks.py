@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Maps terrains by several ranks of MPI, out of core and in memory: a row for each run.
 
-Usage: benchmark/ranks.py [--folder FOLDER] BIN [SERIES]... > benchmark/results/ranks.csv
+Usage: benchmark/ranks.py [--folder FOLDER] [--chart CHART.ply] BIN [SERIES]... > benchmark/results/ranks.csv
 
 BIN is the folder of hlscm and hlscm-mpi; terrains are made in FOLDER if they are not there, and stay. Series,
 all of them if none is named; size:4 is those of 4M faces alone:
@@ -12,6 +12,7 @@ all of them if none is named; size:4 is those of 4M faces alone:
   weak    2M faces a rank
   size    1M to 100M faces out of core by two threads, in 60 bytes a face
   strong  8M faces; with more ranks than processors for the counts, not for the time
+  real    CHART by make_fine_chart.py, each triangle in 64, 256 and 1,600, as in size; not without --chart
   free    the same without pins, and in memory and out of core in 60 bytes a face by one thread
 Seconds are those of the clock from the read mesh to the map, those of reading and writing apart; wall has
 these, too, and processors is the same in seconds of all processors, which other programs hardly change; memory
@@ -25,6 +26,7 @@ import csv
 import json
 import math
 import os
+import re
 import resource
 import subprocess
 import sys
@@ -46,6 +48,16 @@ def terrain(folder, faces):
         subprocess.run([sys.executable, os.path.join(os.path.dirname(__file__), "make_terrain.py"),
                         str(2 * side), str(side), name], check=True)
     return name
+
+
+def fine_chart(folder, chart, parts):
+    """A file of a real chart after three steps of subdivision, and the number of its faces."""
+    name = os.path.join(folder, f"fine_{parts}.ply")
+    if not os.path.exists(name):
+        subprocess.run([sys.executable, os.path.join(os.path.dirname(__file__), "make_fine_chart.py"),
+                        chart, "3", str(parts), name], check=True)
+    with open(name, "rb") as file:
+        return name, int(re.search(rb"element face (\d+)", file.read(1000)).group(1))
 
 
 def processor_seconds():
@@ -95,6 +107,7 @@ def run(bin_dir, name, series, method, ranks, faces, threads):
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--folder")
+    parser.add_argument("--chart")
     parser.add_argument("bin")
     parser.add_argument("series", nargs="*")
     arguments = parser.parse_args()
@@ -119,6 +132,11 @@ def main():
             row = run(arguments.bin, terrain(folder, faces), series, method, ranks, faces, threads)
             writer.writerow(dict(row, series=series))
             sys.stdout.flush()
+        for parts in (1, 2, 5) if arguments.chart else ():
+            if not arguments.series or {"real", f"real:{parts}"} & set(arguments.series):
+                name, faces = fine_chart(folder, arguments.chart, parts)
+                writer.writerow(dict(run(arguments.bin, name, "real", "out of core", 1, faces, 2), series="real"))
+                sys.stdout.flush()
 
 
 if __name__ == "__main__":

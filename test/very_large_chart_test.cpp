@@ -310,7 +310,7 @@ TEST_F(Very_large_chart, refuses_bad_surfaces)
   bad = hills;
   for(auto& p : bad.points)
     p = Point_3(1., 2., 3.);
-  EXPECT_EQ(error(bad, "all vertices lie in one point"), "");
+  EXPECT_EQ(error(bad, "all edges are without length"), "");
 }
 
 TEST_F(Very_large_chart, refuses_bad_files)

@@ -92,33 +92,6 @@ Named_parts parts_of(const Input_surface& surface, const Program_options& option
   return parts;
 }
 
-// A chart that is kept as it is cannot lie on the pages of two parts.
-void require_charts_within_parts(const Input_surface& surface, const Program_options& options,
-                                 const SMT::Textured_triangle_mesh& mesh,
-                                 const std::vector<std::uint32_t>& part)
-{
-  if(part.empty()) {
-    return;
-  }
-  const SMT::Face_charts charts = SMT::charts_of_texture(mesh);
-  std::vector<std::size_t> first(charts.number_of_charts, part.size());
-  for(std::size_t t = 0; t < charts.chart.size(); ++t) {
-    std::size_t& known = first[charts.chart[t]];
-    if(known == part.size()) {
-      known = t;
-    } else if(part[known] != part[t]) {
-      const bool are_groups = options.atlas.layout.separate == Chart_limits::GROUPS;
-      throw Program_error(options.input,
-                          "face " + std::to_string(surface.surface.face[known]) + " and face "
-                              + std::to_string(surface.surface.face[t])
-                              + " are in one chart, but in different "
-                              + (are_groups ? "groups" : "materials")
-                              + ", leave --separate out, or take --charts uv instead of --repack, "
-                                "which cuts it");
-    }
-  }
-}
-
 // For each page the name of what lies on it.
 std::vector<std::string> names_of_pages(const SMT::Texture_atlas& atlas, const Named_parts& parts)
 {
@@ -173,7 +146,6 @@ SMT::Texture_atlas_result repack(const Input_surface& surface, const Program_opt
 {
   require_uv(surface, options, "--repack");
   const SMT::Textured_triangle_mesh mesh = to_textured(surface);
-  require_charts_within_parts(surface, options, mesh, library.page_set);
   SMT::Repacking_options repacking;
   repacking.scale = options.atlas.layout.keeps_scale ? SMT::Chart_scale::AS_GIVEN
                                                      : SMT::Chart_scale::EQUAL_DENSITY;
@@ -183,10 +155,19 @@ SMT::Texture_atlas_result repack(const Input_surface& surface, const Program_opt
       = options.atlas.packer == Packer::HORIZON
             ? SMT::repack_texture_atlas(mesh, library, repacking, SMT::Horizon_packer())
             : SMT::repack_texture_atlas(mesh, library, repacking, SMT::Raster_packer());
+  const auto face = [&surface](std::size_t t) {
+    return "face " + std::to_string(surface.surface.face[t]);
+  };
+  if(result.chart_between_sets) {
+    const auto [first, second] = *result.chart_between_sets;
+    const bool are_groups = options.atlas.layout.separate == Chart_limits::GROUPS;
+    throw Program_error(options.input,
+                        face(first) + " and " + face(second) + " are in one chart, but in different "
+                            + (are_groups ? "groups" : "materials")
+                            + ", leave --separate out, or take --charts uv instead of --repack, "
+                              "which cuts it");
+  }
   if(!result.defects.empty()) {
-    const auto face = [&surface](std::uint32_t t) {
-      return "face " + std::to_string(surface.surface.face[t]);
-    };
     const std::string sentence = SMT::sentence_on(result.defects[0], face);
     if(result.status == CGAL::Indexed_mesh::Mesh_status::BAD_MESH) {
       throw Program_error(options.input, sentence + ", take --charts uv instead of --repack, which "

@@ -127,6 +127,10 @@ std::string mesh_error(const Mesh& mesh, const std::string& name = {})
 }
 
 /// \ingroup PkgHLSCMIndexedMesh
+/// What there is to say of a mesh whose vertices all lie in one point.
+constexpr const char* no_extent_error = "all edges are without length";
+
+/// \ingroup PkgHLSCMIndexedMesh
 /// Says whether an array, by its name, has another number of entries than there are `things`.
 inline std::string size_error(const std::string& name, std::size_t entries, std::size_t number,
                               const std::string& things = "vertices")

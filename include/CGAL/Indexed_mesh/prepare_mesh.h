@@ -113,7 +113,7 @@ inline Prepared_mesh prepare_mesh(Indexed_triangle_mesh mesh,
   if(steps.normalizes)
     result.scale = normalize(mesh);
   if(!(result.scale > 0.)) {
-    result.fail(Mesh_status::BAD_MESH, "all edges are without length");
+    result.fail(Mesh_status::BAD_MESH, no_extent_error);
     return result;
   }
   result.source = sort_spatially(mesh);

@@ -50,7 +50,7 @@ CGAL_HLSCM_INLINE Conformal_map map_arrays(Indexed_mesh::Indexed_triangle_mesh m
   Mesh_status why = Mesh_status::BAD_OPTIONS; // of the mesh and the options, if they are wrong
   if(run.status().is_ok()) {
     prepared = chart_of_arrays(std::move(mesh), options.metric);
-    if(!prepared.status.is_ok() && prepared.chart.metric_error.empty())
+    if(!prepared.status.is_ok() && !prepared.has_bad_metric)
       why = Mesh_status::BAD_MESH;
   }
   Chart_map map = map_chart_conformally(std::move(prepared), n, wanted, Coarsest_solver(), run);

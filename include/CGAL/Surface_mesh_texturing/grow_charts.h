@@ -144,7 +144,7 @@ inline Chart_growth_result grow_charts(const Indexed_triangle_mesh& mesh,
     return result;
   const internal::Growth_surface surface(mesh);
   if(!(surface.scale > 0.)) {
-    result.fail(Mesh_status::BAD_MESH, "all vertices lie in one point");
+    result.fail(Mesh_status::BAD_MESH, Indexed_mesh::no_extent_error);
     return result;
   }
   internal::Search_options search;

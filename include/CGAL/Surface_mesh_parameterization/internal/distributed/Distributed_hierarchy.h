@@ -205,7 +205,7 @@ inline void Distributed_hierarchy::normalize(Distributed_mesh& mesh) const
   });
   const double sum = m_ranks.sum(lengths);
   if(!(sum > 0.))
-    refuse("all vertices lie in one point");
+    refuse(Indexed_mesh::no_extent_error);
   const double mean = sum / (3. * double(m_report.solver.faces));
   for(auto* points : {&mesh.points, &mesh.ghost_points})
     for(Three_numbers& p : *points)

@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LIVE_LIVE_MAP_H
 
 #include <CGAL/Blocked_execution/compile_once.h>
+#include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
 #include <CGAL/Surface_mesh_parameterization/Solver_traits_cholesky.h>
@@ -167,7 +168,7 @@ CGAL_HLSCM_INLINE Error_code Live_map::set_points(Points points)
   moved.points = std::move(points);
   const double scale = Indexed_mesh::normalize(moved);
   if(!(scale > 0.))
-    return fail("all vertices lie in one point; the old positions stay");
+    return fail(std::string(Indexed_mesh::no_extent_error) + "; the old positions stay");
   m_solver->set_points(moved.points, scale);
   return OK;
 }

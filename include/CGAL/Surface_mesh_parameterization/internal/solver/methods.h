@@ -85,12 +85,15 @@ inline Conformal_vector map_by_monogrid(Conformal_system& system, Run_control& r
   return z;
 }
 
-inline void relax_flipped_faces(const Conformal_system& system, Conformal_vector& z)
+// Those of the finest level; of a map without pins the rows of its mass are held.
+inline void relax_flipped_faces(const Conformal_hierarchy& hierarchy, bool is_free,
+                                const std::vector<Multigrid::Diagonal_mass>& masses,
+                                Conformal_vector& z)
 {
-  const auto& h = system.hierarchy.finest().matrix;
-  const auto& triangles = system.hierarchy.levels().back().mesh.triangles;
-  if(system.is_free)
-    relax_flipped_faces(Held_rows(h, rows_of(system.masses.back())), triangles, z);
+  const auto& h = hierarchy.finest().matrix;
+  const auto& triangles = hierarchy.levels().back().mesh.triangles;
+  if(is_free)
+    relax_flipped_faces(Held_rows(h, rows_of(masses.back())), triangles, z);
   else
     relax_flipped_faces(h, triangles, z);
 }
@@ -160,7 +163,7 @@ public:
     const auto result = improve(system, system.finest(), run, z);
     if(result.converged) {
       m_rate = result.rate;
-      relax_flipped_faces(system, z);
+      relax_flipped_faces(system.hierarchy, system.is_free, system.masses, z);
     }
     run.conclude(result, system.energy_unit,
                  "raise the number of iterations or use the direct method");
@@ -247,7 +250,7 @@ inline Conformal_vector map_by_cascade(Conformal_system& system, Run_control& ru
   climb(system, run, z, [&](std::size_t l, Conformal_vector& x) {
     const auto result = system.hierarchy.on_level(l, x, relax);
     if(l == system.finest() && result.converged)
-      relax_flipped_faces(system, x);
+      relax_flipped_faces(system.hierarchy, system.is_free, system.masses, x);
     if(l == system.finest())
       run.conclude(result, system.energy_unit);
     return result;

@@ -27,7 +27,7 @@ inline void check_point(std::size_t v, const std::array<double, 3>& p)
 {
   if(!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
     refuse("vertex " + std::to_string(v)
-           + " has a coordinate that is not a finite number; correct or remove it");
+           + " has a coordinate that is not a finite number");
 }
 
 // Refuses a face of a mesh of so many vertices that is no triangle. `remedy` is for wrong numbers.

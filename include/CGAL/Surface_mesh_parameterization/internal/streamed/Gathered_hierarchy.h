@@ -86,15 +86,7 @@ public:
   double energy(const Vector& z) const { return m_hierarchy.finest().energy(z); }
 
   // The end of a map that is all in memory.
-  void relax_flips(Vector& z) const
-  {
-    const auto& h = m_hierarchy.finest().matrix;
-    const auto& triangles = m_hierarchy.levels().back().mesh.triangles;
-    if(is_free())
-      relax_flipped_faces(Held_rows(h, rows_of(m_masses[finest()])), triangles, z);
-    else
-      relax_flipped_faces(h, triangles, z);
-  }
+  void relax_flips(Vector& z) const { relax_flipped_faces(m_hierarchy, is_free(), m_masses, z); }
 
 private:
   std::size_t finest() const { return m_hierarchy.number_of_levels() - 1; }

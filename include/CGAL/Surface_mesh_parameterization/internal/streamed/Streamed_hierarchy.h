@@ -226,7 +226,7 @@ inline void Streamed_hierarchy::normalize(Streamed_mesh& mesh)
     },
     releases(mesh.triangles));
   if(!(sum > 0.))
-    refuse("all vertices lie in one point");
+    refuse(Indexed_mesh::no_extent_error);
   const double mean = sum / (3. * double(mesh.triangles.size()));
   stream_rows(
     mesh.points.size(),

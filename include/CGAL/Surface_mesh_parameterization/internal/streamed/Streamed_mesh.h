@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_STREAMED_STREAMED_MESH_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_STREAMED_STREAMED_MESH_H
 
-#include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
+#include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Surface_mesh_parameterization/internal/stored/Work_folder.h>
 
 #include <algorithm>
@@ -39,7 +39,7 @@ public:
   {
     if(!(m_extent > 0.) || !std::isfinite(m_extent))
       refuse(m_extent > 0. ? "the mesh is larger than a number; scale it"
-                           : "all vertices lie in one point");
+                           : Indexed_mesh::no_extent_error);
     for(int c = 0; c < 3; ++c)
       m_middle[c] = 0.5 * (box.min)(c) + 0.5 * (box.max)(c);
     const Three_numbers low = moved({box.xmin(), box.ymin(), box.zmin()}),
