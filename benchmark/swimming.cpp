@@ -23,6 +23,7 @@
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Surface_mesh_parameterization/Barycentric_mapping_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/Circular_border_parameterizer_3.h>
+#include <CGAL/Surface_mesh_parameterization/Fixed_border_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/Mean_value_coordinates_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/parameterize.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
@@ -64,6 +65,19 @@ Uvs fitted(Uvs uv)
   return uv;
 }
 
+// Why there is no map: CGAL's own methods have a number for it only.
+template <class Parameterizer>
+auto reason(const Parameterizer& parameterizer, SMP::Error_code)
+  -> decltype(parameterizer.report().message)
+{
+  return parameterizer.report().message;
+}
+template <class... Any>
+std::string reason(const SMP::Fixed_border_parameterizer_3<Any...>&, SMP::Error_code error)
+{
+  return "CGAL's error " + std::to_string(int(error));
+}
+
 template <class Parameterizer>
 Uvs map_by(Parameterizer parameterizer, Mesh& mesh)
 {
@@ -71,7 +85,7 @@ Uvs map_by(Parameterizer parameterizer, Mesh& mesh)
   const auto border = PMP::longest_border(mesh).first;
   const SMP::Error_code error = SMP::parameterize(mesh, parameterizer, border, uvmap);
   if(error != SMP::OK)
-    throw std::runtime_error(std::string("no map: ") + SMP::get_error_message(error));
+    throw std::runtime_error("no map: " + reason(parameterizer, error));
   Uvs result;
   for(const auto v : mesh.vertices())
     result.push_back(uvmap[v]);

@@ -5,6 +5,8 @@
 // coders that a textured model has, of numbers that take about as many bits. streams.mjs compiles it for
 // WebAssembly and for this machine: no reader of the format is faster than that.
 
+#include "../examples/web/stream/decoder/exported.h"
+
 #include <CGAL/Surface_mesh_multiresolution/internal/file/Residual_coder.h>
 
 #include <algorithm>
@@ -13,13 +15,6 @@
 #include <cstdint>
 #include <string>
 #include <vector>
-
-#if defined(__EMSCRIPTEN__)
-#include <emscripten/emscripten.h>
-#define EXPORTED extern "C" EMSCRIPTEN_KEEPALIVE
-#else
-#define EXPORTED extern "C"
-#endif
 
 namespace {
 

@@ -98,8 +98,8 @@ class Vsplit_table::Descent
 {
 public:
   explicit Descent(const Progressive_mesh& pm)
-    : m_first(pm.number_of_vertices, none), m_last(pm.number_of_vertices, none)
-    , m_next(3 * pm.triangles.size(), none)
+    : m_first(pm.number_of_vertices, no_halfedge), m_last(pm.number_of_vertices, no_halfedge)
+    , m_next(3 * pm.triangles.size(), no_halfedge)
   {
     for(Corner corner = 0; corner < m_next.size(); ++corner)
       append(vertex_of(pm.triangles, corner), corner);
@@ -109,13 +109,13 @@ public:
   template <class IsDead, class Use>
   void take(Vertex_index v, const IsDead& is_dead, const Use& use)
   {
-    Corner next = none;
-    for(Corner corner = m_first[v]; corner != none; corner = next) {
+    Corner next = no_halfedge;
+    for(Corner corner = m_first[v]; corner != no_halfedge; corner = next) {
       next = m_next[corner];
       if(!is_dead(triangle_of(corner)))
         use(corner);
     }
-    m_first[v] = m_last[v] = none;
+    m_first[v] = m_last[v] = no_halfedge;
   }
 
   // Asks for what a later call for v will need: `distance` calls ahead, and half as many.
@@ -128,7 +128,7 @@ public:
     Blocked_execution::prefetch(&m_first[pm.collapses[i + distance].removed]);
     Blocked_execution::prefetch(&m_last[pm.collapses[i + distance].kept]);
     const Corner corner = m_first[pm.collapses[i + distance / 2].removed];
-    if(corner != none) {
+    if(corner != no_halfedge) {
       Blocked_execution::prefetch(&m_next[corner]);
       Blocked_execution::prefetch(&triangles[triangle_of(corner)]);
     }
@@ -138,20 +138,18 @@ public:
   template <class Use>
   void for_each(Vertex_index v, const Use& use) const
   {
-    for(Corner corner = m_first[v]; corner != none; corner = m_next[corner])
+    for(Corner corner = m_first[v]; corner != no_halfedge; corner = m_next[corner])
       use(corner);
   }
 
   void append(Vertex_index v, Corner corner)
   {
-    (m_first[v] == none ? m_first[v] : m_next[m_last[v]]) = corner;
+    (m_first[v] == no_halfedge ? m_first[v] : m_next[m_last[v]]) = corner;
     m_last[v] = corner;
-    m_next[corner] = none;
+    m_next[corner] = no_halfedge;
   }
 
 private:
-  static constexpr Corner none = Corner(-1);
-
   std::vector<Corner> m_first, m_last, m_next;
 };
 

@@ -74,7 +74,7 @@ inline void Progressive_mesh_decoder::set_coordinates(Textured_progressive_mesh&
 inline void Progressive_mesh_decoder::set_collapses(Progressive_mesh& pm) const
 {
   const std::size_t splits = number_of_splits(), missing = number_of_splits_in_file() - splits;
-  const Vertex_index base = header().base.wedges;
+  const Vertex_index base = m_header.base.wedges;
   pm.number_of_vertices = number_of_wedges();
   pm.collapses.resize(splits);
   for(std::size_t i = 0; i < splits; ++i)

@@ -107,16 +107,14 @@ public:
     grown().visit_coordinates(begin, end, use);
   }
 
-protected:
-  const internal::Growing_mesh& grown() const { return m_sections.mesh(); }
-  internal::Growing_mesh take_grown() { return m_sections.take_mesh(); }
-  const internal::File_header& header() const { return m_header; }
-
 private:
+  friend class Progressive_mesh_decoder; // which needs CGAL, as this must not
   enum class Part { HEADER, SECTION_HEADER, SECTION };
 
   static constexpr std::size_t max_splits = internal::splits_per_section + 1; // of a section
 
+  const internal::Growing_mesh& grown() const { return m_sections.mesh(); }
+  internal::Growing_mesh take_grown() { return m_sections.take_mesh(); }
   bool is_over() const { return m_status != Progressive_mesh_file_status::TRUNCATED; }
   void refuse(Progressive_mesh_file_status status) { m_status = status; }
   void expect(Part part, std::size_t size)

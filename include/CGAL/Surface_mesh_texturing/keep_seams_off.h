@@ -18,13 +18,12 @@ namespace Surface_mesh_texturing {
 /// \ingroup PkgHLSCMTexturing
 /// Returns the number of edges inside the surface that are seams of `charts` and marked in `sides`,
 /// at one of their triangles at least, as in `Face_charts::seams`; 0 if arrays differ in length.
-inline std::size_t number_of_seams_on(const std::vector<Triangle_indices>& triangles,
+inline std::size_t number_of_seams_on(const Indexed_mesh::Triangle_adjacency& adjacency,
                                       const Face_charts& charts,
                                       const std::vector<std::uint8_t>& sides)
 {
-  if(sides.size() != triangles.size() || charts.seams.size() != triangles.size())
+  if(3 * sides.size() != adjacency.number_of_halfedges() || charts.seams.size() != sides.size())
     return 0;
-  const Indexed_mesh::Triangle_adjacency adjacency(triangles);
   std::size_t result = 0;
   for(Halfedge h = 0; h < adjacency.number_of_halfedges(); ++h) {
     const Halfedge o = adjacency.opposite(h);
@@ -33,6 +32,17 @@ inline std::size_t number_of_seams_on(const std::vector<Triangle_indices>& trian
       ++result;
   }
   return result;
+}
+
+/// \ingroup PkgHLSCMTexturing
+/// The same without an adjacency at hand.
+inline std::size_t number_of_seams_on(const std::vector<Triangle_indices>& triangles,
+                                      const Face_charts& charts,
+                                      const std::vector<std::uint8_t>& sides)
+{
+  if(sides.size() != triangles.size() || charts.seams.size() != triangles.size())
+    return 0;
+  return number_of_seams_on(Indexed_mesh::Triangle_adjacency(triangles), charts, sides);
 }
 
 namespace internal {
@@ -80,6 +90,37 @@ inline std::vector<std::uint32_t> charts_of_clusters(const Indexed_triangle_mesh
   return result;
 }
 
+// As the public one, of a manifold and as many sides as it has triangles.
+inline Face_charts keep_seams_off(const Indexed_triangle_mesh& mesh,
+                                  const Triangle_adjacency& adjacency, const Face_charts& charts,
+                                  std::vector<std::uint8_t> sides,
+                                  const Straightening_options& straightening,
+                                  const Disk_cut_options& cut)
+{
+  if(!adjacency_error(mesh, adjacency, charts).is_ok())
+    return {};
+  if(number_of_seams_on(adjacency, charts, sides) == 0)
+    return charts;
+  const std::size_t n = mesh.triangles.size();
+  for(Halfedge h = 0; h < 3 * n; ++h)
+    if(is_marked(sides, h) && adjacency.opposite(h) != no_halfedge)
+      mark(sides, adjacency.opposite(h));
+  const std::vector<std::uint32_t> label = charts_of_clusters(mesh, adjacency, charts, sides);
+  std::vector<std::uint8_t> seams(n, 0);
+  for(Halfedge h = 0; h < 3 * n; ++h) {
+    const Halfedge o = adjacency.opposite(h);
+    if(o == no_halfedge)
+      continue;
+    const Triangle_index t = triangle_of(h), u = triangle_of(o);
+    const bool is_cut = charts.is_seam(h) && charts.chart[t] == charts.chart[u]; // within a chart
+    if(label[t] != label[u] || (is_cut && !is_marked(sides, h)))
+      mark(seams, h);
+  }
+  const Face_charts parts = charts_between(adjacency, std::move(seams));
+  const Face_charts disks = cut_to_disks(mesh, adjacency, parts, cut, sides);
+  return straighten_charts(mesh, disks, straightening, sides);
+}
+
 } // namespace internal
 
 /*!
@@ -103,31 +144,10 @@ inline Face_charts keep_seams_off(const Indexed_triangle_mesh& mesh, const Face_
                                   = Straightening_options(),
                                   const Disk_cut_options& cut = Disk_cut_options())
 {
-  if(sides.size() != mesh.triangles.size() || !manifold_error(mesh).empty()
-     || !charts_error(mesh, charts).is_ok())
+  if(sides.size() != mesh.triangles.size() || !manifold_error(mesh).empty())
     return {};
-  if(number_of_seams_on(mesh.triangles, charts, sides) == 0)
-    return charts;
-  const Indexed_mesh::Triangle_adjacency adjacency(mesh.triangles);
-  const std::size_t n = mesh.triangles.size();
-  for(Halfedge h = 0; h < 3 * n; ++h)
-    if(internal::is_marked(sides, h) && adjacency.opposite(h) != no_halfedge)
-      internal::mark(sides, adjacency.opposite(h));
-  const std::vector<std::uint32_t> label
-    = internal::charts_of_clusters(mesh, adjacency, charts, sides);
-  std::vector<std::uint8_t> seams(n, 0);
-  for(Halfedge h = 0; h < 3 * n; ++h) {
-    const Halfedge o = adjacency.opposite(h);
-    if(o == no_halfedge)
-      continue;
-    const Triangle_index t = triangle_of(h), u = triangle_of(o);
-    const bool is_cut = charts.is_seam(h) && charts.chart[t] == charts.chart[u]; // within a chart
-    if(label[t] != label[u] || (is_cut && !internal::is_marked(sides, h)))
-      internal::mark(seams, h);
-  }
-  const Face_charts parts = charts_between(adjacency, std::move(seams));
-  const Face_charts disks = internal::cut_to_disks(mesh, adjacency, parts, cut, sides);
-  return internal::straighten_charts(mesh, disks, straightening, sides);
+  return internal::keep_seams_off(mesh, Indexed_mesh::Triangle_adjacency(mesh.triangles), charts,
+                                  std::move(sides), straightening, cut);
 }
 
 } // namespace Surface_mesh_texturing

@@ -169,10 +169,10 @@ public:
       m_original.triangles, prepared,
       refine_charts(pm, mesh.points, pm.collapses.size(), coarse, m_options.straightening));
     if(!no_seams.empty()) {
-      m_result.charts = keep_seams_off(m_original, m_result.charts, no_seams,
+      const Triangle_adjacency adjacency(m_original.triangles);
+      m_result.charts = keep_seams_off(m_original, adjacency, m_result.charts, no_seams,
                                        m_options.straightening, m_options.cut);
-      m_result.unwanted_seams
-        = number_of_seams_on(m_original.triangles, m_result.charts, no_seams);
+      m_result.unwanted_seams = number_of_seams_on(adjacency, m_result.charts, no_seams);
     }
     m_result.refinement_seconds = m_watch.lap();
     return m_result;

@@ -4,6 +4,8 @@
 // The reader of progressive mesh files for a browser: functions of C around `Progressive_mesh_stream`,
 // which is that of the library. There is one file at a time. Pointers are good until the next push().
 
+#include "exported.h"
+
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh_stream.h>
 
 #include <array>
@@ -11,13 +13,6 @@
 #include <cstdint>
 #include <string>
 #include <vector>
-
-#if defined(__EMSCRIPTEN__)
-#include <emscripten/emscripten.h>
-#define EXPORTED extern "C" EMSCRIPTEN_KEEPALIVE
-#else
-#define EXPORTED extern "C"
-#endif
 
 namespace {
 

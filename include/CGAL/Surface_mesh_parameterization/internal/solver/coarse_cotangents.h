@@ -72,7 +72,6 @@ public:
 
 private:
   typedef Simple_cartesian<double>::Vector_3 Vector;
-  static constexpr std::uint32_t none = std::uint32_t(-1);
 
   struct Gradients // of lambda_1 and lambda_2 in the plane of a coarse triangle
   {
@@ -127,15 +126,15 @@ Coarse_metric::triangle_with(const std::array<std::uint32_t, 3>& corners) const
   const auto has = [](const Triangle_indices& t, std::uint32_t v) {
     return t[0] == v || t[1] == v || t[2] == v;
   };
-  if(corners[0] == none || corners[1] == none || corners[2] == none)
-    return none;
+  if(corners[0] == no_vertex || corners[1] == no_vertex || corners[2] == no_vertex)
+    return no_triangle;
   const auto& at = m_coarse.at;
   for(const std::uint32_t* c = at.begin(corners[0]); c != at.end(corners[0]); ++c) {
     const Triangle_indices& t = m_coarse.mesh.triangles[*c / 3];
     if(has(t, corners[1]) && has(t, corners[2]))
       return *c / 3;
   }
-  return none;
+  return no_triangle;
 }
 
 // The coarse triangle above the fine triangle t: that of two of its vertices if they agree, that of
@@ -147,9 +146,9 @@ Coarse_metric::owner_of(std::uint32_t t, const std::vector<std::uint32_t>& rank,
   const Triangle_indices& v = m_fine.mesh.triangles[t];
   const std::uint32_t a = owner_of_vertex[v[0]], b = owner_of_vertex[v[1]],
                       c = owner_of_vertex[v[2]];
-  const std::uint32_t first = a != none ? a : c, other = b != none ? b : first;
-  const std::uint32_t owner = a != none && (a == b || a == c) ? a : other;
-  return owner != none ? owner : triangle_with({rank[v[0]], rank[v[1]], rank[v[2]]});
+  const std::uint32_t first = a != no_triangle ? a : c, other = b != no_triangle ? b : first;
+  const std::uint32_t owner = a != no_triangle && (a == b || a == c) ? a : other;
+  return owner != no_triangle ? owner : triangle_with({rank[v[0]], rank[v[1]], rank[v[2]]});
 }
 
 inline void Coarse_metric::find_owners(const Prolongation& prolongation,
@@ -157,7 +156,7 @@ inline void Coarse_metric::find_owners(const Prolongation& prolongation,
 {
   const std::vector<std::uint32_t> rank
     = Indexed_mesh::ranks(m_kept, m_fine.mesh.points.size());
-  std::vector<std::uint32_t> owner_of_vertex(rank.size(), none);
+  std::vector<std::uint32_t> owner_of_vertex(rank.size(), no_triangle);
   const auto& stencils = prolongation.stencils();
   Blocked_execution::blocked_for(stencils.size(), 16384, [&](std::size_t begin, std::size_t end) {
     for(std::size_t i = begin; i < end; ++i) {
@@ -174,7 +173,7 @@ inline void Coarse_metric::find_owners(const Prolongation& prolongation,
       owner[t] = owner_of(std::uint32_t(t), rank, owner_of_vertex);
   });
   const auto for_each_owned = [&owner](const auto& use) {
-    for(std::uint32_t t = 0; t < owner.size(); ++t) // `none` is no key
+    for(std::uint32_t t = 0; t < owner.size(); ++t) // `no_triangle` is no key
       use(owner[t], t);
   };
   m_begin = Blocked_execution::sort_by_key(
@@ -221,7 +220,7 @@ inline void Coarse_metric::add(std::uint32_t t, const Gradients& gradients, Sum&
 inline std::uint32_t Coarse_metric::triangle_toward(std::uint32_t v, const Vector& direction) const
 {
   const auto& p = m_fine.mesh.points;
-  std::uint32_t best = none;
+  std::uint32_t best = no_triangle;
   double most = -0.2;
   for(const std::uint32_t* corner = m_fine.at.begin(v); corner != m_fine.at.end(v); ++corner) {
     const Indexed_mesh::Triangle_corner c(*corner);
@@ -263,7 +262,7 @@ inline Half_cotangents Coarse_metric::cotangents() const
           const auto &next = q[v[(c + 1) % 3]], &last = q[v[(c + 2) % 3]];
           const Vector to_middle = ((next - q[v[c]]) + (last - q[v[c]])) / 3.;
           const std::uint32_t at_corner = triangle_toward(m_kept[v[c]], to_middle);
-          if(at_corner != none)
+          if(at_corner != no_triangle)
             add(at_corner, gradients[t - begin], sum);
         }
       }

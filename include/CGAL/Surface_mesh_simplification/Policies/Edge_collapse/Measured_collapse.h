@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_MEASURED_COLLAPSE_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_MEASURED_COLLAPSE_H
 
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Vertex_star.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Vertex_star.h>
 
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/number_utils.h>
@@ -20,10 +20,6 @@
 
 namespace CGAL {
 namespace Surface_mesh_simplification {
-
-// What a collapse does to the star of the vertex that goes, and this star.
-using internal::Collapse_measure;
-using internal::Vertex_star;
 
 #ifdef DOXYGEN_RUNNING
 /// \ingroup PkgHLSCMPolicies

@@ -362,8 +362,7 @@ inline void Texture_atlas_builder::fill()
     report.charts.back().page = atlas.page.back();
   }
   report.texels_per_unit = m_packing.texels_per_unit;
-  report.unwanted_seams
-    = number_of_seams_on(m_mesh.triangles, atlas.charts, m_options.no_seams);
+  report.unwanted_seams = number_of_seams_on(*m_adjacency, atlas.charts, m_options.no_seams);
   report.texel_utilisation = m_packing.texel_utilisation;
   report.seams = measure_seams(m_mesh, *m_adjacency, atlas.charts);
   report.seam_length = report.seams.length;

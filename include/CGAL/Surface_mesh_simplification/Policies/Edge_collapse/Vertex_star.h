@@ -1,8 +1,8 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_VERTEX_STAR_H
-#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_VERTEX_STAR_H
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_VERTEX_STAR_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_VERTEX_STAR_H
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Float_lanes.h>
 
@@ -12,7 +12,6 @@
 
 namespace CGAL {
 namespace Surface_mesh_simplification {
-namespace internal {
 
 // What a halfedge collapse of the centre of a star into one of its ring vertices does to the
 // surface. Lengths are in the star's unit.
@@ -77,6 +76,10 @@ public:
   }
 
 private:
+  typedef internal::Float_lanes Float_lanes;
+  typedef internal::Vector_lanes Vector_lanes;
+
+  static constexpr int lane_count = internal::lane_count;
   static constexpr int max_targets = 2 * lane_count;
   static constexpr int ring_size = max_targets + max_degree; // the last looks max_degree - 1 ahead
   static_assert(max_degree <= max_targets, "each target has a lane");
@@ -85,9 +88,9 @@ private:
   void repeat_ring();
   void load_ring(int at, Vector_lanes& r) const
   {
-    load_lanes(m_x + at, r.x);
-    load_lanes(m_y + at, r.y);
-    load_lanes(m_z + at, r.z);
+    internal::load_lanes(m_x + at, r.x);
+    internal::load_lanes(m_y + at, r.y);
+    internal::load_lanes(m_z + at, r.z);
   }
   void measure_old_triangles(int at, Float_lanes& angles, Float_lanes& least_q2) const;
   void measure_targets(int at);
@@ -102,6 +105,8 @@ private:
   float m_volume[max_targets], m_length[max_targets];
   float m_least_q2[max_targets], m_least_cosine[max_targets];
 };
+
+namespace internal {
 
 // atan(y / x) for y >= 0 in [0, pi], lane by lane: Abramowitz and Stegun 4.4.49 on [0, 1],
 // |error| < 1.2e-5, and reflections.
@@ -123,8 +128,11 @@ inline void lanes_angle(const Float_lanes& y, const Float_lanes& x, Float_lanes&
   select_lanes(x < zero, -p + 3.14159265f, p, angle);
 }
 
+} // namespace internal
+
 inline void Vertex_star::prepare()
 {
+  using namespace internal;
   repeat_ring();
   m_border_area = m_is_border ? area_at_border() : 0.f;
   Float_lanes angles, least_q2;
@@ -153,6 +161,7 @@ inline void Vertex_star::repeat_ring()
 inline void Vertex_star::measure_old_triangles(int at, Float_lanes& angles,
                                                Float_lanes& least_q2) const
 {
+  using namespace internal;
   Vector_lanes r, s, c;
   Float_lanes rr, ss, rs, cc, sine, angle, zero, count;
   load_ring(at, r);
@@ -188,6 +197,7 @@ inline float Vertex_star::area_at_border() const
 // (p, r, s).
 inline void Vertex_star::measure_targets(int at)
 {
+  using namespace internal;
   Vector_lanes t, s, b, c, n;
   Float_lanes bb, ab, cc, nn, tt, tc, nc, size, length;
   load_ring(at, t);
@@ -229,8 +239,7 @@ inline void Vertex_star::measure_targets(int at)
   store_lanes(least_cosine, m_least_cosine + at);
 }
 
-} // namespace internal
 } // namespace Surface_mesh_simplification
 } // namespace CGAL
 
-#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_VERTEX_STAR_H
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_VERTEX_STAR_H
