@@ -20,7 +20,7 @@
 namespace hlscm_python {
 namespace {
 
-namespace SMM = CGAL::Surface_mesh_multigrid;
+namespace SMG = CGAL::Surface_mesh_multigrid;
 
 template <class Value>
 using Array = py::array_t<Value, py::array::c_style | py::array::forcecast>;
@@ -61,10 +61,10 @@ template <class Value>
 class Solver
 {
 public:
-  typedef SMM::Surface_multigrid_solver<Value> Library_solver;
+  typedef SMG::Surface_multigrid_solver<Value> Library_solver;
   typedef std::vector<Value> Vector;
 
-  Solver(std::shared_ptr<const SMM::Surface_hierarchy> hierarchy, unsigned int threads)
+  Solver(std::shared_ptr<const SMG::Surface_hierarchy> hierarchy, unsigned int threads)
     : m_solver(std::move(hierarchy)), m_threads(threads)
   {}
 
@@ -91,7 +91,7 @@ public:
     if(b.ndim() != 2 || x.ndim() != 2 || b.shape(0) != x.shape(0) || b.shape(1) != x.shape(1))
       throw Bad_input(Mesh_status::BAD_OPTIONS, "b and x do not have the same shape");
     std::vector<Vector> sides = columns_of(b), solutions = columns_of(x);
-    std::vector<SMM::Surface_multigrid_report> reports(sides.size());
+    std::vector<SMG::Surface_multigrid_report> reports(sides.size());
     m_solver.options().tolerance = tolerance;
     m_solver.options().maximal_iterations = maximal_iterations;
     run(m_threads, progress, [&](const auto& function) {
@@ -151,12 +151,12 @@ public:
             std::size_t coarsest_size, unsigned int threads, const py::object& progress)
   {
     const Indexed_triangle_mesh mesh = to_mesh(points, triangles);
-    SMM::Surface_hierarchy_options options;
+    SMG::Surface_hierarchy_options options;
     options.ratio = ratio;
     options.coarsest_size = coarsest_size;
     m_levels = run(threads, progress, [&](const auto& function) {
       options.progress = function;
-      return std::make_shared<const SMM::Surface_hierarchy>(mesh, options);
+      return std::make_shared<const SMG::Surface_hierarchy>(mesh, options);
     });
     check(*m_levels);
   }
@@ -169,10 +169,10 @@ public:
     return result;
   }
 
-  const std::shared_ptr<const SMM::Surface_hierarchy>& levels() const { return m_levels; }
+  const std::shared_ptr<const SMG::Surface_hierarchy>& levels() const { return m_levels; }
 
 private:
-  std::shared_ptr<const SMM::Surface_hierarchy> m_levels;
+  std::shared_ptr<const SMG::Surface_hierarchy> m_levels;
 };
 
 template <class Value>
