@@ -111,7 +111,7 @@ def map_chart(hlscm, chart, memory, folder):
 def main():
     if len(sys.argv) < 2 or len(sys.argv) % 2 == 1:
         sys.exit(__doc__)
-    writer = csv.DictWriter(sys.stdout, COLUMNS)
+    writer = csv.DictWriter(sys.stdout, COLUMNS, lineterminator="\n")
     writer.writeheader()
     with tempfile.TemporaryDirectory() as folder:
         charts = list(zip(sys.argv[2::2], sys.argv[3::2]))

@@ -111,7 +111,7 @@ def main():
     parser.add_argument("bin")
     parser.add_argument("series", nargs="*")
     arguments = parser.parse_args()
-    writer = csv.DictWriter(sys.stdout, COLUMNS)
+    writer = csv.DictWriter(sys.stdout, COLUMNS, lineterminator="\n")
     writer.writeheader()
     million = 1000000
     runs = [("weak", "ranks", n, 2 * n * million) for n in (1, 2, 4, 8)]

@@ -29,12 +29,10 @@ using namespace test_support;
 using CGAL::Indexed_mesh::Mesh_outcome;
 using CGAL::Indexed_mesh::Mesh_status;
 
-Indexed_triangle_mesh hills() { return with_hills(irregular_grid(12, 9, 1), 3., 2); }
-
 // Arrays that belong to no mesh of this size: a sentence, or nothing.
 TEST(Bad_arrays, of_another_length_are_not_read)
 {
-  const Indexed_triangle_mesh mesh = hills();
+  const Indexed_triangle_mesh mesh = good_arrays();
   const std::size_t n = mesh.points.size();
   typedef std::vector<CGAL::Simple_cartesian<double>::Point_2> Uv;
   const Uv good(n, Point_2(0., 0.));
@@ -79,7 +77,7 @@ TEST(Bad_arrays, of_another_length_are_not_read)
 TEST(Bad_pins, of_arrays)
 {
   const auto message = [](const std::vector<SMP::HLSCM_pin>& pins) {
-    const SMP::Conformal_map map = SMP::conformal_map(hills(), pins);
+    const SMP::Conformal_map map = SMP::conformal_map(good_arrays(), pins);
     EXPECT_EQ(map.code, SMP::ERROR_WRONG_PARAMETER);
     EXPECT_EQ(map.status, Mesh_status::BAD_OPTIONS);
     EXPECT_TRUE(map.uv.empty());
@@ -98,9 +96,9 @@ TEST(Bad_pins, of_arrays)
 TEST(Pins_of_arrays, are_met_and_give_the_map_of_the_parameterizer)
 {
   const std::vector<SMP::HLSCM_pin> pins = {{3, 0., 0.}, {40, 2., 1.}, {77, -1., 3.}};
-  const SMP::Conformal_map map = SMP::conformal_map(hills(), pins);
+  const SMP::Conformal_map map = SMP::conformal_map(good_arrays(), pins);
   ASSERT_EQ(map.error, "");
-  Surface_mesh mesh = to_surface_mesh(hills());
+  Surface_mesh mesh = to_surface_mesh(good_arrays());
   Pins same;
   for(const SMP::HLSCM_pin& pin : pins) {
     same.push_back({pin.vertex, {pin.u, pin.v}});
@@ -117,7 +115,7 @@ TEST(Chart_of_another_mesh, gives_no_levels)
   SMP::HLSCM_options options;
   options.keep_progressive_mesh = true;
   Parameterizer parameterizer(options);
-  Surface_mesh mesh = to_surface_mesh(hills()), other = to_surface_mesh(grid(2, 2));
+  Surface_mesh mesh = to_surface_mesh(good_arrays()), other = to_surface_mesh(grid(2, 2));
   const Uv_map uvmap = new_uv_map(mesh);
   ASSERT_EQ(parameterizer.parameterize(mesh, border_halfedge(mesh), uvmap), SMP::OK);
   const SMP::Chart_progressive_mesh& chart = parameterizer.progressive_mesh();

@@ -61,8 +61,6 @@ struct Input
   std::string named; // what the sentence must name
 };
 
-Indexed_triangle_mesh hills() { return with_hills(irregular_grid(12, 9, 1), 3., 2); }
-
 Indexed_triangle_mesh with_triangle(Indexed_triangle_mesh mesh, const Triangle_indices& t)
 {
   mesh.triangles[7] = t;
@@ -79,23 +77,23 @@ Indexed_triangle_mesh in_one_point(Indexed_triangle_mesh mesh)
 std::vector<Input> bad_inputs()
 {
   std::vector<Input> result;
-  for(const auto& [name, mesh] : bad_arrays(hills())) {
+  for(const auto& [name, mesh] : bad_arrays(good_arrays())) {
     const bool is_empty = mesh.triangles.empty();
     const bool is_of_points = name == "NaN" || name == "infinite";
     result.push_back({name, mesh, is_empty ? Border::NONE : Border::ITS_OWN, Needs::ARRAYS,
                       is_empty ? "" : is_of_points ? "vertex 5 " : "triangle 7 "});
   }
-  const Triangle_indices first = hills().triangles[0];
+  const Triangle_indices first = good_arrays().triangles[0];
   const std::vector<Input> others = {
-    {"vertex twice", with_triangle(hills(), {first[0], first[1], first[1]}), Border::ITS_OWN,
+    {"vertex twice", with_triangle(good_arrays(), {first[0], first[1], first[1]}), Border::ITS_OWN,
      Needs::TRIANGLES, ""},
-    {"triangle twice", with_triangle(hills(), first), Border::ITS_OWN, Needs::SURFACE, "vertex "},
-    {"all in one point", in_one_point(hills()), Border::ITS_OWN, Needs::SURFACE, ""},
+    {"triangle twice", with_triangle(good_arrays(), first), Border::ITS_OWN, Needs::SURFACE, "vertex "},
+    {"all in one point", in_one_point(good_arrays()), Border::ITS_OWN, Needs::SURFACE, ""},
     {"closed, null halfedge", sphere(2), Border::NONE, Needs::CHART, ""},
     {"closed, some halfedge", sphere(2), Border::INSIDE, Needs::CHART, ""},
-    {"null halfedge", hills(), Border::NONE, Needs::CHART, ""},
-    {"halfedge inside", hills(), Border::INSIDE, Needs::CHART, ""},
-    {"halfedge of a larger mesh", hills(), Border::FOREIGN, Needs::CHART, ""},
+    {"null halfedge", good_arrays(), Border::NONE, Needs::CHART, ""},
+    {"halfedge inside", good_arrays(), Border::INSIDE, Needs::CHART, ""},
+    {"halfedge of a larger mesh", good_arrays(), Border::FOREIGN, Needs::CHART, ""},
     {"genus 1", with_holes(torus(20, 10), 2, 1), Border::ITS_OWN, Needs::CHART, ""}};
   result.insert(result.end(), others.begin(), others.end());
   return result;
@@ -478,7 +476,7 @@ TYPED_TEST(Bad_input, gives_an_error_and_a_sentence)
 // So that the doors are not simply shut.
 TYPED_TEST(Bad_input, is_not_seen_in_a_good_one)
 {
-  EXPECT_EQ(TypeParam::what_is_wrong({"good", hills(), Border::ITS_OWN, Needs::CHART, ""}), "");
+  EXPECT_EQ(TypeParam::what_is_wrong({"good", good_arrays(), Border::ITS_OWN, Needs::CHART, ""}), "");
 }
 
 } // namespace bad_input_test

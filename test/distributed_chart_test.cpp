@@ -107,7 +107,7 @@ void test_against_memory(SMP::Conformal_method method)
         continue;
       SCOPED_TRACE(std::to_string(block) + " vertices a block, in memory "
                    + std::to_string(gathered));
-      Options options = options_of(block, gathered, chart.tolerance);
+      Options options = very_large_options(block, gathered, chart.tolerance);
       options.solver.method = method;
       const Mapped found = map(mesh, options);
       const Report& report = found.report;
@@ -150,7 +150,7 @@ TEST(Distributed_chart, is_that_in_memory_without_pins)
 TEST(Distributed_chart, leaves_a_plane_as_it_is_without_pins)
 {
   const Indexed_triangle_mesh mesh = shuffled(irregular_grid(50, 30, 4), 3);
-  Options options = options_of(300, 400, 1e-6);
+  Options options = very_large_options(300, 400, 1e-6);
   options.solver.method = SMP::Conformal_method::SPECTRAL;
   const Mapped found = map(mesh, options);
   ASSERT_EQ(found.report.error, SMP::OK) << found.report.message;
@@ -186,7 +186,7 @@ void count_iterations(SMP::Conformal_method method)
     const double least = measured(best.uv, best.map.report.energy);
     for(const double tolerance : {1e-2, 1e-4}) {
       SCOPED_TRACE(tolerance);
-      Options options = options_of(n / 5, n / 20, tolerance);
+      Options options = very_large_options(n / 5, n / 20, tolerance);
       options.solver.method = method;
       const Mapped found = map(mesh, options);
       ASSERT_EQ(found.report.error, SMP::OK) << found.report.message;
@@ -214,7 +214,7 @@ TEST(Distributed_chart, is_the_same_for_any_number_of_ranks)
 {
   const Indexed_triangle_mesh mesh = shuffled(with_noise(irregular_grid(90, 70, 4), 0.2, 5), 8);
   for(const auto method : {SMP::Conformal_method::HLSCM, SMP::Conformal_method::SPECTRAL}) {
-    Options options = options_of(700, 300, 1e-9);
+    Options options = very_large_options(700, 300, 1e-9);
     options.solver.method = method;
     const Mapped alone = map(mesh, options, MPI_COMM_SELF), together = map(mesh, options);
     ASSERT_EQ(together.report.error, SMP::OK) << together.report.message;
@@ -233,7 +233,7 @@ TEST(Distributed_chart, is_the_same_for_any_number_of_ranks)
 TEST(Distributed_chart, is_refused_in_a_sentence)
 {
   const auto message = [](const Indexed_triangle_mesh& mesh) {
-    const Mapped mapped = map(mesh, options_of(200, 100, 1e-2));
+    const Mapped mapped = map(mesh, very_large_options(200, 100, 1e-2));
     EXPECT_NE(mapped.report.error, SMP::OK);
     return mapped.report.message;
   };
@@ -256,10 +256,10 @@ TEST(Distributed_chart, is_refused_in_a_sentence)
   EXPECT_TRUE(contains(message(mesh), "all edges are without length"));
   EXPECT_TRUE(contains(message(Indexed_triangle_mesh()), "no faces"));
   EXPECT_TRUE(contains(message(bipyramid(8)), "closed"));
-  Options direct = options_of(200, 100, 1e-2);
+  Options direct = very_large_options(200, 100, 1e-2);
   direct.solver.method = SMP::Conformal_method::DIRECT;
   EXPECT_TRUE(contains(map(grid(9, 9), direct).report.message, "needs the whole chart in memory"));
-  Options impossible = options_of(200, 100, 0.);
+  Options impossible = very_large_options(200, 100, 0.);
   EXPECT_TRUE(contains(map(grid(9, 9), impossible).report.message, "tolerance must be positive"));
 }
 
@@ -267,9 +267,9 @@ TEST(Distributed_chart, is_refused_in_a_sentence)
 TEST(Distributed_chart, takes_what_ranks_have)
 {
   Indexed_triangle_mesh mesh = grid(30, 30);
-  const Mapped whole = map(mesh, options_of(200, 100, 1e-8));
+  const Mapped whole = map(mesh, very_large_options(200, 100, 1e-8));
   mesh.points.push_back(Point_3(100., 0., 0.));
-  const Mapped with_one_more = map(mesh, options_of(200, 100, 1e-8));
+  const Mapped with_one_more = map(mesh, very_large_options(200, 100, 1e-8));
   ASSERT_EQ(with_one_more.report.error, SMP::OK) << with_one_more.report.message;
   EXPECT_EQ(with_one_more.uv.back(), (std::array<double, 2>{0., 0.}));
   Uv uv;
@@ -277,7 +277,7 @@ TEST(Distributed_chart, takes_what_ranks_have)
   if(rank_in(MPI_COMM_WORLD) == 0)
     chart = part_of(grid(30, 30), MPI_COMM_SELF);
   const Report report
-    = SMP::map_distributed_chart(MPI_COMM_WORLD, chart, uv, options_of(200, 100, 1e-8));
+    = SMP::map_distributed_chart(MPI_COMM_WORLD, chart, uv, very_large_options(200, 100, 1e-8));
   ASSERT_EQ(report.error, SMP::OK) << report.message;
   EXPECT_LT(difference(all_of(uv, MPI_COMM_WORLD), whole.uv), 1e-6);
 }
@@ -285,7 +285,7 @@ TEST(Distributed_chart, takes_what_ranks_have)
 TEST(Distributed_chart, stops_when_it_is_told_to)
 {
   for(int calls : {0, 2, 5}) {
-    Options options = options_of(200, 100, 1e-8);
+    Options options = very_large_options(200, 100, 1e-8);
     options.solver.progress = [&calls](double) {
       return rank_in(MPI_COMM_WORLD) != 0 || calls-- > 0;
     };
@@ -298,7 +298,7 @@ TEST(Distributed_chart, stops_when_it_is_told_to)
 // What is thrown by the caller's function is thrown to the caller; the others end, too.
 TEST(Distributed_chart, passes_on_what_progress_throws)
 {
-  Options options = options_of(200, 100, 1e-8);
+  Options options = very_large_options(200, 100, 1e-8);
   options.solver.progress = [](double part) -> bool {
     if(part > 0.5)
       throw std::string("enough");
@@ -327,7 +327,7 @@ int map_in(const std::string& folder, int killing_call, int killed_rank)
   const pid_t own = getpid(); // ranks of one machine
   MPI_Allgather(&own, sizeof(own), MPI_BYTE, processes.data(), sizeof(own), MPI_BYTE,
                 MPI_COMM_WORLD);
-  Options options = options_of(500, 200, 1e-6);
+  Options options = very_large_options(500, 200, 1e-6);
   options.work_folder = folder + "/work";
   options.resumes = true; // if there is something
   int calls = 0;

@@ -70,7 +70,7 @@ TEST_F(Distributed_file, is_written_as_out_of_core)
 {
   const Indexed_triangle_mesh mesh = shuffled(with_noise(irregular_grid(90, 70, 4), 0.2, 5), 8);
   write(mesh);
-  Options options = options_of(700, 300, 1e-9);
+  Options options = very_large_options(700, 300, 1e-9);
   const Report report = map_file(options);
   ASSERT_EQ(report.error, SMP::OK) << report.message;
   if(rank_in(MPI_COMM_WORLD) != 0) {
@@ -101,13 +101,13 @@ TEST_F(Distributed_file, is_refused_by_all_ranks)
   Indexed_triangle_mesh mesh = grid(20, 20);
   mesh.points[395] = Point_3(0., std::numeric_limits<double>::quiet_NaN(), 0.); // of the last rank
   write(mesh);
-  const Report report = map_file(options_of(200, 100, 1e-2));
+  const Report report = map_file(very_large_options(200, 100, 1e-2));
   EXPECT_EQ(report.message,
             "vertex 395 has a coordinate that is not a finite number");
   EXPECT_EQ(output, "");
   const std::filesystem::path missing = folder / "missing.ply";
   const Report none = SMP::map_distributed_chart(
-    MPI_COMM_WORLD, missing.string(), [](std::string_view) {}, options_of(200, 100, 1e-2));
+    MPI_COMM_WORLD, missing.string(), [](std::string_view) {}, very_large_options(200, 100, 1e-2));
   EXPECT_NE(none.error, SMP::OK);
   EXPECT_NE(none.message.find("missing.ply"), std::string::npos) << none.message;
 }
@@ -121,7 +121,7 @@ TEST_F(Distributed_file, is_the_same_on_all_ranks)
   output.clear();
   const Report report = SMP::map_distributed_chart(
     MPI_COMM_WORLD, own, [this](std::string_view bytes) { output += bytes; },
-    options_of(200, 100, 1e-2));
+    very_large_options(200, 100, 1e-2));
   EXPECT_EQ(report.message, last == 0 ? "" : "the ranks have different files of this name");
   EXPECT_EQ(output.empty(), last > 0);
 }
@@ -132,7 +132,7 @@ TEST_F(Distributed_file, says_that_there_is_no_room)
 {
   const Indexed_triangle_mesh mesh = shuffled(with_noise(irregular_grid(60, 50, 4), 0.2, 5), 8);
   write(mesh);
-  Options options = options_of(500, 200, 1e-6);
+  Options options = very_large_options(500, 200, 1e-6);
   options.work_folder = (folder / "work").string();
   const bool is_first = rank_in(MPI_COMM_WORLD) == 0; // of many, the last ones may have nothing
   rlimit old;
@@ -156,7 +156,7 @@ TEST_F(Distributed_file, says_that_it_cannot_be_written)
 {
   write(grid(20, 20));
   const auto fail = [](std::string_view) { throw std::string("full"); };
-  const Options options = options_of(200, 100, 1e-2);
+  const Options options = very_large_options(200, 100, 1e-2);
   if(rank_in(MPI_COMM_WORLD) == 0)
     EXPECT_THROW(SMP::map_distributed_chart(MPI_COMM_WORLD, input(), fail, options), std::string);
   else
@@ -169,7 +169,7 @@ TEST_F(Distributed_file, is_resumed)
 {
   const Indexed_triangle_mesh mesh = shuffled(with_noise(irregular_grid(60, 50, 4), 0.2, 5), 8);
   write(mesh);
-  Options options = options_of(500, 200, 1e-6);
+  Options options = very_large_options(500, 200, 1e-6);
   options.work_folder = (folder / "work").string();
   const std::filesystem::path own
     = folder / "work" / ("rank" + std::to_string(rank_in(MPI_COMM_WORLD)));
@@ -220,7 +220,7 @@ TEST_F(Distributed_file, sees_what_changed_before_it_goes_on)
 {
   Indexed_triangle_mesh mesh = grid(40, 40);
   write(mesh);
-  Options options = options_of(300, 150, 1e-6);
+  Options options = very_large_options(300, 150, 1e-6);
   options.work_folder = (folder / "work").string();
   const auto stop = [&] {
     options.resumes = false;

@@ -14,6 +14,9 @@
 
 namespace test_support {
 
+// A mesh that every function takes.
+inline Indexed_triangle_mesh good_arrays() { return with_hills(irregular_grid(12, 9, 1), 3., 2); }
+
 // What a good mesh of more than 8 vertices and triangles becomes with one thing wrong. Where it is one
 // element, that is vertex 5 or triangle 7.
 inline std::vector<Named_mesh> bad_arrays(const Indexed_triangle_mesh& good)

@@ -6,7 +6,7 @@
 
 // Maps by all ranks of MPI of charts that each of them knows.
 
-#include <support/chart_generators.h>
+#include <support/very_large_charts.h>
 
 #include <CGAL/Surface_mesh_parameterization/map_distributed_chart.h>
 
@@ -65,17 +65,6 @@ inline Uv all_of(const Uv& own, MPI_Comm comm)
   return result;
 }
 
-inline Options options_of(std::size_t block, std::size_t gathered, double tolerance)
-{
-  Options result;
-  result.block_vertices = block;
-  result.gathered_vertices = gathered;
-  result.solver.tolerance = tolerance;
-  result.solver.coarsest_size = 200;
-  result.solver.threads = 1;
-  return result;
-}
-
 struct Mapped
 {
   Report report;
@@ -83,7 +72,7 @@ struct Mapped
 };
 
 inline Mapped map(const Indexed_triangle_mesh& mesh, const Options& options,
-           MPI_Comm comm = MPI_COMM_WORLD)
+                  MPI_Comm comm = MPI_COMM_WORLD)
 {
   Mapped result;
   Uv own;

@@ -6,7 +6,7 @@
 
 #include <support/chart_generators.h>
 
-#include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
+#include <CGAL/Surface_mesh_parameterization/Very_large_chart_options.h>
 
 #include <cmath>
 #include <cstddef>
@@ -29,6 +29,19 @@ struct Very_large_chart_case
   // Vertices of a block at most, and of what is in memory
   std::vector<std::pair<std::size_t, std::size_t>> sizes;
 };
+
+// Blocks of so many vertices; levels of no more than `gathered` are taken into memory.
+inline CGAL::Surface_mesh_parameterization::Very_large_chart_options
+very_large_options(std::size_t block, std::size_t gathered, double tolerance)
+{
+  CGAL::Surface_mesh_parameterization::Very_large_chart_options result;
+  result.block_vertices = block;
+  result.gathered_vertices = gathered;
+  result.solver.tolerance = tolerance;
+  result.solver.coarsest_size = 200;
+  result.solver.threads = 1;
+  return result;
+}
 
 // A strip of so many squares on a spiral with three turns.
 inline Indexed_triangle_mesh spiral(Vertex_index n, Vertex_index width)

@@ -4,6 +4,8 @@
 #ifndef HLSCM_TEST_SUPPORT_VERY_LARGE_RUNS_H
 #define HLSCM_TEST_SUPPORT_VERY_LARGE_RUNS_H
 
+#include <support/very_large_charts.h>
+
 #include <CGAL/Surface_mesh_parameterization/map_very_large_chart.h>
 
 #include <gtest/gtest.h>
@@ -34,15 +36,9 @@ protected:
   std::string input() const { return (folder / "in.ply").string(); }
   std::string work() const { return (folder / "work").string(); }
 
-  // Blocks of so many vertices; levels of no more than `gathered` are taken into memory.
   Options options(std::size_t block, std::size_t gathered, double tolerance) const
   {
-    Options result;
-    result.block_vertices = block;
-    result.gathered_vertices = gathered;
-    result.solver.tolerance = tolerance;
-    result.solver.coarsest_size = 200;
-    result.solver.threads = 1;
+    Options result = very_large_options(block, gathered, tolerance);
     result.work_folder = work();
     return result;
   }

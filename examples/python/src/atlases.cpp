@@ -269,7 +269,7 @@ SMT::Texture_atlas_result build(const Indexed_triangle_mesh& mesh, const Atlas_r
 
 // To Python
 
-py::dict dict_of(const SMT::Texture_atlas_report& report)
+py::dict to_dict(const SMT::Texture_atlas_report& report)
 {
   py::dict d, distortion;
   py::list charts;
@@ -308,11 +308,11 @@ py::dict dict_of(const SMT::Texture_atlas_report& report)
   return d;
 }
 
-py::dict dict_of(SMT::Texture_atlas_result& result)
+py::dict to_dict(SMT::Texture_atlas_result& result)
 {
   SMT::Texture_atlas& made = result.atlas;
   py::dict d;
-  d["report"] = dict_of(result.report);
+  d["report"] = to_dict(result.report);
   d["report"]["axis_parallel"] = SMT::axis_parallel_part(made);
   d["vmapping"] = to_array(SMT::vertices_of_wedges(made.mesh));
   if(!made.source_triangle.empty()) { // faces are cut: the surface is another one
@@ -342,7 +342,7 @@ py::dict atlas(const py::array& points, const py::array& triangles, const py::di
     return build(mesh, request, parts);
   });
   check(result);
-  py::dict d = dict_of(result);
+  py::dict d = to_dict(result);
   if(request.is_stacked || request.is_symmetric) {
     d["report"]["components"] = parts.number_of_parts;
     d["report"]["copies"] = parts.copies;
@@ -371,7 +371,7 @@ py::dict repack(const Textured_arrays& arrays, const py::dict& options, unsigned
                  + face(result.chart_between_sets->second)
                  + " are in one chart, but on different pages by separate";
   check(result);
-  py::dict d = dict_of(result);
+  py::dict d = to_dict(result);
   py::list defects;
   for(const SMT::Texture_defect& defect : result.defects)
     defects.append(SMT::sentence_on(defect, face));

@@ -75,7 +75,7 @@ py::tuple parameterize(const py::array& points, const py::array& triangles, bool
                 : SMP::conformal_map(std::move(mesh), options);
   });
   check(map);
-  return py::make_tuple(to_array(std::move(map.uv)), to_dict(map.report));
+  return py::make_tuple(to_array(std::move(map.uv)), hlscm_python::to_dict(map.report));
 }
 
 py::tuple unwrap(const py::array& points, const py::array& triangles, const Numbers& pinned,
@@ -94,7 +94,7 @@ py::tuple unwrap(const py::array& points, const py::array& triangles, const Numb
   check(map);
   py::list components;
   for(const SMT::Mapped_component& component : map.components) {
-    py::dict part = to_dict(component.report);
+    py::dict part = hlscm_python::to_dict(component.report);
     part["faces"] = component.faces;
     part["borders"] = component.borders;
     part["genus"] = component.genus;
@@ -158,7 +158,7 @@ py::tuple low_stretch(const py::array& points, const py::array& triangles, const
     return map_with(kind, std::move(mesh), options);
   });
   check(map);
-  return py::make_tuple(to_array(std::move(map.uv)), to_dict(map.report));
+  return py::make_tuple(to_array(std::move(map.uv)), hlscm_python::to_dict(map.report));
 }
 
 /// Keeps a low-stretch map up to date while pins are dragged.
@@ -212,7 +212,7 @@ public:
       return result;
     });
     check(m_map->outcome());
-    return to_dict(m_map->report());
+    return hlscm_python::to_dict(m_map->report());
   }
 
   py::array uv()

@@ -104,8 +104,8 @@ class Same_as_program(unittest.TestCase):
                  ({"resolution": 300, "padding": 5, "method": "spectral"},
                   ("--texture", "300", "--padding", "5", "--method", "spectral")),
                  ({"align": True, "packer": "horizon"}, ("--align", "--packer", "horizon")),
-                 ({"seam_price": np.inf, "min_used": 0.7, "area_scale": 2., "resolution": 256},
-                  ("--seam-price", "inf", "--min-used", "70", "--max-area-scale", "2", "--texture", "256")),
+                 ({"seam_price": np.inf, "min_used": 0.85, "area_scale": 2., "resolution": 256},
+                  ("--seam-price", "inf", "--min-used", "85", "--max-area-scale", "2", "--texture", "256")),
                  ({"stack": True}, ("--stack",)),
                  ({"symmetric": True, "stack": True}, ("--symmetric", "--stack")),
                  ({"symmetric": True, "align": True}, ("--symmetric", "--align")))
