@@ -66,6 +66,7 @@ void add_solver_options(CLI::App& app, Program_options& options, const std::stri
   app.parse_complete_callback([&options, &app] {
     options.is_method_given = app.count("--method") > 0;
     options.is_tolerance_given = app.count("--tolerance") > 0;
+    options.is_angular_defect_given = app.count("--angular-defect") > 0;
     options.library.method = options.method.value_or(SMP::Conformal_method::HLSCM);
   });
   add_choice<SMP::Conformal_weights>(
@@ -94,7 +95,8 @@ void add_solver_options(CLI::App& app, Program_options& options, const std::stri
                  "give up after that many on the finest level (default 500, lscm 100000)")
       ->check(CLI::Range(std::size_t(1), std::size_t(1000000000), "N"));
   add_number(app, "--angular-defect", 0, 360, o.angular_defect_bound,
-             "keep vertices that are more pointed than that many degrees (default 70)");
+             "keep vertices that are more pointed than that many degrees (default 70; with "
+             "--memory 360, all may go)");
   add_choice<Engine>(
       app, "--engine",
       {{"flat", Engine::FLAT}, {"flat-strict", Engine::FLAT_STRICT}, {"cgal", Engine::CGAL}},

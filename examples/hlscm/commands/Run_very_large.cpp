@@ -96,7 +96,11 @@ int run_very_large(const Program_options& options)
   Output_file& output = files.create(options.output);
 
   SMP::Very_large_chart_options library;
+  const double angular_defect_bound = options.is_angular_defect_given
+                                          ? options.library.angular_defect_bound
+                                          : library.solver.angular_defect_bound;
   library.solver = options.library;
+  library.solver.angular_defect_bound = angular_defect_bound;
   library.solver.progress = [&progress](double part) { return progress.try_advance(part); };
   library.memory = options.memory;
   library.work_folder = work_folder_of(options);

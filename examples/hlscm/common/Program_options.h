@@ -128,6 +128,7 @@ struct Program_options
   CGAL::Surface_mesh_parameterization::HLSCM_options library;
   bool is_method_given = false; ///< by the user, in `library`
   bool is_tolerance_given = false; ///< the same
+  bool is_angular_defect_given = false; ///< the same
   /// That in `library`; none: with low stretch
   std::optional<CGAL::Surface_mesh_parameterization::Conformal_method> method
       = CGAL::Surface_mesh_parameterization::Conformal_method::HLSCM;

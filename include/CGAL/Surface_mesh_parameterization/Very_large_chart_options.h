@@ -21,6 +21,10 @@ struct Very_large_chart_report;
 /// The options of `map_very_large_chart()`.
 struct Very_large_chart_options
 {
+  /// Vertices may go whatever their angular defect: so many are pointed by noise alone where there are
+  /// very many vertices that coarse levels would consist of them.
+  Very_large_chart_options() { solver.angular_defect_bound = 360.; }
+
   /// What the solver is told: `method`, `HLSCM` or `SPECTRAL`, `tolerance`, `uv_tolerance`,
   /// `maximal_iterations`, `level_ratio`, `coarsest_size`, `angular_defect_bound`, `threads` and
   /// `progress`; others do not count.

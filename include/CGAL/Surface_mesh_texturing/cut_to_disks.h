@@ -297,6 +297,16 @@ inline Face_charts cut_to_disks(const Indexed_triangle_mesh& mesh,
                     [](const Chart_topology& topology) { return !topology.is_disk(); });
 }
 
+// None if the charts are not those of the mesh.
+inline Face_charts checked_disks(const Indexed_triangle_mesh& mesh,
+                                 const Triangle_adjacency& adjacency, Face_charts charts,
+                                 const Disk_cut_options& options)
+{
+  if(!adjacency_error(mesh, adjacency, charts).is_ok())
+    return {};
+  return cut_to_disks(mesh, adjacency, std::move(charts), options, {});
+}
+
 } // namespace internal
 
 /*!
@@ -314,10 +324,24 @@ inline Face_charts cut_to_disks(const Indexed_triangle_mesh& mesh, Face_charts c
 {
   if(!surface_error(mesh).empty())
     return {};
-  const Indexed_mesh::Triangle_adjacency adjacency(mesh.triangles);
-  if(!internal::adjacency_error(mesh, adjacency, charts).is_ok())
+  return internal::checked_disks(mesh, Indexed_mesh::Triangle_adjacency(mesh.triangles),
+                                 std::move(charts), options);
+}
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+Returns the charts between seams, marked as in `Face_charts::seams`, each cut to one disk as by
+`cut_to_disks()`. None if there is a `charts_error()`.
+*/
+inline Face_charts disks_between(const Indexed_triangle_mesh& mesh, std::vector<std::uint8_t> seams,
+                                 const Disk_cut_options& options = Disk_cut_options())
+{
+  if(!surface_error(mesh).empty() || seams.size() != mesh.triangles.size())
     return {};
-  return internal::cut_to_disks(mesh, adjacency, std::move(charts), options, {});
+  const Indexed_mesh::Triangle_adjacency adjacency(mesh.triangles);
+  return internal::checked_disks(mesh, adjacency, charts_between(adjacency, std::move(seams)),
+                                 options);
 }
 
 /*!
@@ -330,9 +354,7 @@ if there is a `charts_error()`.
 inline Face_charts one_disk_per_component(const Indexed_triangle_mesh& mesh,
                                           const Disk_cut_options& options = Disk_cut_options())
 {
-  return cut_to_disks(
-    mesh, charts_between(mesh.triangles, std::vector<std::uint8_t>(mesh.triangles.size())),
-    options);
+  return disks_between(mesh, std::vector<std::uint8_t>(mesh.triangles.size()), options);
 }
 
 } // namespace Surface_mesh_texturing

@@ -78,7 +78,7 @@ public:
   // Sets u to an approximate solution of H u = f by two steps of the flexible conjugate gradient
   // method, one if it has brought the residual to a quarter: the level below the finest one of a
   // K-cycle. Entries of f at pins do not count.
-  void correct(const std::vector<std::complex<float>>& f, std::vector<std::complex<float>>& u);
+  void correct(const std::vector<std::complex<float>>& f, Vector& u);
 
   // Those of the preconditioner; of a map without pins one may be less, after `map()`.
   std::size_t number_of_pins() const { return m_pins.size(); }
@@ -195,9 +195,10 @@ Gathered_hierarchy::free_coarsest(double tolerance, const Observe& observe, Vect
 }
 
 inline void Gathered_hierarchy::correct(const std::vector<std::complex<float>>& f,
-                                        std::vector<std::complex<float>>& u)
+                                        Vector& u)
 {
-  Vector right(f.begin(), f.end()), x(f.size(), 0.);
+  Vector right(f.begin(), f.end());
+  u.assign(f.size(), 0.);
   for(const Pin& pin : m_pins)
     right[pin.vertex] = 0.;
   Multigrid::Energy_stop stop;
@@ -208,9 +209,8 @@ inline void Gathered_hierarchy::correct(const std::vector<std::complex<float>>& 
     m_hierarchy.precondition(finest(), Multigrid::Schedule(), r, z);
   };
   if(stop.residual_tolerance > 0.)
-    Multigrid::minimize_energy(m_hierarchy.finest().matrix, right, x, precondition, stop,
+    Multigrid::minimize_energy(m_hierarchy.finest().matrix, right, u, precondition, stop,
                                [](double) { return true; });
-  u.assign(x.begin(), x.end());
 }
 
 } // namespace internal

@@ -13,7 +13,6 @@
 #include <cmath>
 #include <complex>
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -52,18 +51,14 @@ struct Streamed_level
 
   // Calls `use(i, value)` for all rows with what vertex i gets of a coarse vector, and
   // `release(begin, end)` for what was used.
-  template <class Value, class Use, class Release>
-  void prolong(const Value* coarse, const Use& use, const Release& release) const
+  template <class Use, class Release>
+  void prolong(const std::complex<double>* coarse, const Use& use, const Release& release) const
   {
-    typedef typename Value::value_type Real;
     stream_rows(
       size(),
       [&](std::size_t begin, std::size_t end) {
-        for(std::size_t i = begin; i < end; ++i) {
-          const Streamed_stencil& s = stencils[i];
-          use(i, Real(s.weight[0]) * coarse[s.source[0]] + Real(s.weight[1]) * coarse[s.source[1]]
-                   + Real(s.weight[2]) * coarse[s.source[2]]);
-        }
+        for(std::size_t i = begin; i < end; ++i)
+          use(i, stencils[i].mean(coarse));
       },
       [&](std::size_t begin, std::size_t end) {
         stencils.release(begin, end);
@@ -76,25 +71,31 @@ struct Streamed_level
 // memory. As `Multigrid_levels`, with the same smoother, but each pass over the rows of a level
 // does all that can be done in it.
 //
+// Solutions are not rounded: smooth ones, all but holomorphic, have so little energy, in proportion to
+// 1 / n^2 for n vertices, that beyond some 10 million vertices the energy of what rounding adds to them
+// would be more, and no step along them would go far.
+//
 // A model of `MultigridLevels`.
 class Streamed_levels
 {
 public:
   typedef Mapped_array<Rounded> Vector;
+  typedef std::complex<double> Complex;
+  typedef Mapped_array<Complex> Solution;
 
   Streamed_levels(Work_folder& folder, std::vector<Streamed_level>& levels,
                   Gathered_hierarchy& gathered)
-    : m_gathered(gathered)
+    : m_folder(folder), m_gathered(gathered)
   {
     for(Streamed_level& level : levels)
-      m_levels.push_back(make_level(folder, level, m_levels.size() + 1));
+      m_levels.push_back(make_level(level, m_levels.size() + 1));
     m_coarsest_f.resize(gathered.size());
     m_coarsest_u.resize(gathered.size());
   }
 
   // The right-hand side and, after a cycle, the solution of a level from 1 on.
   Vector& right_side(std::size_t l) { return at(l).f; }
-  Vector& solution(std::size_t l) { return at(l).u; }
+  Solution& solution(std::size_t l) { return at(l).u; }
   void start_at_zero(std::size_t l) { at(l).is_zero = true; }
 
   // The operations of `Multigrid::cycle()`.
@@ -109,26 +110,29 @@ private:
   struct Level
   {
     Streamed_level* files = nullptr;
-    Vector u, f, r, z, next;  // of the system; residual; the last step of the smoother, the next
-    bool is_zero = true;      // u is 0, whatever is stored
-    bool has_step = false;    // r - H z is f - H u
-    std::vector<std::pair<Vector, Vector>> directions; // and H times them; for the accelerator
-    Vector x;
-    std::function<Vector(const std::string&)> create;
+    Solution u;
+    Vector f, r, z, next;  // right-hand side; residual; the last step of the smoother, the next
+    bool is_zero = true;   // u is 0, whatever is stored
+    bool has_step = false; // r - H z is f - H u
+    std::vector<std::pair<Solution, Vector>> directions; // and H times them; for the accelerator
+    Solution x;
   };
 
-  Level make_level(Work_folder& folder, Streamed_level& files, std::size_t l)
+  template <class T>
+  Mapped_array<T> create(std::size_t l, std::size_t n, const std::string& name)
   {
+    return m_folder.create_scratch<T>("cycle" + std::to_string(l) + "_" + name, n);
+  }
+  Level make_level(Streamed_level& files, std::size_t l)
+  {
+    const std::size_t n = files.size();
     Level level;
     level.files = &files;
-    level.create = [&folder, &files, l](const std::string& name) {
-      return folder.create_scratch<Rounded>("cycle" + std::to_string(l) + "_" + name, files.size());
-    };
-    level.u = level.create("u");
-    level.f = level.create("f");
-    level.r = level.create("r");
-    level.z = level.create("z");
-    level.next = level.create("next");
+    level.u = create<Complex>(l, n, "u");
+    level.f = create<Rounded>(l, n, "f");
+    level.r = create<Rounded>(l, n, "r");
+    level.z = create<Rounded>(l, n, "z");
+    level.next = create<Rounded>(l, n, "next");
     return level;
   }
 
@@ -138,7 +142,8 @@ private:
   static void release(const Level& level, std::size_t begin, std::size_t end)
   {
     level.files->matrix.release(begin, end);
-    for(const Vector* vector : {&level.u, &level.f, &level.r, &level.z, &level.next})
+    level.u.release_passed(begin, end);
+    for(const Vector* vector : {&level.f, &level.r, &level.z, &level.next})
       vector->release_passed(begin, end);
   }
 
@@ -150,24 +155,27 @@ private:
     });
   }
 
-  static void clear_pins(const Level& level, const Vector& x)
+  template <class Values>
+  static void clear_pins(const Level& level, const Values& x)
   {
     for(const std::uint32_t pin : level.files->pins)
       x[pin] = 0.f;
   }
 
-  static std::complex<double> product(const Vector& x, const Vector& y)
+  template <class X, class Y>
+  static Complex product(const X& x, const Y& y)
   {
-    return sum_rows<std::complex<double>>(
+    return sum_rows<Complex>(
       x.size(), [&](std::size_t begin, std::size_t end) {
-        std::complex<double> sum = 0.;
+        Complex sum = 0.;
         for(std::size_t i = begin; i < end; ++i)
-          sum += std::conj(std::complex<double>(x[i])) * std::complex<double>(y[i]);
+          sum += std::conj(Complex(x[i])) * Complex(y[i]);
         return sum;
       }, releases(x, y));
   }
 
-  static void add_scaled(Rounded c, const Vector& x, const Vector& y)
+  template <class Values>
+  static void add_scaled(const typename Values::value_type& c, const Values& x, const Values& y)
   {
     stream_rows(x.size(), [&](std::size_t begin, std::size_t end) {
       for(std::size_t i = begin; i < end; ++i)
@@ -175,9 +183,11 @@ private:
     }, releases(x, y));
   }
 
+  Work_folder& m_folder;
   Gathered_hierarchy& m_gathered;
   std::vector<Level> m_levels;
-  std::vector<Rounded> m_coarsest_f, m_coarsest_u;
+  std::vector<Rounded> m_coarsest_f;
+  std::vector<Complex> m_coarsest_u;
 };
 
 // Steps of the Chebyshev method of the fourth kind, as `Multigrid::chebyshev_steps()`. u gets a
@@ -200,13 +210,13 @@ inline void Streamed_levels::smooth(std::size_t l, unsigned int steps)
     });
   else
     pass(level, [&](std::size_t begin, std::size_t end) {
-      h.for_each_product(begin, end, level.u.data(), [&](std::size_t i, const Rounded& s) {
-        level.r[i] = level.f[i] - s;
+      h.for_each_product(begin, end, level.u.data(), [&](std::size_t i, const Complex& s) {
+        level.r[i] = Rounded(Complex(level.f[i]) - s);
         level.z[i] = weight * inverse[i] * level.r[i];
       });
     });
   const auto add_step = [&](std::size_t i, const Rounded& step, bool is_first) {
-    level.u[i] = starts_at_zero && is_first ? step : level.u[i] + step;
+    level.u[i] = starts_at_zero && is_first ? Complex(step) : level.u[i] + Complex(step);
   };
   for(unsigned int k = 2; k <= steps; ++k) {
     const float old_weight = float(2 * k - 3) / float(2 * k + 1);
@@ -246,8 +256,8 @@ inline void Streamed_levels::restrict_residual(std::size_t l)
       else if(level.is_zero)
         std::copy(level.f.begin() + begin, level.f.begin() + end, level.r.begin() + begin);
       else
-        h.for_each_product(begin, end, level.u.data(), [&](std::size_t i, const Rounded& s) {
-          level.r[i] = level.f[i] - s;
+        h.for_each_product(begin, end, level.u.data(), [&](std::size_t i, const Complex& s) {
+          level.r[i] = Rounded(Complex(level.f[i]) - s);
         });
     },
     [&](std::size_t begin, std::size_t end) {
@@ -274,7 +284,7 @@ inline void Streamed_levels::correct(std::size_t l)
   Level& level = at(l);
   const bool was_zero = level.is_zero;
   level.files->prolong(l == 1 ? m_coarsest_u.data() : at(l - 1).u.data(),
-                       [&](std::size_t i, const Rounded& value) {
+                       [&](std::size_t i, const Complex& value) {
                          level.u[i] = was_zero ? value : level.u[i] + value;
                        },
                        releases(level.u));
@@ -290,43 +300,45 @@ void Streamed_levels::accelerate(std::size_t l, unsigned int steps,
                                  const Coarse_cycle& coarse_cycle)
 {
   Level& level = at(l);
+  const std::size_t n = level.files->size();
   if(level.x.empty())
-    level.x = level.create("x");
+    level.x = create<Complex>(l, n, "x");
   while(level.directions.size() < steps) {
     const std::string number = std::to_string(level.directions.size());
-    level.directions.emplace_back(level.create("p" + number), level.create("q" + number));
+    level.directions.emplace_back(create<Complex>(l, n, "p" + number),
+                                  create<Rounded>(l, n, "q" + number));
   }
-  stream_rows(level.x.size(), [&level](std::size_t begin, std::size_t end) {
-    std::fill(level.x.begin() + begin, level.x.begin() + end, Rounded(0.f));
+  stream_rows(n, [&level](std::size_t begin, std::size_t end) {
+    std::fill(level.x.begin() + begin, level.x.begin() + end, Complex(0.));
   }, releases(level.x));
   const double enough = 0.0625 * product(level.f, level.f).real(); // a quarter, squared
   for(unsigned int step = 0; step < steps; ++step) {
     start_at_zero(l);
     coarse_cycle();
-    Vector& p = level.directions[step].first;
+    Solution& p = level.directions[step].first;
     Vector& q = level.directions[step].second;
     std::swap(p, level.u);
     pass(level, [&](std::size_t begin, std::size_t end) {
       level.files->matrix.for_each_product(
-        begin, end, p.data(), [&](std::size_t i, const Rounded& s) { q[i] = s; });
+        begin, end, p.data(), [&](std::size_t i, const Complex& s) { q[i] = Rounded(s); });
     });
     p.release();
     q.release();
     clear_pins(level, q);
     for(unsigned int j = 0; j < step; ++j) {
       const auto& [pj, qj] = level.directions[j];
-      const Rounded c(-product(qj, p) / product(pj, qj).real());
+      const Complex c = -product(qj, p) / product(pj, qj).real();
       add_scaled(c, pj, p);
-      add_scaled(c, qj, q);
+      add_scaled(Rounded(c), qj, q);
     }
     const double curvature = product(p, q).real();
     if(!(curvature > 0.))
       break;
-    const Rounded alpha(product(p, level.f) / curvature);
+    const Complex alpha = product(p, level.f) / curvature;
     add_scaled(alpha, p, level.x);
     if(step + 1 == steps)
       break;
-    add_scaled(-alpha, q, level.f);
+    add_scaled(Rounded(-alpha), q, level.f);
     if(product(level.f, level.f).real() <= enough)
       break;
   }

@@ -106,7 +106,7 @@ public:
   }
 
   // The preconditioned right-hand side, whose entries at pins do not count.
-  const Streamed_levels::Vector& run_cycle(std::size_t l)
+  const Streamed_levels::Solution& run_cycle(std::size_t l)
   {
     for(const std::uint32_t pin : level(l).pins)
       m_cycle.right_side(l)[pin] = 0.f;
@@ -158,12 +158,12 @@ Streamed_solver::minimize(std::size_t l, const Streamed_map& z, const Multigrid:
       c = -scale / curvature * sum_rows<Row_sums>(n, [&](std::size_t begin, std::size_t end) {
         Row_sums sums;
         for(std::size_t i = begin; i < end; ++i)
-          sums.first += std::conj(q[i]) * Complex(u[i]);
+          sums.first += std::conj(q[i]) * u[i];
         return sums;
       }, releases(q, u)).first;
     stream_rows(n, [&](std::size_t begin, std::size_t end) {
       for(std::size_t i = begin; i < end; ++i)
-        p[i] = scale * Complex(u[i]) + c * p[i];
+        p[i] = scale * u[i] + c * p[i];
     }, releases(p, u));
     const Row_sums sums = apply(level.matrix, p, [&](std::size_t i, const Complex& s) {
       q[i] = s;

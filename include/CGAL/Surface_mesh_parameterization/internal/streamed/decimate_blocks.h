@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <cstdint>
 #include <fstream>
 #include <string>
@@ -29,6 +30,13 @@ struct Streamed_stencil
   std::array<std::uint32_t, 3> source;
   std::array<float, 3> weight;
 
+  // The weighted mean; that of equal values is not rounded as the weights are.
+  std::complex<double> mean(const std::complex<double>* values) const
+  {
+    const std::complex<double> first = values[source[0]];
+    return first + double(weight[1]) * (values[source[1]] - first)
+           + double(weight[2]) * (values[source[2]] - first);
+  }
   // Whether it is that of a vertex v that stays.
   bool stays(std::uint32_t v) const { return source[0] == v && source[1] == v; }
 };

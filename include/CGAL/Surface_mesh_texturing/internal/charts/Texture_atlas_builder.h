@@ -226,8 +226,7 @@ inline Segmentation_result Texture_atlas_builder::find_charts(const Indexed_tria
     return result;
   // Whatever the charts say beside their seams
   if(!result.fail(foreign_seams_error(mesh, result.charts.seams)))
-    result.charts
-      = cut_to_disks(mesh, charts_between(mesh.triangles, std::move(result.charts.seams)));
+    result.charts = disks_between(mesh, std::move(result.charts.seams));
   return result;
 }
 
