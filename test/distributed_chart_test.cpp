@@ -234,7 +234,7 @@ TEST(Distributed_chart, is_the_same_for_any_number_of_ranks)
 {
   const Indexed_triangle_mesh mesh = shuffled(with_noise(irregular_grid(90, 70, 4), 0.2, 5), 8);
   for(const auto method : {SMP::Conformal_method::HLSCM, SMP::Conformal_method::SPECTRAL}) {
-    Options options = very_large_options(700, 300, 1e-9);
+    Options options = very_large_options(700, 300, 1e-11);
     options.solver.method = method;
     const Mapped alone = map(mesh, options, MPI_COMM_SELF), together = map(mesh, options);
     ASSERT_EQ(together.report.error, SMP::OK) << together.report.message;

@@ -257,25 +257,23 @@ inline void Distributed_run::map_distributed()
   Distributed_solver solver(m_ranks, m_hierarchy);
   const std::size_t finest = solver.number_of_levels();
   const auto observe = [this](double part) { return m_hierarchy.goes_on(0.75 + 0.2 * part); };
-  Multigrid::Energy_stop coarse_stop; // a starting point for the next level
-  coarse_stop.tolerance = m_options.solver.tolerance;
-  coarse_stop.maximal_iterations = 2;
+  const auto coarse_stop = coarse_energy_stop(m_options.solver);
   Petsc_vector coarse = solver.vector(0);
   std::size_t pins = 0;
+  Multigrid::Iteration_report result;
   m_ranks.together([&] {
     if(m_ranks.rank() != 0)
       return;
-    Multigrid::Iteration_report ignored;
-    const auto z = m_hierarchy.gathered().map(coarse_stop, [](double) { return true; }, ignored);
+    const auto z = m_hierarchy.gathered().map(coarse_stop, [](double) { return true; }, result);
     Petsc_part values(coarse);
     std::copy(z.begin(), z.end(), values.begin());
     pins = m_hierarchy.gathered().number_of_pins();
   });
   pins = m_ranks.broadcast(pins);
+  result = m_ranks.broadcast(result);
   if(m_hierarchy.is_free())
     for(Distributed_level& level : m_hierarchy.levels())
       level.hold_pins(pins);
-  Multigrid::Iteration_report result;
   Petsc_vector z;
   for(std::size_t l = 1; l <= finest; ++l) {
     z = solver.vector(l);
@@ -283,7 +281,8 @@ inline void Distributed_run::map_distributed()
     double extent = 0.;
     if(l == finest)
       extent = longer_side(box_of(values_of(solver.with_pins(l, z))));
-    const auto stop = l == finest ? energy_stop(m_options.solver, extent) : coarse_stop;
+    auto stop = l == finest ? energy_stop(m_options.solver, extent) : coarse_stop;
+    stop.known_rate = known_rate_after(result);
     if(m_hierarchy.is_free()) {
       Distributed_rayleigh_vectors vectors(m_ranks, solver, l, z);
       result = Multigrid::minimize_rayleigh_quotient(vectors, stop, observe);

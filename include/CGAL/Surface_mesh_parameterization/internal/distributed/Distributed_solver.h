@@ -136,7 +136,7 @@ inline PetscErrorCode Distributed_solver::solve_gathered(PC pc, Vec r, Vec z)
     return error;
   try {
     Petsc_part right(r), solution(z);
-    std::vector<std::complex<float>> f(right.begin(), right.end()), u(f.size());
+    Gathered_hierarchy::Vector f(right.begin(), right.end()), u;
     self.m_hierarchy.gathered().correct(f, u);
     std::copy(u.begin(), u.end(), solution.begin());
   } catch(const std::bad_alloc&) { // the others wait for an answer

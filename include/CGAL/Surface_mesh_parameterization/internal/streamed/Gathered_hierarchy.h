@@ -78,7 +78,8 @@ public:
   // Sets u to an approximate solution of H u = f by two steps of the flexible conjugate gradient
   // method, one if it has brought the residual to a quarter: the level below the finest one of a
   // K-cycle. Entries of f at pins do not count.
-  void correct(const std::vector<std::complex<float>>& f, Vector& u);
+  template <class Value>
+  void correct(const std::vector<Value>& f, Vector& u);
 
   // Those of the preconditioner; of a map without pins one may be less, after `map()`.
   std::size_t number_of_pins() const { return m_pins.size(); }
@@ -194,8 +195,8 @@ Gathered_hierarchy::free_coarsest(double tolerance, const Observe& observe, Vect
   return minimize(0, stop, observe, z);
 }
 
-inline void Gathered_hierarchy::correct(const std::vector<std::complex<float>>& f,
-                                        Vector& u)
+template <class Value>
+void Gathered_hierarchy::correct(const std::vector<Value>& f, Vector& u)
 {
   Vector right(f.begin(), f.end());
   u.assign(f.size(), 0.);

@@ -42,6 +42,23 @@ inline Multigrid::Energy_stop energy_stop(const HLSCM_options& options, double e
   return stop;
 }
 
+// The same on the coarser levels. The finest one takes as much time as all others, and corrects slowly
+// what is wrong in those.
+inline Multigrid::Energy_stop coarse_energy_stop(const HLSCM_options& options)
+{
+  Multigrid::Energy_stop stop;
+  stop.tolerance = 0.2 * options.tolerance;
+  stop.maximal_iterations = 20;
+  return stop;
+}
+
+// What is known of the rate on a level after the iteration on the next coarser one. From a good map
+// the first steps gain so little that they would promise too fast an iteration.
+inline double known_rate_after(const Multigrid::Iteration_report& coarser)
+{
+  return coarser.converged ? coarser.rate : 0.;
+}
+
 // Reports the iteration on the finest level; ends the run if it was in vain. `advice`: what to do,
 // then.
 inline void conclude_iteration(const Multigrid::Iteration_report& result, const std::string& advice,

@@ -212,10 +212,7 @@ inline Streamed_map Streamed_run::iterate()
   Streamed_solver solver(folder, levels, cycle);
   const auto observe = [this](double part) { return m_hierarchy.tell(0.75 + 0.2 * part); };
   Multigrid::Iteration_report result;
-  // The finest level takes as much time as all others, and corrects slowly what is wrong in those.
-  Multigrid::Energy_stop coarse_stop;
-  coarse_stop.tolerance = 0.2 * m_options.solver.tolerance;
-  coarse_stop.maximal_iterations = 20;
+  const auto coarse_stop = coarse_energy_stop(m_options.solver);
   const auto coarsest = gathered.map(coarse_stop, observe, result);
   for(Streamed_level& level : levels)
     level.pins.resize(gathered.number_of_pins());
@@ -234,8 +231,7 @@ inline Streamed_map Streamed_run::iterate()
     coarse = z.data();
     auto stop = l == levels.size() ? energy_stop(m_options.solver, longer_side(box_of(z)))
                                    : coarse_stop;
-    // From a good map the first steps gain so little that they would promise a fast iteration.
-    stop.known_rate = result.converged ? result.rate : 0.;
+    stop.known_rate = known_rate_after(result);
     if(is_free()) {
       Streamed_rayleigh_vectors vectors(folder, solver, l, z);
       result = Multigrid::minimize_rayleigh_quotient(vectors, stop, observe);
