@@ -71,9 +71,9 @@ struct Streamed_level
 // memory. As `Multigrid_levels`, with the same smoother, but each pass over the rows of a level
 // does all that can be done in it.
 //
-// Solutions are not rounded: smooth ones, all but holomorphic, have so little energy, in proportion to
-// 1 / n^2 for n vertices, that beyond some 10 million vertices the energy of what rounding adds to them
-// would be more, and no step along them would go far.
+// Solutions are not rounded: the energy of smooth ones, all but holomorphic, falls as 1 / n^2 with the
+// number n of vertices, that of what rounding adds to them does not. At 14 million this changes no
+// iteration yet.
 //
 // A model of `MultigridLevels`.
 class Streamed_levels
