@@ -155,24 +155,27 @@ Eigen::SparseMatrix<Scalar> free_part(const Self_adjoint_matrix<Value>& matrix,
       free.push_back(i);
     }
   Eigen::SparseMatrix<Scalar> result(rows * free.size(), rows * free.size());
-  std::vector<std::pair<std::uint32_t, Value>> below;
+  std::vector<Value> values; // below the diagonal of a column
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> below; // their rows and indices
   for(const std::uint32_t j : free) {
+    values.clear();
     below.clear();
     matrix.for_each_entry(slot[j], [&](std::uint32_t i, const Value& value) {
-      if(rank[i] != pinned && rank[i] > rank[j])
-        below.push_back({rank[i], Traits::adjoint(value)});
+      if(rank[i] != pinned && rank[i] > rank[j]) {
+        below.emplace_back(rank[i], std::uint32_t(values.size()));
+        values.push_back(Traits::adjoint(value));
+      }
     });
-    std::sort(below.begin(), below.end(),
-              [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::sort(below.begin(), below.end());
     for(int c = 0; c < rows; ++c) {
       const std::uint32_t column = rows * rank[j] + c;
       result.startVec(column);
       for(int r = c; r < rows; ++r)
         result.insertBack(rows * rank[j] + r, column)
           = Diagonal_traits::coefficient(matrix.diagonal()[j], r, c);
-      for(const auto& [i, value] : below)
+      for(const auto& [i, place] : below)
         for(int r = 0; r < rows; ++r)
-          result.insertBack(rows * i + r, column) = Traits::coefficient(value, r, c);
+          result.insertBack(rows * i + r, column) = Traits::coefficient(values[place], r, c);
     }
   }
   result.finalize();
