@@ -119,6 +119,42 @@ inline std::vector<double> Scale_patch::scale_change(const std::vector<std::uint
   return std::vector<double>(u.data(), u.data() + change.size());
 }
 
+// Solves for the inner vertices. Supernodes pay from some ten thousand on; with a thousand, CHOLMOD
+// takes twice as long as Eigen.
+class Inside_solver
+{
+public:
+  // Returns whether that succeeded.
+  bool factorize(const Eigen::SparseMatrix<double>& laplacian)
+  {
+    m_is_large = laplacian.rows() > most_small;
+    return m_is_large ? Multigrid::factorize_sparse(m_large, laplacian)
+                      : Multigrid::factorize_sparse(m_small, laplacian);
+  }
+
+  template <class Vectors>
+  void solve(const Vectors& f, Vectors& x)
+  {
+    if(m_is_large)
+      Multigrid::solve_sparse(m_large, f, x);
+    else
+      Multigrid::solve_sparse(m_small, f, x);
+  }
+
+private:
+  typedef Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> Small;
+#ifdef CGAL_HLSCM_USE_CHOLMOD
+  typedef Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>> Large;
+#else
+  typedef Small Large;
+#endif
+  static constexpr Eigen::Index most_small = 16000;
+
+  Small m_small;
+  Large m_large;
+  bool m_is_large = false;
+};
+
 // The conformal map of a disk whose border keeps its lengths, the one with the least distortion of
 // areas (Springborn, Schröder, Pinkall 2008; boundary first flattening: Sawhney and Crane 2017,
 // section 4). With the logarithm u of the scale, 0 on the border, and the cotangent Laplacian A:
@@ -154,18 +190,12 @@ public:
   Values run()
   {
     assemble();
-    if(m_number_inside > 0 && !Multigrid::factorize_sparse(m_factorization, m_laplacian))
+    if(m_number_inside > 0 && !m_inside.factorize(m_laplacian))
       return {};
     return extend(open_loops());
   }
 
 private:
-#ifdef CGAL_HLSCM_USE_CHOLMOD
-  typedef Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>> Factorization;
-#else
-  typedef Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> Factorization;
-#endif
-
   // A weight of A between a border vertex and another vertex, of one triangle.
   struct Link
   {
@@ -188,7 +218,7 @@ private:
   std::vector<double> m_scale;             // its logarithm u, of each vertex
   Eigen::SparseMatrix<double> m_laplacian; // A_II, the lower triangle
   std::vector<Link> m_links;
-  Factorization m_factorization;
+  Inside_solver m_inside;
   Scale_patch m_patch;
 };
 
@@ -196,7 +226,8 @@ inline void Border_first_flattening::assemble()
 {
   typedef Eigen::Triplet<double> Entry;
   std::vector<Entry> entries;
-  entries.reserve(6 * m_mesh.triangles.size());
+  entries.reserve(3 * m_mesh.triangles.size() + m_number_inside);
+  std::vector<double> diagonal(m_number_inside, 0.);
   m_angle_sum.assign(m_mesh.points.size(), 0.);
   m_length.assign(m_mesh.points.size(), 0.);
   m_scale.assign(m_mesh.points.size(), 0.);
@@ -215,17 +246,19 @@ inline void Border_first_flattening::assemble()
         m_length[p] = std::sqrt(squared_distance(m_mesh.points[p], m_mesh.points[q]))
                     + (triangle.is_mollified() ? Conformal_triangle::mollification : 0.);
       if(i >= 0)
-        entries.push_back(Entry(i, i, w));
+        diagonal[i] += w;
       else
         m_links.push_back({p, q, w});
       if(j >= 0)
-        entries.push_back(Entry(j, j, w));
+        diagonal[j] += w;
       else
         m_links.push_back({q, p, w});
       if(i >= 0 && j >= 0)
         entries.push_back(Entry((std::max)(i, j), (std::min)(i, j), -w));
     }
   }
+  for(std::size_t i = 0; i < m_number_inside; ++i)
+    entries.push_back(Entry(int(i), int(i), diagonal[i]));
   m_laplacian.resize(Eigen::Index(m_number_inside), Eigen::Index(m_number_inside));
   m_laplacian.setFromTriplets(entries.begin(), entries.end());
 }
@@ -242,7 +275,7 @@ inline Border_curve Border_first_flattening::border_curve()
       if(m_rank[link.other] >= 0)
         right[m_rank[link.other]] += link.weight * m_scale[link.border];
     Eigen::VectorXd u;
-    Multigrid::solve_sparse(m_factorization, right, u);
+    m_inside.solve(right, u);
     for(std::size_t v = 0; v < m_rank.size(); ++v)
       if(m_rank[v] >= 0)
         m_scale[v] = u[m_rank[v]];
@@ -323,7 +356,7 @@ inline Border_first_flattening::Values Border_first_flattening::extend(const Bor
       f(m_rank[link.other], 1) += link.weight * z[link.border].imag();
     }
   Eigen::MatrixX2d x;
-  Multigrid::solve_sparse(m_factorization, f, x);
+  m_inside.solve(f, x);
   for(std::size_t v = 0; v < z.size(); ++v)
     if(m_rank[v] >= 0)
       z[v] = Complex(x(m_rank[v], 0), x(m_rank[v], 1));
