@@ -78,7 +78,8 @@ struct Packing_options
   /// Is asked from time to time; once it returns `true` the packing ends with the best there is, or
   /// with the first one found from then on. Then the result may not be the same again.
   std::function<bool()> is_enough;
-  /// Is told the part done, from 0 to 1; the packing stops with an error if it returns `false`.
+  /// Is told the part done, from 0 to 1; the packing stops with an error if it returns `false`. This
+  /// and `is_enough` are called by one thread at a time, but not always by the same one.
   std::function<bool(double)> progress;
 };
 

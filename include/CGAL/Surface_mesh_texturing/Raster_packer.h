@@ -34,7 +34,8 @@ problems*, European Journal of Operational Research 183, 2007; S. Umetani et al.
 irregular strip packing problem via guided local search for overlap minimization*, International
 Transactions in Operational Research 16, 2009). All places are looked at on a raster of 72 to 288
 cells a chart, some on a raster four times as fine, and only what does not overlap on that of texels
-is taken.
+is taken. Two such searches with other random numbers are made in parallel, the better one counts;
+small moves then gain what is between two steps.
 
 If the number of directions is free, these are 8 for the orders, and 48 for a chart alone.
 For more than 1000 charts the density is found to 2 %, and they have 4 directions if their number is
@@ -45,8 +46,8 @@ With a given density there is one order, the largest chart first, on the raster 
 Time is proportional to the number of charts, of rotations and of cells of the coarse raster, which
 has 16384 cells or 64 a chart, and of the orders tried, about 60 for 60 charts. Raising the density
 takes `Packing_options::time_budget` and, for at most 40 charts, 0.15 seconds before, or less for
-fewer than 12 charts or pages of less than a million texels; both are counted in what is done, not
-by the clock. Memory is about three bytes for each texel of each page.
+fewer than 12 charts, and less or more in proportion to the side of the page, 0.6 seconds at most;
+both are counted in what is done, not by the clock. Memory is about three bytes for each texel of each page.
 
 \cgalModels{ChartPacker}
 */

@@ -95,7 +95,7 @@ struct Texture_atlas_options
   double seconds = 0.;
   /// Threads with `Parallel_tag`; 0 for all that the machine has. The result does not depend on it.
   unsigned int threads = 0;
-  /// Told the part done in [0, 1] from time to time; returning `false` cancels.
+  /// Told the part done in [0, 1] from time to time, by one thread at a time; returning `false` cancels.
   std::function<bool(double)> progress;
 };
 

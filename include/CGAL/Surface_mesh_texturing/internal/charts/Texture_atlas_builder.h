@@ -302,6 +302,8 @@ inline bool Texture_atlas_builder::pack()
   }
   Packing_options packing = m_options.packing;
   packing.quarter_turns_only = packing.quarter_turns_only || m_options.is_aligned;
+  constexpr double time_of_a_triangle = 5e-6, most_time = 0.25; // what the rest of the time allows
+  packing.time_budget += (std::min)(most_time, time_of_a_triangle * double(m_mesh.triangles.size()));
   packing.is_enough = [this, is_enough = packing.is_enough] {
     return is_over() || (is_enough && is_enough());
   };

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_PACKING_DENSITY_SEARCH_H
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_PACKING_DENSITY_SEARCH_H
 
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_texturing/internal/packing/Chart_raster.h>
 #include <CGAL/Surface_mesh_texturing/internal/packing/Overlap_search.h>
 
@@ -12,6 +13,8 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <mutex>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -54,7 +57,7 @@ public:
   }
 
   // In texels per unit.
-  double density(int level) const { return m_highest * std::exp2(level / 256.); }
+  double density(double level) const { return m_highest * std::exp2(level / 256.); }
 
   // A level at which all charts are smaller than a texel.
   int lowest() const { return -256 * 64; }
@@ -86,6 +89,13 @@ int highest_level(int lowest, int guess, int step, const Succeeds& succeeds, int
   return low;
 }
 
+// A packing on the raster of texels, and its level.
+struct Raised_packing
+{
+  double level = 0.;
+  std::vector<Raster_place> places; // empty if there is none better than the first one
+};
+
 // Raises the density of a packing step by step, each time moving charts until none overlap.
 class Density_raising
 {
@@ -95,11 +105,11 @@ public:
     : m_base(base), m_ladder(ladder)
   {}
 
-  // Improves a packing with this level of density as long as `may_go_on()`; `take(level, places)`
-  // gets each better one, places on the raster of texels.
-  template <class May_go_on, class Take>
-  void run(int level, const std::vector<Loose_place>& packing, const May_go_on& may_go_on,
-           const Take& take);
+  // The best packing found from one with this level as long as `may_go_on()`, and then by small moves
+  // between two levels as long as `may_end()`.
+  template <class May_go_on, class May_end>
+  Raised_packing run(int level, const std::vector<Loose_place>& packing, const May_go_on& may_go_on,
+             const May_end& may_end);
 
 private:
   Overlap_search& search(int level)
@@ -108,6 +118,22 @@ private:
     if(!s)
       s.reset(new Overlap_search(m_base, m_ladder.density(level)));
     return *s;
+  }
+
+  template <class May_go_on>
+  Raised_packing raise(int level, std::vector<Loose_place>& packing, const May_go_on& may_go_on);
+
+  // Makes the packing the best one, if all pages are used; returns whether they are.
+  bool take(double level, Overlap_search& search, const std::vector<Loose_place>& places,
+            Raised_packing& result) const
+  {
+    if(!uses_all_pages(places))
+      return false;
+    result.level = level;
+    result.places.clear();
+    for(std::size_t i = 0; i < places.size(); ++i)
+      result.places.push_back(search.exact().raster_place(i, places[i]));
+    return true;
   }
 
   std::vector<Loose_place> with_two_swapped(std::vector<Loose_place> places)
@@ -133,13 +159,15 @@ private:
 };
 
 // On the middle raster the density rises as far as possible; each state without overlap there is
-// then finished at the lowest density that would be better than the best, and those above.
-template <class May_go_on, class Take>
-void Density_raising::run(int level, const std::vector<Loose_place>& packing,
-                          const May_go_on& may_go_on, const Take& take)
+// then finished at the lowest density that would be better than the best, and those above. `packing`
+// becomes that of the result.
+template <class May_go_on>
+Raised_packing Density_raising::raise(int level, std::vector<Loose_place>& packing,
+                                               const May_go_on& may_go_on)
 {
   constexpr int failures_allowed = 10;
   constexpr double work_of_a_round = 1e6; // even if a chart is larger than the page at once
+  Raised_packing result = {double(level), {}};
   std::vector<Loose_place> loose = packing;
   int best = level, top = level, step = 4, failures = 0;
   while(best < 0 && may_go_on()) {
@@ -158,16 +186,76 @@ void Density_raising::run(int level, const std::vector<Loose_place>& packing,
     failures = top == target ? failures + 1 : 0;
     top = target;
     loose = places;
-    while(best < top && search(best + 1).finish(places, may_go_on) && uses_all_pages(places)) {
+    while(best < top && search(best + 1).finish(places, may_go_on)
+          && take(best + 1, search(best + 1), places, result)) {
       ++best;
-      std::vector<Raster_place> result;
-      for(std::size_t i = 0; i < places.size(); ++i)
-        result.push_back(search(best).exact().raster_place(i, places[i]));
-      take(best, result);
+      packing = places;
       m_searches.erase(m_searches.begin(), m_searches.lower_bound(best));
       places = loose;
     }
   }
+  return result;
+}
+
+template <class May_go_on, class May_end>
+Raised_packing Density_raising::run(int level, const std::vector<Loose_place>& packing,
+                                             const May_go_on& may_go_on, const May_end& may_end)
+{
+  constexpr double least_step = 0.125; // of levels
+  std::vector<Loose_place> best = packing;
+  Raised_packing result = raise(level, best, may_go_on);
+  for(double step = 0.5; step >= least_step && result.level < 0.; step /= 2.) {
+    Overlap_search between(m_base, m_ladder.density(result.level + step));
+    std::vector<Loose_place> places = best;
+    if(between.finish(places, may_end) && take(result.level + step, between, places, result))
+      best = places;
+  }
+  return result;
+}
+
+// A packing that is to become denser.
+struct Raising_task
+{
+  const std::vector<Chart_outline>& outlines;
+  int rotations;
+  const Packing_raster& exact;
+  std::size_t pages;
+  const Density_ladder& ladder;
+  int level;
+  std::vector<Loose_place> packing;
+  double work; // of each search, about the nanoseconds
+};
+
+// The best packing of some searches with other random numbers, in parallel. `tell(work)` gets the mean
+// of their work so far, from one thread at a time, and returns whether to go on.
+template <class Tell>
+Raised_packing raised_packing(const Raising_task& task, const Tell& tell)
+{
+  constexpr std::size_t searches = 2;
+  constexpr int steps = 4;         // to the density searched first
+  constexpr double end_work = 5e7; // for the moves between two levels
+  const int ratio = coarse_ratio(task.exact, task.pages, task.outlines.size());
+  const double density = task.ladder.density((std::min)(0, task.level + steps));
+  std::vector<Raised_packing> raised(searches);
+  std::vector<double> told(searches, 0.);
+  std::mutex mutex;
+  Blocked_execution::blocked_for(searches, 1, [&](std::size_t i, std::size_t) {
+    double work = 0.;
+    const auto goes_on = [&](double most) {
+      const std::lock_guard<std::mutex> lock(mutex);
+      told[i] = (std::min)(work, task.work);
+      return tell(std::accumulate(told.begin(), told.end(), 0.) / double(searches)) && work < most;
+    };
+    Overlap_search_base base = {
+      Silhouettes(task.outlines, task.rotations, density, Silhouette_raster(task.exact, ratio), work),
+      task.exact, task.pages, Xorshift(i + 1), work};
+    raised[i] = Density_raising(base, task.ladder)
+                  .run(task.level, task.packing, [&] { return goes_on(task.work); },
+                       [&] { return goes_on(task.work + end_work); });
+  });
+  return *std::max_element(raised.begin(), raised.end(), [](const auto& a, const auto& b) {
+    return a.level < b.level;
+  });
 }
 
 } // namespace internal

@@ -57,7 +57,7 @@ public:
     else if(!m_best.is_complete)
       result.fail(Mesh_status::FAILED, misfit_message(0, false, m_options));
     else
-      result = packing_result(m_best, *m_best_charts, m_ladder.density(m_best_level));
+      result = packing_result(m_best, *m_best_charts, m_best_density);
     return result;
   }
 
@@ -80,8 +80,8 @@ private:
   // Enough for charts of equal sizes on one page to have 8 cells a side.
   double coarse_cells() const { return (std::max)(128. * 128., 64. * m_outlines.size()); }
 
-  // For higher densities, before the work of the budget: less for few charts and small pages. None
-  // for many, of which so short a time does not make a denser packing.
+  // For higher densities, before the work of the budget: less for few charts and small pages, more for
+  // large ones. None for many, of which so short a time does not make a denser packing.
   double raising_work() const
   {
     constexpr double most = 40.;
@@ -89,7 +89,7 @@ private:
     if(n > most)
       return 0.;
     const double cells = double(m_exact.width) * m_exact.height;
-    return 1.5e8 * (std::min)(1., n / 12.) * (std::min)(1., std::sqrt(cells) / 1000.);
+    return 1.5e8 * (std::min)(1., n / 12.) * (std::min)(4., std::sqrt(cells) / 1000.);
   }
 
   Packing_result with_density(double density);
@@ -177,6 +177,7 @@ private:
 
   Raster_packing m_best; // on the exact raster
   int m_best_level = 0;
+  double m_best_density = 0.;
   std::unique_ptr<Chart_rasters> m_best_charts;
   double m_work = 0.; // positions compared
   std::size_t m_rounds = 0;
@@ -255,6 +256,7 @@ inline void Raster_packing_search::refine(const Plan& plan)
     if(is_complete) {
       m_best = std::move(packing);
       m_best_level = level;
+      m_best_density = m_ladder.density(level);
       m_best_charts = std::move(charts);
     }
     return is_complete;
@@ -282,25 +284,25 @@ inline std::vector<Loose_place> Raster_packing_search::best_places(int factor) c
 // Continues from the best packing, with more directions if their number is free.
 inline void Raster_packing_search::raise_density()
 {
-  constexpr int finer = 6, steps = 4; // `steps` to the density searched first
+  constexpr int finer = 6;
   if(!m_best.is_complete || m_is_cancelled || m_outlines.size() < 2)
     return;
   const int factor = m_options.rotations > 0 ? 1 : finer, rotations = factor * m_rotations;
-  const int ratio = coarse_ratio(m_exact, m_best.pages, m_outlines.size());
-  const double density = m_ladder.density((std::min)(0, m_best_level + steps));
-  const double work = m_work + raising_work() + work_per_second * m_options.time_budget;
-  Overlap_search_base base = {
-    Silhouettes(m_outlines, rotations, density, Silhouette_raster(m_exact, ratio), m_work),
-    m_exact, m_best.pages, Xorshift(1), m_work};
-  const auto take = [&](int level, const std::vector<Raster_place>& better) {
-    m_best.places = better;
-    m_best_level = level;
-    m_best_charts.reset(
-      new Chart_rasters(m_outlines, rotations, m_ladder.density(level), m_exact));
-    m_best_charts->make_where([&](std::size_t i, int r) { return better[i].rotation == r; });
+  const double before = m_work;
+  const auto tell = [&](double work) {
+    m_work = before + work;
+    return report() && !is_enough();
   };
-  Density_raising(base, m_ladder)
-    .run(m_best_level, best_places(factor), [&] { return m_work < work && report() && !is_enough(); }, take);
+  Raised_packing raised = raised_packing(
+    {m_outlines, rotations, m_exact, m_best.pages, m_ladder, m_best_level, best_places(factor),
+     raising_work() + work_per_second * m_options.time_budget}, tell);
+  if(raised.places.empty())
+    return;
+  m_best.places = std::move(raised.places);
+  m_best_density = m_ladder.density(raised.level);
+  m_best_charts.reset(new Chart_rasters(m_outlines, rotations, m_best_density, m_exact));
+  m_best_charts->make_where(
+    [&](std::size_t i, int r) { return m_best.places[i].rotation == r; });
 }
 
 // The first part of the search takes up to 8 rounds; all plans on the way are refined, since the
