@@ -151,7 +151,7 @@ TEST(Scarce_memory, border_first_map)
 {
   if(!Scarce_memory(0).is_possible())
     GTEST_SKIP() << "the memory of this CHOLMOD cannot be made scarce";
-  const Indexed_triangle_mesh mesh = hills(40);
+  const Indexed_triangle_mesh mesh = hills(140);
   const auto right = SMP::border_first_map(mesh);
   const std::size_t failures = number_of_failures([&]() -> std::string {
     const auto map = SMP::border_first_map(mesh);

@@ -153,7 +153,8 @@ TEST(Texturing_doors, edges_that_shall_not_be_seams_are_none)
     for(const auto e : edges(mesh))
       unwanted += free[e] && seam[e] ? 1 : 0;
     if(kind == Kind::RING)
-      EXPECT_TRUE(unwanted > 0 && unwanted < 20) << unwanted;
+      // A chart that is cut again may be cut through the ring once more.
+      EXPECT_TRUE(unwanted > 0 && unwanted < 20 * (1 + atlas.report.recut_charts)) << unwanted;
     else
       EXPECT_EQ(unwanted, 0u);
     EXPECT_EQ(atlas.report.unwanted_seams, unwanted);
@@ -162,6 +163,7 @@ TEST(Texturing_doors, edges_that_shall_not_be_seams_are_none)
     const SMT::Segmentation_result charts = SMT::segment_into_charts(mesh, chart, segmentation);
     ASSERT_EQ(charts.error, "");
     EXPECT_EQ(charts.unwanted_seams > 0, kind == Kind::RING);
+    EXPECT_LT(charts.unwanted_seams, 10u); // along the outer side, where the ring is the narrowest
     EXPECT_EQ(SMT::number_of_seams_on(arrays.triangles, charts.charts, without),
               charts.unwanted_seams);
     EXPECT_EQ(SMT::error_of_charts(arrays.triangles, charts.charts), "");
