@@ -497,7 +497,7 @@ def full_pages_peer():
                       f"{mean('used'):.3f}, {mean('peer_used'):.3f}",
                       f"{mean('seconds'):.2f}, {mean('peer_seconds'):.2f}"])
     return table(["faces", "models", "charts: ours, xatlas", "texture used",
-                  "seconds: ours of processors, xatlas by the clock"], lines)
+                  "processor seconds: ours, xatlas"], lines)
 
 
 def ranks():
