@@ -15,6 +15,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -150,6 +152,32 @@ TEST(Texture_atlas, does_not_depend_on_the_unit_of_length)
     const SMT::Texture_atlas_result other
       = SMT::build_texture_atlas(scaled(mesh, factor), small_texture());
     EXPECT_EQ(result.atlas.charts.chart, other.atlas.charts.chart) << factor << seed_text;
+  }
+}
+
+// A surface that is not symmetric
+TEST(Texture_atlas, does_not_depend_on_how_the_surface_is_turned)
+{
+  Indexed_triangle_mesh mesh = with_noise(torus(60, 30), 0.02, seed);
+  for(auto& p : mesh.points)
+    p = Point_3(2. * p.x(), p.y(), p.z());
+  SMT::Segmentation_options options;
+  options.coarse_faces = 1500;
+  const SMT::Segmentation_result charts = SMT::segment_into_charts(mesh, options);
+  ASSERT_EQ(charts.error, "");
+  Random random(seed);
+  for(int turn = 0; turn < 5; ++turn) {
+    Eigen::Vector4d quaternion;
+    for(double& x : quaternion)
+      x = uniform(random, -1., 1.);
+    const Eigen::Matrix3d rotation = Eigen::Quaterniond(quaternion).normalized().toRotationMatrix();
+    Indexed_triangle_mesh turned = mesh;
+    for(auto& p : turned.points) {
+      const Eigen::Vector3d q = rotation * Eigen::Vector3d(p.x(), p.y(), p.z());
+      p = Point_3(q[0] + 3., q[1], q[2]);
+    }
+    EXPECT_EQ(SMT::segment_into_charts(turned, options).charts.chart, charts.charts.chart)
+      << "turn " << turn << seed_text;
   }
 }
 

@@ -9,6 +9,7 @@
 #include <CGAL/Surface_mesh_multiresolution/build_progressive_mesh.h>
 #include <CGAL/Blocked_execution/Progress.h>
 #include <CGAL/Surface_mesh_texturing/keep_seams_off.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/principal_axes.h>
 #include <CGAL/Surface_mesh_texturing/refine_charts.h>
 
 #include <functional>
@@ -153,7 +154,7 @@ public:
     const std::vector<std::uint8_t>& no_seams = m_options.no_seams;
     if(!no_seams.empty() && m_result.fail(foreign_seams_error(m_original, no_seams)))
       return m_result;
-    Prepared_mesh prepared = prepare_mesh(m_original);
+    Prepared_mesh prepared = prepare_mesh(along_principal_axes(m_original));
     const Indexed_triangle_mesh& mesh = prepared.mesh;
     if(m_result.fail(prepared))
       return m_result;
@@ -228,7 +229,8 @@ private:
 \ingroup PkgHLSCMTexturing
 
 Returns charts of `mesh` that are disks: a coarse mesh is made by halfedge collapses, charts are
-found there, and their seams are carried back and made straight.
+found there, and their seams are carried back and made straight. The charts do not depend on how the
+mesh is turned, moved or scaled, up to rounding, unless it is symmetric.
 
 \param mesh any number of components, closed or not, of any genus, size and place
 \param options see there

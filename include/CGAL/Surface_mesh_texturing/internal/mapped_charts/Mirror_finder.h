@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_MAPPED_CHARTS_MIRROR_FINDER_H
 
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/principal_axes.h>
 #include <CGAL/Surface_mesh_texturing/internal/mapped_charts/Part_matcher.h>
 
 #include <Eigen/Eigenvalues>
@@ -74,23 +75,14 @@ private:
   {
     const auto& first = m_mesh.points[m_mesh.triangles[m_part.triangles[0]][0]];
     m_origin = Vector(first.x(), first.y(), first.z());
-    Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-    Vector sum = Vector::Zero();
-    double all = 0.;
-    for(const Index t : m_part.triangles) {
-      const Triangle_indices& v = m_mesh.triangles[t];
-      const Vector a = point(v[0]), b = point(v[1]), c = point(v[2]), middle = (a + b + c) / 3.;
-      const double area = 0.5 * (b - a).cross(c - a).norm();
-      all += area;
-      sum += area * middle;
-      second += area / 12. * (a * a.transpose() + b * b.transpose() + c * c.transpose()
-                              + 9. * middle * middle.transpose());
-    }
-    if(!(all > 0.) || !(m_allowed > 0.))
+    const Area_moments moments
+      = area_moments(m_part.triangles,
+                     [this](Index t) -> const Triangle_indices& { return m_mesh.triangles[t]; },
+                     [this](Vertex_index v) { return point(v); });
+    if(!(moments.area > 0.) || !(m_allowed > 0.))
       return false;
-    const Vector centre = sum / all;
-    m_axes = second / all - centre * centre.transpose();
-    m_origin += centre;
+    m_axes = moments.second;
+    m_origin += moments.centre;
     for(const Index t : m_part.triangles)
       for(int c = 0; c < 3; ++c) {
         const Vertex_index v = m_mesh.triangles[t][c];
