@@ -7,6 +7,7 @@
 include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 
 set(ENV{UBSAN_OPTIONS} print_stacktrace=1)
+set(ENV{ASAN_OPTIONS} malloc_context_size=8) # of 30 callers, for each of very many allocations
 file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/long_under_sanitizers.txt long_tests REGEX "^[^#]")
 list(JOIN long_tests ":" long_tests)
 set(ENV{GTEST_FILTER} "-${long_tests}")

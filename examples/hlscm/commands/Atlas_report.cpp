@@ -30,7 +30,7 @@ Json to_json(const SMT::Chart_report& chart)
           {"page", chart.page}};
 }
 
-Json numbers(const std::array<double, 4>& values)
+Json json_of(const std::array<double, 4>& values)
 {
   Json all = Json::array();
   for(const double value : values) {
@@ -57,8 +57,8 @@ Json to_json(const SMT::Texture_atlas_report& atlas)
             {"jaggedness", number(atlas.seams.jaggedness)}}},
           {"texels",
            {{"parts", atlas.texels.parts},
-            {"quasi_conformal", numbers(atlas.texels.quasi_conformal)},
-            {"area_scale", numbers(atlas.texels.area_scale)},
+            {"quasi_conformal", json_of(atlas.texels.quasi_conformal)},
+            {"area_scale", json_of(atlas.texels.area_scale)},
             {"density_range", number(atlas.texels.density_range)},
             {"compactness", number(atlas.texels.compactness)}}},
           {"page_cuts", atlas.page_cuts},

@@ -160,6 +160,9 @@ struct Prepared_chart
   bool has_bad_metric = false;
 };
 
+// Fails if the surface is closed or has handles, by its borders.
+CGAL_HLSCM_INLINE void check_topology(const Chart& chart, Status& status);
+
 // Takes the arrays of the chart's mesh, and of it the component of vertex `seed`; without a seed all must
 // be one component. The chart's metric goes with its triangles.
 CGAL_HLSCM_INLINE void prepare_chart(Prepared_chart& prepared, std::uint32_t seed);
@@ -260,7 +263,7 @@ inline std::string sort_metric(const std::vector<Indexed_mesh::Triangle_indices>
 }
 
 // Euler: V - E + F = 2 - 2 genus - borders.
-inline void check_topology(const Chart& chart, Status& status)
+CGAL_HLSCM_INLINE void check_topology(const Chart& chart, Status& status)
 {
   const long long v = (long long)(chart.mesh.points.size());
   const long long f = (long long)(chart.mesh.triangles.size());

@@ -8,6 +8,7 @@
 #include <CGAL/Surface_mesh_texturing/internal/packing/Place_search.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -58,40 +59,75 @@ inline Silhouette silhouette_of(const Texel_mask& mask, const Vector_2d& centre)
   return result;
 }
 
-// Blocks of `size` x `size` cells, the mask in the middle of as few as it needs, at least half of
-// which are in the mask; or all that meet it if there are none.
-inline Rasterized_chart halftone(const Rasterized_chart& fine, int size)
+// The side of the blocks of cells that become one, see `halftone()`.
+constexpr int halftone_side = 4;
+
+// For the blocks of a row of words, in each of the bytes of two words a block, those of even and of odd
+// numbers: how many cells of the row they have.
+inline std::array<Word, 2> cells_of_blocks(Word w)
 {
+  constexpr Word pairs = 0x5555555555555555, fours = 0x3333333333333333, bytes = 0x0f0f0f0f0f0f0f0f;
+  w -= w >> 1 & pairs;
+  w = (w & fours) + (w >> 2 & fours);
+  return {w & bytes, w >> 4 & bytes};
+}
+
+// Blocks of 4 x 4 cells, the mask in the middle of as few as it needs, at least half of which are in the
+// mask; or all that meet it if there are none. Counts 16 blocks at a time.
+inline Rasterized_chart halftone(const Rasterized_chart& fine)
+{
+  constexpr int side = halftone_side, blocks_of_word = 64 / side;
+  constexpr Word ones = 0x0101010101010101;
   const int w = fine.mask.width(), h = fine.mask.height();
-  const int columns = (w + size - 1) / size, rows = (h + size - 1) / size;
-  const int left = (columns * size - w) / 2, bottom = (rows * size - h) / 2;
-  std::vector<int> count(std::size_t(columns) * rows, 0);
-  for(const Cell_run& run : fine.mask.runs()) {
-    int* row = count.data() + std::size_t((run.y + bottom) / size) * columns;
-    for(int x = run.begin + left; x < run.end + left;) {
-      const int next = (std::min)(run.end + left, (x / size + 1) * size);
-      row[x / size] += next - x;
-      x = next;
-    }
+  const int columns = (w + side - 1) / side, rows = (h + side - 1) / side;
+  const int left = (columns * side - w) / 2, bottom = (rows * side - h) / 2;
+  Texel_mask framed(columns * side, rows * side);
+  for(int y = 0; y < h; ++y) {
+    Word* row = framed.row(y + bottom);
+    for(int i = 0; i < fine.mask.words(); ++i)
+      row[i] = fine.mask.row(y)[i];
+    if(left > 0)
+      for(int i = framed.words() - 1; i >= 0; --i)
+        row[i] = row[i] << left | (i > 0 ? row[i - 1] >> (64 - left) : 0);
   }
-  const int most = *std::max_element(count.begin(), count.end());
-  const int least = most * 2 >= size * size ? (size * size + 1) / 2 : 1;
-  int x0 = columns, x1 = 0, y0 = rows, y1 = 0;
-  for(int y = 0; y < rows; ++y)
-    for(int x = 0; x < columns; ++x)
-      if(count[std::size_t(y) * columns + x] >= least) {
-        x0 = (std::min)(x0, x);
-        x1 = (std::max)(x1, x + 1);
-        y0 = (std::min)(y0, y);
-        y1 = (std::max)(y1, y + 1);
-      }
   Rasterized_chart result;
-  result.mask = Texel_mask(x1 - x0, y1 - y0);
-  result.centre = {(fine.centre[0] + left) / size - x0, (fine.centre[1] + bottom) / size - y0};
-  for(int y = y0; y < y1; ++y)
-    for(int x = x0; x < x1; ++x)
-      if(count[std::size_t(y) * columns + x] >= least)
-        result.mask.add({y - y0, x - x0, x - x0 + 1});
+  for(const int least : {side * side / 2, 1}) {
+    Texel_mask blocks(columns, rows);
+    int x0 = columns, x1 = 0, y0 = rows, y1 = 0;
+    for(int y = 0; y < rows; ++y)
+      for(int i = 0; i < framed.words(); ++i) {
+        std::array<Word, 2> count = {};
+        for(int k = 0; k < side; ++k) {
+          const std::array<Word, 2> more = cells_of_blocks(framed.row(y * side + k)[i]);
+          count = {count[0] + more[0], count[1] + more[1]};
+        }
+        Word found = 0; // bit 4 b for block b
+        for(int odd = 0; odd < 2; ++odd)
+          found |= ((count[odd] + (0x80 - Word(least)) * ones) & 0x80 * ones) >> (7 - 4 * odd);
+        for(; found != 0; found &= found - 1) {
+          const int x = i * blocks_of_word + lowest_bit(found) / side;
+          blocks.add({y, x, x + 1});
+          x0 = (std::min)(x0, x);
+          x1 = (std::max)(x1, x + 1);
+          y0 = (std::min)(y0, y);
+          y1 = y + 1;
+        }
+      }
+    if(x0 >= x1)
+      continue;
+    result.mask = Texel_mask(x1 - x0, y1 - y0);
+    for(int y = y0; y < y1; ++y) {
+      const Word* from = blocks.row(y);
+      Word* to = result.mask.row(y - y0);
+      for(int x = x0; x < x1; x += 64) {
+        const int i = x >> 6, s = x & 63;
+        const Word last = (x1 - x) < 64 ? (Word(1) << (x1 - x)) - 1 : ~Word(0);
+        to[(x - x0) >> 6] = (from[i] >> s | (i + 1 < blocks.words() ? from[i + 1] << 1 << (63 - s) : 0)) & last;
+      }
+    }
+    result.centre = {(fine.centre[0] + left) / side - x0, (fine.centre[1] + bottom) / side - y0};
+    break;
+  }
   return result;
 }
 
@@ -99,7 +135,7 @@ inline Rasterized_chart halftone(const Rasterized_chart& fine, int size)
 inline Silhouette silhouette(const Chart_outline& outline, double angle, double density,
                              const Silhouette_raster& raster)
 {
-  constexpr int samples = 4; // of a side of a cell
+  constexpr int samples = halftone_side; // of a side of a cell
   const bool is_exact = raster.ratio == 1;
   const double cell = is_exact ? 1. : double(raster.ratio) / samples; // of the exact raster
   const int parts = is_exact ? 1 : samples;
@@ -115,7 +151,7 @@ inline Silhouette silhouette(const Chart_outline& outline, double angle, double 
   for(double& c : chart.centre)
     c += 0.5 * sweep;
   if(!is_exact)
-    chart = halftone(chart, samples);
+    chart = halftone(chart);
   return silhouette_of(chart.mask, chart.centre);
 }
 
@@ -205,7 +241,9 @@ public:
         for(int k = 0; k < n; ++k)
           result[k] += to[k] - from[k];
       }
-      least = *std::min_element(result, result + n);
+      least = result[0];
+      for(int k = 1; k < n; ++k) // some at a time, unlike std::min_element()
+        least = (std::min)(least, result[k]);
     }
     return least;
   }

@@ -67,14 +67,14 @@ public:
   static constexpr int frame = 4;
   static int stride(int width) { return width + 2 * frame; }
 
-  // The number of the cells that are taken at the offsets y * stride + x from a place.
-  int number_of_taken(const int* begin, const int* end, int x, int y) const
+  // The number of the `n` cells that are taken at the offsets y * stride + x from a place.
+  int number_of_taken(const int* offsets, int n, int x, int y) const
   {
     const std::uint8_t* place = m_framed.data() + index(x, y);
-    int n = 0;
-    for(const int* offset = begin; offset != end; ++offset)
-      n += place[*offset];
-    return n;
+    int result = 0;
+    for(int i = 0; i < n; ++i)
+      result += place[offsets[i]];
+    return result;
   }
 
   // Takes the cells of a mask whose lower left corner lies at (x, y), which may be outside.
@@ -113,6 +113,28 @@ public:
       while(begin < end && free[end - 1] == 0)
         --end;
       if(begin == end)
+        return false;
+    }
+    return true;
+  }
+
+  // The same for all positions of the rows [bottom, top), each of which has its words in `free`, as many
+  // at a time as the processor can.
+  bool restrict_to_free(const std::vector<Probe>& probes, int bottom, int top, Word* free) const
+  {
+    const int n = m_words * (top - bottom);
+    for(const Probe& probe : probes) {
+      const Word* words = row(probe.level, bottom + probe.y);
+      const Word *p = words + (probe.first >> 6), *q = words + (probe.second >> 6);
+      const int s = probe.first & 63, t = probe.second & 63;
+      Word any = 0;
+      for(int i = 0; i < n; ++i) {
+        const Word first = p[i] >> s | p[i + 1] << 1 << (63 - s);
+        const Word second = q[i] >> t | q[i + 1] << 1 << (63 - t);
+        free[i] &= ~(first | second);
+        any |= free[i];
+      }
+      if(any == 0)
         return false;
     }
     return true;
@@ -205,11 +227,12 @@ struct Chart_raster
 };
 
 // Cells just outside of the mask, and those two cells further, evenly chosen, as offsets in the
-// rows of a `Page_raster` from the mask's lower left corner.
+// rows of a `Page_raster` from the mask's lower left corner. Any of them in a row are from all sides.
 inline std::vector<int> rim_of(const Texel_mask& mask, int stride)
 {
   constexpr std::size_t samples = 64; // of each rim
-  std::vector<int> result, rim;
+  constexpr std::size_t apart = 11;
+  std::vector<int> chosen, rim, result;
   for(const int r : {1, 3}) {
     const Texel_mask inner = dilated(mask, r - 1), outer = dilated(mask, r);
     rim.clear();
@@ -224,8 +247,11 @@ inline std::vector<int> rim_of(const Texel_mask& mask, int stride)
       }
     const std::size_t n = (std::min)(rim.size(), samples);
     for(std::size_t i = 0; i < n; ++i)
-      result.push_back(rim[i * rim.size() / n]);
+      chosen.push_back(rim[i * rim.size() / n]);
   }
+  for(std::size_t first = 0; first < apart; ++first)
+    for(std::size_t i = first; i < chosen.size(); i += apart)
+      result.push_back(chosen[i]);
   return result;
 }
 

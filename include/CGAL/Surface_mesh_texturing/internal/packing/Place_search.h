@@ -55,6 +55,8 @@ public:
                    int radius);
 
 private:
+  void rank_row(const Chart_raster& chart, const Page_raster& page, const Word* free, int begin, int end,
+                Raster_place place);
   void rank_snug(const Chart_raster& chart, const Page_raster& page, Raster_place place);
 
   void keep(const Raster_place& place, const Score& score)
@@ -68,7 +70,7 @@ private:
   Place_criterion m_criterion;
   Raster_place m_best;
   Score m_score = {(std::numeric_limits<std::int64_t>::max)(), 0};
-  std::vector<Word> m_free; // positions of a row
+  std::vector<Word> m_free; // positions of some rows
 };
 
 inline void Place_search::search_near(const Chart_raster& chart, const Page_raster& page,
@@ -81,30 +83,48 @@ inline void Place_search::search_near(const Chart_raster& chart, const Page_rast
   const int top = (std::min)(page.height() - chart.height, centre.y + radius);
   if(left > right)
     return;
-  m_free.resize(page.words());
+  const int words = page.words(), first = left >> 6, last = right >> 6;
+  // Rows half of whose words are looked at are compared many at a time, and with all their words.
+  constexpr int words_at_a_time = 32;
+  const bool are_whole = 2 * (last + 1 - first) >= words && words <= words_at_a_time;
+  const int rows = are_whole ? words_at_a_time / words : 1;
+  m_free.resize(std::size_t(words) * rows);
   Texel_mask all(page.width(), 1);
   all.add({0, left, right + 1});
   Raster_place place = centre;
-  for(place.y = bottom; place.y <= top; ++place.y) {
-    if(m_criterion == Place_criterion::LOW && place.y + chart.height > m_score.first)
+  for(int y = bottom; y <= top; y += rows) {
+    if(m_criterion == Place_criterion::LOW && y + chart.height > m_score.first)
       return;
-    int begin = left >> 6, end = (right >> 6) + 1;
-    std::copy(all.row(0) + begin, all.row(0) + end, m_free.begin() + begin);
-    if(!page.restrict_to_free(chart.probes, place.y, m_free.data(), begin, end))
+    const int end = (std::min)(top + 1, y + rows);
+    for(int k = 0; k < end - y; ++k)
+      std::copy_n(all.row(0), words, m_free.begin() + std::ptrdiff_t(words) * k);
+    if(are_whole && !page.restrict_to_free(chart.probes, y, end, m_free.data()))
+      continue;
+    for(place.y = y; place.y < end; ++place.y) {
+      int from = first, to = last + 1;
+      if(are_whole || page.restrict_to_free(chart.probes, y, m_free.data(), from, to))
+        rank_row(chart, page, m_free.data() + std::ptrdiff_t(words) * (place.y - y), from, to, place);
+    }
+  }
+}
+
+// Ranks the places of a row of which the words [begin, end) may have some that are free.
+inline void Place_search::rank_row(const Chart_raster& chart, const Page_raster& page, const Word* free,
+                                   int begin, int end, Raster_place place)
+{
+  for(int i = begin; i < end; ++i) {
+    if(free[i] == 0)
       continue;
     if(m_criterion == Place_criterion::LOW) {
-      place.x = 64 * begin + lowest_bit(m_free[begin]);
-      keep(place, {place.y + chart.height, place.x});
-      continue;
+      place.x = 64 * i + lowest_bit(free[i]);
+      return keep(place, {place.y + chart.height, place.x});
     }
     // Only the ends of the runs of free positions: elsewhere the chart can move to both sides
-    for(int i = begin; i < end; ++i) {
-      const Word before = m_free[i] << 1 | (i > begin ? m_free[i - 1] >> 63 : 0);
-      const Word after = m_free[i] >> 1 | (i + 1 < end ? m_free[i + 1] << 63 : 0);
-      for(Word ends = m_free[i] & ~(before & after); ends != 0; ends &= ends - 1) {
-        place.x = 64 * i + lowest_bit(ends);
-        rank_snug(chart, page, place);
-      }
+    const Word before = free[i] << 1 | (i > begin ? free[i - 1] >> 63 : 0);
+    const Word after = free[i] >> 1 | (i + 1 < end ? free[i + 1] << 63 : 0);
+    for(Word ends = free[i] & ~(before & after); ends != 0; ends &= ends - 1) {
+      place.x = 64 * i + lowest_bit(ends);
+      rank_snug(chart, page, place);
     }
   }
 }
@@ -116,14 +136,16 @@ inline void Place_search::rank_snug(const Chart_raster& chart, const Page_raster
   const std::int64_t n = std::int64_t(chart.rim.size());
   // More free cells than this are worse, as a part of the rim, than the best
   const std::int64_t allowed = m_best.is_found() ? (m_score.first + 1) * n / all : n;
+  constexpr int block = 16;
   std::int64_t free = 0;
-  const int *offset = chart.rim.data(), *end = offset + chart.rim.size();
-  for(int block; offset != end; offset += block) {
-    block = int((std::min)(std::ptrdiff_t(16), end - offset));
-    free += block - page.number_of_taken(offset, offset + block, place.x, place.y);
-    if(free > allowed)
-      return;
+  for(std::size_t i = 0; i < chart.rim.size() && free <= allowed; i += block) {
+    const int* offsets = chart.rim.data() + i;
+    const int left = int((std::min)(chart.rim.size() - i, std::size_t(block)));
+    free += left - (left == block ? page.number_of_taken(offsets, block, place.x, place.y)
+                                  : page.number_of_taken(offsets, left, place.x, place.y));
   }
+  if(free > allowed)
+    return;
   const std::int64_t right = std::int64_t(place.x + chart.width) * page.height();
   const std::int64_t top = std::int64_t(place.y + chart.height) * page.width();
   keep(place, {free * all / n, (std::max)(right, top)});

@@ -131,16 +131,32 @@ inline std::vector<Cell_run> Texel_mask::runs() const
   return result;
 }
 
-// The cells that a mask's cells touch when it moves up to `n` cells to the right and up.
+// Adds the words `from`, shifted to the left by `shift` bits, to `n` others, both of which have this size.
+inline void add_shifted(const Word* from, int shift, Word* words, int n)
+{
+  const int skip = shift >> 6, s = shift & 63;
+  for(int i = n - 1; i >= skip; --i)
+    words[i] |= from[i - skip] << s | (i > skip ? from[i - skip - 1] >> 1 >> (63 - s) : 0);
+}
+
+// The cells that a mask's cells touch when it moves up to `n` cells to the right and up: each step moves
+// what was found so far by as much as that reaches, or less at the end.
 inline Texel_mask swept(const Texel_mask& mask, int n)
 {
-  Texel_mask wide(mask.width() + n, mask.height()), result(wide.width(), mask.height() + n);
-  for(const Cell_run& run : mask.runs())
-    wide.add({run.y, run.begin, run.end + n});
-  for(int y = 0; y < mask.height(); ++y)
-    for(int i = 0; i <= n; ++i)
-      for(int k = 0; k < wide.words(); ++k)
-        result.row(y + i)[k] |= wide.row(y)[k];
+  Texel_mask result(mask.width() + n, mask.height() + n);
+  const int words = result.words();
+  for(int y = 0; y < mask.height(); ++y) {
+    Word* row = result.row(y);
+    std::copy_n(mask.row(y), mask.words(), row);
+    for(int reach = 1; reach <= n; reach *= 2)
+      add_shifted(row, (std::min)(reach, n + 1 - reach), row, words);
+  }
+  for(int reach = 1; reach <= n; reach *= 2) {
+    const int step = (std::min)(reach, n + 1 - reach);
+    for(int y = result.height() - 1; y >= step; --y)
+      for(int i = 0; i < words; ++i)
+        result.row(y)[i] |= result.row(y - step)[i];
+  }
   return result;
 }
 
