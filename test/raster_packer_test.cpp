@@ -11,8 +11,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -120,9 +122,106 @@ TEST(Raster_packer_test, stops_while_it_raises_the_density)
 }
 
 // The definition of the overlap of charts with their padding, cell by cell.
+// --- What is done for many cells at a time, cell by cell
+
+using namespace CGAL::Surface_mesh_texturing::internal;
+
+Texel_mask random_mask(int width, int height, double part, std::mt19937& random)
+{
+  std::bernoulli_distribution is_in(part);
+  Texel_mask result(width, height);
+  for(int y = 0; y < height; ++y)
+    for(int x = 0; x < width; ++x)
+      if(is_in(random))
+        result.add({y, x, x + 1});
+  return result;
+}
+
+TEST(Texel_mask_test, sweeps_each_cell)
+{
+  std::mt19937 random(1);
+  for(const int width : {1, 5, 63, 64, 65, 150})
+    for(const int n : {0, 1, 2, 3, 6, 7, 70}) {
+      const Texel_mask mask = random_mask(width, 9, 0.02, random), result = swept(mask, n);
+      ASSERT_EQ(result.width(), width + n);
+      ASSERT_EQ(result.height(), 9 + n);
+      Texel_mask expected(width + n, 9 + n);
+      for(const Cell_run& run : mask.runs())
+        for(int y = run.y; y <= run.y + n; ++y)
+          expected.add({y, run.begin, run.end + n});
+      for(int y = 0; y < result.height(); ++y)
+        ASSERT_TRUE(std::equal(result.row(y), result.row(y) + result.words(), expected.row(y)))
+          << width << ", " << n << ", row " << y;
+    }
+}
+
+TEST(Texel_mask_test, becomes_blocks_of_which_half_is_in_it)
+{
+  std::mt19937 random(2);
+  for(const int width : {1, 4, 7, 62, 64, 66, 130})
+    for(const double part : {0.02, 0.3, 0.5, 0.7, 1.}) {
+      Rasterized_chart fine;
+      fine.mask = random_mask(width, 10, part, random);
+      fine.mask.add({5, width / 2, width / 2 + 1}); // at least one
+      fine.centre = {0.3 * width, 5.};
+      const Rasterized_chart coarse = halftone(fine);
+      // the corner of the blocks, in cells of the mask
+      const int left = int(std::lround(fine.centre[0] - 4. * coarse.centre[0]));
+      const int bottom = int(std::lround(fine.centre[1] - 4. * coarse.centre[1]));
+      const auto cells = [&](int x, int y) {
+        int n = 0;
+        for(int j = std::max(0, bottom + 4 * y); j < std::min(10, bottom + 4 * y + 4); ++j)
+          for(int i = std::max(0, left + 4 * x); i < std::min(width, left + 4 * x + 4); ++i)
+            n += fine.mask.has(i, j);
+        return n;
+      };
+      const int w = coarse.mask.width(), h = coarse.mask.height();
+      ASSERT_TRUE(w > 0 && h > 0);
+      int most = 0;
+      for(int y = -3; y < 6; ++y) // beyond the blocks, too
+        for(int x = -40; x < w + 40; ++x)
+          most = std::max(most, cells(x, y));
+      std::vector<int> of_column(w, 0), of_row(h, 0);
+      for(int y = -3; y < 6; ++y)
+        for(int x = -40; x < w + 40; ++x) {
+          const bool is_inside = x >= 0 && x < w && y >= 0 && y < h;
+          const bool is_in = is_inside && coarse.mask.has(x, y);
+          ASSERT_EQ(is_in, cells(x, y) >= (most >= 8 ? 8 : 1)) << width << ", " << part;
+          if(is_in)
+            of_column[x] = of_row[y] = 1;
+        }
+      EXPECT_TRUE(of_column.front() && of_column.back() && of_row.front() && of_row.back());
+    }
+}
+
+TEST(Page_raster_test, many_rows_have_the_free_places_of_each)
+{
+  std::mt19937 random(3);
+  for(const int width : {40, 64, 96, 200})
+    for(const double part : {0.001, 0.01, 0.1}) {
+      Page_raster page(width, 50);
+      page.take(random_mask(width, 50, part, random).runs(), 0, 0);
+      const std::vector<Probe> probes = probes_of(random_mask(30, 11, 0.3, random).runs());
+      const int words = page.words(), top = 50 - 11 + 1;
+      Texel_mask many(width, top), one = many;
+      for(Texel_mask* mask : {&many, &one})
+        for(int y = 0; y < top; ++y)
+          mask->add({y, 0, width - 30 + 1});
+      const bool are_any = page.restrict_to_free(probes, 0, top, many.row(0));
+      bool is_any = false;
+      for(int y = 0; y < top; ++y) {
+        int begin = 0, end = words;
+        is_any = page.restrict_to_free(probes, y, one.row(y), begin, end) || is_any;
+      }
+      EXPECT_EQ(are_any, is_any);
+      if(are_any)
+        for(int y = 0; y < top; ++y)
+          ASSERT_TRUE(std::equal(many.row(y), many.row(y) + words, one.row(y))) << width << ", row " << y;
+    }
+}
+
 TEST(Silhouette_test, overlaps_where_charts_are_too_near)
 {
-  using namespace CGAL::Surface_mesh_texturing::internal;
   double unit = 1.;
   const std::vector<Chart_outline> outlines = chart_outlines(mixed_charts(), unit);
   for(const std::size_t padding : {0, 1, 2, 3}) {
@@ -154,7 +253,6 @@ TEST(Silhouette_test, overlaps_where_charts_are_too_near)
 // The overlaps of a field are sums of those of pairs.
 TEST(Overlap_field_test, is_the_weighted_sum_of_overlaps)
 {
-  using namespace CGAL::Surface_mesh_texturing::internal;
   double unit = 1.;
   const std::vector<Chart_outline> outlines = chart_outlines(mixed_charts(), unit);
   const Silhouette_raster raster(exact_raster(small_page()), 1);
