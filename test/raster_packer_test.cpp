@@ -214,9 +214,8 @@ TEST(Page_raster_test, many_rows_have_the_free_places_of_each)
         is_any = page.restrict_to_free(probes, y, one.row(y), begin, end) || is_any;
       }
       EXPECT_EQ(are_any, is_any);
-      if(are_any)
-        for(int y = 0; y < top; ++y)
-          ASSERT_TRUE(std::equal(many.row(y), many.row(y) + words, one.row(y))) << width << ", row " << y;
+      for(int y = 0; y < top && are_any; ++y)
+        ASSERT_TRUE(std::equal(many.row(y), many.row(y) + words, one.row(y))) << width << ", row " << y;
     }
 }
 
