@@ -121,7 +121,6 @@ TEST(Raster_packer_test, stops_while_it_raises_the_density)
   EXPECT_EQ(n, 200);
 }
 
-// The definition of the overlap of charts with their padding, cell by cell.
 // --- What is done for many cells at a time, cell by cell
 
 using namespace CGAL::Surface_mesh_texturing::internal;
@@ -219,6 +218,7 @@ TEST(Page_raster_test, many_rows_have_the_free_places_of_each)
     }
 }
 
+// The definition of the overlap of charts with their padding, cell by cell.
 TEST(Silhouette_test, overlaps_where_charts_are_too_near)
 {
   double unit = 1.;

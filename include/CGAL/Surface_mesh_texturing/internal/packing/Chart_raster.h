@@ -101,13 +101,8 @@ public:
   {
     for(const Probe& probe : probes) {
       const Word* words = row(probe.level, y + probe.y);
-      const Word *p = words + (probe.first >> 6), *q = words + (probe.second >> 6);
-      const int s = probe.first & 63, t = probe.second & 63;
-      for(int i = begin; i < end; ++i) {
-        const Word first = p[i] >> s | p[i + 1] << 1 << (63 - s);
-        const Word second = q[i] >> t | q[i + 1] << 1 << (63 - t);
-        free[i] &= ~(first | second);
-      }
+      for(int i = begin; i < end; ++i)
+        free[i] &= ~obstacles(probe, words, i);
       while(begin < end && free[begin] == 0)
         ++begin;
       while(begin < end && free[end - 1] == 0)
@@ -125,13 +120,9 @@ public:
     const int n = m_words * (top - bottom);
     for(const Probe& probe : probes) {
       const Word* words = row(probe.level, bottom + probe.y);
-      const Word *p = words + (probe.first >> 6), *q = words + (probe.second >> 6);
-      const int s = probe.first & 63, t = probe.second & 63;
       Word any = 0;
       for(int i = 0; i < n; ++i) {
-        const Word first = p[i] >> s | p[i + 1] << 1 << (63 - s);
-        const Word second = q[i] >> t | q[i + 1] << 1 << (63 - t);
-        free[i] &= ~(first | second);
+        free[i] &= ~obstacles(probe, words, i);
         any |= free[i];
       }
       if(any == 0)
@@ -142,6 +133,15 @@ public:
 
 private:
   typedef std::vector<Word> Level;
+
+  // The positions of word i at which a probe meets a cell that is taken; `words` are those of its level, from
+  // its row on.
+  static Word obstacles(const Probe& probe, const Word* words, int i)
+  {
+    const Word *p = words + (probe.first >> 6) + i, *q = words + (probe.second >> 6) + i;
+    const int s = probe.first & 63, t = probe.second & 63;
+    return (p[0] >> s | p[1] << 1 << (63 - s)) | (q[0] >> t | q[1] << 1 << (63 - t));
+  }
 
   // Of a cell of the page or of the frame.
   std::ptrdiff_t index(int x, int y) const

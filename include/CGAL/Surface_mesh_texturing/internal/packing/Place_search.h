@@ -141,6 +141,7 @@ inline void Place_search::rank_snug(const Chart_raster& chart, const Page_raster
   for(std::size_t i = 0; i < chart.rim.size() && free <= allowed; i += block) {
     const int* offsets = chart.rim.data() + i;
     const int left = int((std::min)(chart.rim.size() - i, std::size_t(block)));
+    // a fixed number is unrolled
     free += left - (left == block ? page.number_of_taken(offsets, block, place.x, place.y)
                                   : page.number_of_taken(offsets, left, place.x, place.y));
   }

@@ -69,63 +69,56 @@ inline std::array<Word, 2> cells_of_blocks(Word w)
   return {w & bytes, w >> 4 & bytes};
 }
 
-// Blocks of 4 x 4 cells, the mask in the middle of as few as it needs, at least half of which are in the
-// mask; or all that meet it if there are none. Counts 16 blocks at a time.
-inline Rasterized_chart halftone(const Rasterized_chart& fine)
+// Of the blocks of 4 x 4 cells of a mask those at least `least` cells of which, at most half of all, are in
+// it; 16 blocks are counted at a time.
+inline Texel_mask blocks_of(const Texel_mask& mask, int least)
 {
   constexpr int side = halftone_side, blocks_of_word = 64 / side;
   constexpr Word ones = 0x0101010101010101;
+  Texel_mask result(mask.width() / side, mask.height() / side);
+  for(int y = 0; y < result.height(); ++y)
+    for(int i = 0; i < mask.words(); ++i) {
+      std::array<Word, 2> count = {};
+      for(int k = 0; k < side; ++k) {
+        const std::array<Word, 2> more = cells_of_blocks(mask.row(side * y + k)[i]);
+        count = {count[0] + more[0], count[1] + more[1]};
+      }
+      Word found = 0; // bit 4 b for block b
+      for(int odd = 0; odd < 2; ++odd)
+        found |= ((count[odd] + (0x80 - Word(least)) * ones) & 0x80 * ones) >> (7 - 4 * odd);
+      for(; found != 0; found &= found - 1) {
+        const int x = i * blocks_of_word + lowest_bit(found) / side;
+        result.add({y, x, x + 1});
+      }
+    }
+  return result;
+}
+
+// Blocks of 4 x 4 cells, the mask in the middle of as few as it needs, at least half of which are in the
+// mask; or all that meet it if there are none.
+inline Rasterized_chart halftone(const Rasterized_chart& fine)
+{
+  constexpr int side = halftone_side;
   const int w = fine.mask.width(), h = fine.mask.height();
   const int columns = (w + side - 1) / side, rows = (h + side - 1) / side;
   const int left = (columns * side - w) / 2, bottom = (rows * side - h) / 2;
   Texel_mask framed(columns * side, rows * side);
-  for(int y = 0; y < h; ++y) {
-    Word* row = framed.row(y + bottom);
-    for(int i = 0; i < fine.mask.words(); ++i)
-      row[i] = fine.mask.row(y)[i];
-    if(left > 0)
-      for(int i = framed.words() - 1; i >= 0; --i)
-        row[i] = row[i] << left | (i > 0 ? row[i - 1] >> (64 - left) : 0);
+  for(const Cell_run& run : fine.mask.runs())
+    framed.add({run.y + bottom, run.begin + left, run.end + left});
+  std::vector<Cell_run> runs = blocks_of(framed, side * side / 2).runs();
+  if(runs.empty())
+    runs = blocks_of(framed, 1).runs();
+  int x0 = columns, x1 = 0;
+  for(const Cell_run& run : runs) {
+    x0 = (std::min)(x0, run.begin);
+    x1 = (std::max)(x1, run.end);
   }
+  const int y0 = runs.front().y;
   Rasterized_chart result;
-  for(const int least : {side * side / 2, 1}) {
-    Texel_mask blocks(columns, rows);
-    int x0 = columns, x1 = 0, y0 = rows, y1 = 0;
-    for(int y = 0; y < rows; ++y)
-      for(int i = 0; i < framed.words(); ++i) {
-        std::array<Word, 2> count = {};
-        for(int k = 0; k < side; ++k) {
-          const std::array<Word, 2> more = cells_of_blocks(framed.row(side * y + k)[i]);
-          count = {count[0] + more[0], count[1] + more[1]};
-        }
-        Word found = 0; // bit 4 b for block b
-        for(int odd = 0; odd < 2; ++odd)
-          found |= ((count[odd] + (0x80 - Word(least)) * ones) & 0x80 * ones) >> (7 - 4 * odd);
-        for(; found != 0; found &= found - 1) {
-          const int x = i * blocks_of_word + lowest_bit(found) / side;
-          blocks.add({y, x, x + 1});
-          x0 = (std::min)(x0, x);
-          x1 = (std::max)(x1, x + 1);
-          y0 = (std::min)(y0, y);
-          y1 = y + 1;
-        }
-      }
-    if(x0 >= x1)
-      continue;
-    result.mask = Texel_mask(x1 - x0, y1 - y0);
-    for(int y = y0; y < y1; ++y) {
-      const Word* from = blocks.row(y);
-      Word* to = result.mask.row(y - y0);
-      for(int x = x0; x < x1; x += 64) {
-        const int i = x >> 6, s = x & 63;
-        const Word last = (x1 - x) < 64 ? (Word(1) << (x1 - x)) - 1 : ~Word(0);
-        const Word next = i + 1 < blocks.words() ? from[i + 1] : 0;
-        to[(x - x0) >> 6] = (from[i] >> s | next << 1 << (63 - s)) & last;
-      }
-    }
-    result.centre = {(fine.centre[0] + left) / side - x0, (fine.centre[1] + bottom) / side - y0};
-    break;
-  }
+  result.mask = Texel_mask(x1 - x0, runs.back().y + 1 - y0);
+  for(const Cell_run& run : runs)
+    result.mask.add({run.y - y0, run.begin - x0, run.end - x0});
+  result.centre = {(fine.centre[0] + left) / side - x0, (fine.centre[1] + bottom) / side - y0};
   return result;
 }
 

@@ -131,12 +131,12 @@ inline std::vector<Cell_run> Texel_mask::runs() const
   return result;
 }
 
-// Adds the words `from`, shifted to the left by `shift` bits, to `n` others, both of which have this size.
-inline void add_shifted(const Word* from, int shift, Word* words, int n)
+// Adds to `n` words themselves, shifted to the left by `shift` bits.
+inline void add_shifted(Word* words, int n, int shift)
 {
   const int skip = shift >> 6, s = shift & 63;
   for(int i = n - 1; i >= skip; --i)
-    words[i] |= from[i - skip] << s | (i > skip ? from[i - skip - 1] >> 1 >> (63 - s) : 0);
+    words[i] |= words[i - skip] << s | (i > skip ? words[i - skip - 1] >> 1 >> (63 - s) : 0);
 }
 
 // The cells that a mask's cells touch when it moves up to `n` cells to the right and up: each step moves
@@ -149,7 +149,7 @@ inline Texel_mask swept(const Texel_mask& mask, int n)
     Word* row = result.row(y);
     std::copy_n(mask.row(y), mask.words(), row);
     for(int reach = 1; reach <= n; reach *= 2)
-      add_shifted(row, (std::min)(reach, n + 1 - reach), row, words);
+      add_shifted(row, words, (std::min)(reach, n + 1 - reach));
   }
   for(int reach = 1; reach <= n; reach *= 2) {
     const int step = (std::min)(reach, n + 1 - reach);
