@@ -209,7 +209,28 @@ TEST(Page_filling, as_much_is_used_as_is_asked_for_or_less_for_want_of_cuts)
     if(wanted < 0.9) {
       EXPECT_GE(result.report.utilisation, wanted) << seed_text;
     }
+    EXPECT_EQ(result.report.why_not_used.empty(), result.report.utilisation >= wanted) << seed_text;
   }
+}
+
+TEST(Page_filling, says_why_no_more_is_used)
+{
+  const Indexed_triangle_mesh mesh = grid(80, 4);
+  SMT::Texture_atlas_options options = with_price(std::numeric_limits<double>::infinity());
+  options.min_used = 0.97;
+  const auto reason = [&] { return SMT::build_texture_atlas(mesh, options).report.why_not_used; };
+  EXPECT_EQ(reason(), "no further cut of a chart that is tried lets them be packed more densely");
+  EXPECT_EQ(SMT::build_texture_atlas(mesh, options, SMT::Component_segmenter()).report.why_not_used,
+            "charts that are given are not cut");
+  options.max_charts = 1;
+  EXPECT_EQ(reason(), "there are as many charts as there may be");
+  options.max_charts = 0;
+  options.is_enough = [] { return true; };
+  EXPECT_EQ(reason(), "the time was up");
+  options.is_enough = nullptr;
+  options.packing.texels_per_unit = 1.;
+  options.packing.max_pages = 0;
+  EXPECT_EQ(reason(), "the density of texels is given");
 }
 
 // Also where the charts stay as they were without that, since the cuts turned out to be no good.

@@ -8,9 +8,11 @@
 #include "reading/Given_charts.h"
 #include "common/Interruption.h"
 #include "common/Program_error.h"
+#include "common/Ray_caster.h"
 #include "reading/Surface_reading.h"
 
 #include <CGAL/Surface_mesh_texturing/Horizon_packer.h>
+#include <CGAL/Surface_mesh_texturing/ambient_occlusion.h>
 #include <CGAL/Surface_mesh_texturing/build_texture_atlas.h>
 #include <CGAL/Surface_mesh_texturing/unstacked_atlas.h>
 
@@ -104,6 +106,10 @@ Built_atlas build_atlas(const Input_surface& surface, const Program_options& opt
   library.packing.padding = options.atlas.padding;
   library.packing.mip_levels = options.atlas.mip_levels;
   library.packing.max_pages = options.atlas.pages;
+  if(options.atlas.hides_seams)
+    library.occlusion = [](const Indexed_triangle_mesh& mesh) {
+      return SMT::ambient_occlusion<Ray_caster>(mesh);
+    };
   library.metric = metric_of_signal(surface, options);
   if(surface.surface.repairs.triangulated) {
     if(library.has_smooth_seams) {

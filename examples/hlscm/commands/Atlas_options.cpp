@@ -60,6 +60,8 @@ void add_atlas_options(CLI::App& app, Program_options& o)
              "cut charts until so many % of the texture are used, or no cut helps any more");
   app.add_flag("--smooth-seams", atlas.has_smooth_seams,
                "lead seams through faces, which are cut there, so that they are straight");
+  app.add_flag("--hide-seams", atlas.hides_seams,
+               "lead seams rather where the surface hides them from view");
   app.add_option("--charts", atlas.charts,
                  "the charts: a file with a whole number a line for each face, or uv for those of "
                  "the texture coordinates of IN")

@@ -54,6 +54,8 @@ Json to_json(const SMT::Texture_atlas_report& atlas)
            {{"relative_length", number(atlas.seams.relative_length)},
             {"on_creases", number(atlas.seams.on_creases)},
             {"in_concavities", number(atlas.seams.in_concavities)},
+            {"occlusion", number(atlas.seams.occlusion)},
+            {"surface_occlusion", number(atlas.seams.surface_occlusion)},
             {"jaggedness", number(atlas.seams.jaggedness)}}},
           {"texels",
            {{"parts", atlas.texels.parts},
@@ -62,6 +64,7 @@ Json to_json(const SMT::Texture_atlas_report& atlas)
             {"density_range", number(atlas.texels.density_range)},
             {"compactness", number(atlas.texels.compactness)}}},
           {"page_cuts", atlas.page_cuts},
+          {"unwanted_seams", atlas.unwanted_seams},
           {"recut_charts", atlas.recut_charts},
           {"stopped_early", atlas.stopped_early},
           {"flips", d.flipped_faces},
@@ -170,7 +173,7 @@ std::vector<std::string> Atlas_report::all_warnings() const
     std::ostringstream text;
     text << std::setprecision(4) << 100 * atlas->utilisation
          << " % of the texture are used, less than " << 100 * wanted_utilisation
-         << " %: no further cut of a chart that is tried lets them be packed more densely";
+         << " %: " << (atlas->why_not_used.empty() ? "charts overlap" : atlas->why_not_used);
     all.push_back(text.str());
   }
   if(overlapping_texels > 0) {

@@ -5,17 +5,13 @@
 
 #include "common/Interruption.h"
 #include "common/Program_error.h"
+#include "common/Ray_caster.h"
 #include "common/Stopwatch.h"
 
 #include <CGAL/Surface_mesh_texturing/bake_by_rays.h>
 #include <CGAL/Surface_mesh_texturing/bake_colors.h>
 #include <CGAL/Surface_mesh_texturing/bake_displacement.h>
 #include <CGAL/Surface_mesh_texturing/rendering_error.h>
-#ifdef HLSCM_WITHOUT_EMBREE
-#include <CGAL/Surface_mesh_texturing/AABB_tree_ray_caster.h>
-#else
-#include <CGAL/Surface_mesh_texturing/Embree_ray_caster.h>
-#endif
 
 #include <algorithm>
 #include <utility>
@@ -25,12 +21,6 @@ namespace hlscm {
 namespace SMT = CGAL::Surface_mesh_texturing;
 
 namespace {
-
-#ifdef HLSCM_WITHOUT_EMBREE
-using Ray_caster = SMT::AABB_tree_ray_caster;
-#else
-using Ray_caster = SMT::Embree_ray_caster;
-#endif
 
 class Baker
 {

@@ -139,6 +139,7 @@ void set_layout(const Input_surface& surface, const Program_options& options,
   library.page_set = parts_of(surface, options, options.atlas.layout.separate, "--separate")
                          .of_triangles;
   library.is_aligned = options.atlas.layout.is_aligned;
+  library.has_whole_texels = options.atlas.layout.is_lightmap;
 }
 
 SMT::Texture_atlas_result repack(const Input_surface& surface, const Program_options& options,

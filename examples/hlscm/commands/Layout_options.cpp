@@ -68,7 +68,7 @@ void check_target(const CLI::App& app)
   for(const char* other :
       {"--aspect", "--mip-levels", "--max-area-scale", "--max-quasi-conformal", "--max-charts",
        "--seam-price", "--min-used", "--smooth-seams", "--charts", "--one-disk", "--pages",
-       "--packing-time", "--method", "--repack", "--keep-scale", "--density", "--importance",
+       "--packing-time", "--method", "--repack", "--keep-scale", "--density", "--importance", "--hide-seams",
        "--limits", "--separate", "--align", "--udim", "--symmetric"}) {
     if(app.count(other) > 0) {
       throw CLI::ValidationError("--target", "its texture coordinates are taken as they are, leave "
@@ -115,7 +115,8 @@ void add_layout_options(CLI::App& app, Program_options& options)
     stack->group(""); // where it is refused with a reason
   } else {
     app.add_flag("--lightmap", layout.is_lightmap,
-                 "atlas.glb keeps the texture coordinates of IN, the atlas is its second set");
+                 "atlas.glb keeps the texture coordinates of IN, the atlas is its second set; boxes of "
+                 "charts have whole texels");
   }
   app.parse_complete_callback([&app, &options] {
     check_layout(app, options.atlas.layout);

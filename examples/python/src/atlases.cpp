@@ -7,6 +7,8 @@
 #include "options.h"
 #include "running.h"
 
+#include <CGAL/Surface_mesh_texturing/AABB_tree_ray_caster.h>
+#include <CGAL/Surface_mesh_texturing/ambient_occlusion.h>
 #include <CGAL/Surface_mesh_texturing/Horizon_packer.h>
 #include <CGAL/Surface_mesh_texturing/axis_parallel_part.h>
 #include <CGAL/Surface_mesh_texturing/build_texture_atlas.h>
@@ -116,6 +118,13 @@ Atlas_request to_request(const py::dict& options)
   take(options, "largest_aspect", library.largest_aspect);
   take(options, "smooth_seams", library.has_smooth_seams);
   take(options, "align", library.is_aligned);
+  take(options, "whole_texels", library.has_whole_texels);
+  bool hides_seams = false;
+  take(options, "hide_seams", hides_seams);
+  if(hides_seams)
+    library.occlusion = [](const Indexed_triangle_mesh& mesh) {
+      return SMT::ambient_occlusion<SMT::AABB_tree_ray_caster>(mesh);
+    };
   take(options, "time_limit", library.seconds);
   take_numbers(options, "density", library.density);
   take_numbers(options, "no_seams", library.no_seams);
@@ -302,6 +311,8 @@ py::dict to_dict(const SMT::Texture_atlas_report& report)
   d["jaggedness"] = report.seams.jaggedness;
   d["seams_on_creases"] = report.seams.on_creases;
   d["seams_in_concavities"] = report.seams.in_concavities;
+  d["seam_occlusion"] = report.seams.occlusion;
+  d["surface_occlusion"] = report.seams.surface_occlusion;
   d["density_range"] = report.texels.density_range;
   d["compactness"] = report.texels.compactness;
   d["seconds"] = report.seconds_total;

@@ -41,11 +41,14 @@ struct Chart_growth_segmenter
     growth.max_charts = options.max_charts;
     growth.least_fill = options.least_fill;
     growth.may_stretch = options.may_stretch;
+    growth.occlusion = options.occlusion;
     const Blocked_execution::Stopwatch watch;
     bool stopped_early = false;
-    if(options.seconds > 0.)
+    if(options.seconds > 0. || options.is_enough)
       growth.is_enough = [&] {
-        return stopped_early = stopped_early || watch.seconds() >= options.seconds;
+        return stopped_early = stopped_early
+                            || (options.seconds > 0. && watch.seconds() >= options.seconds)
+                            || (options.is_enough && options.is_enough());
       };
     // The search maps each triangle many times: of fewer triangles, and as many patches, it makes
     // charts as good in less time

@@ -57,7 +57,8 @@ struct Edge_vertex
 \ingroup PkgHLSCMTexturing
 
 How much shorter than flat edges creases are taken to be, so that short seams lie on creases, where
-they are least seen. Angles are those between the normals of the two triangles at an edge.
+they are least seen, and how much shorter edges with ambient occlusion, where that is known. Angles are
+those between the normals of the two triangles at an edge.
 */
 struct Crease_weights
 {
@@ -65,6 +66,16 @@ struct Crease_weights
   double sharp_angle = 70.;   ///< from which an edge is a crease; degrees
   double crease_length = 0.2; ///< what a crease counts for each unit of its length, in (0, 1]
   double concave_gain = 1.5;  ///< how much faster the length of concave edges falls with the angle
+  double hidden_occlusion = 0.25; ///< from which ambient occlusion on an edge is hidden, in (0, 1]
+  double hidden_length = 0.1;     ///< what a hidden edge counts for each unit of its length, in (0, 1]
+
+  /// Returns what each unit of the length of an edge counts between vertices with these ambient
+  /// occlusions.
+  double part_seen(float occlusion, float other) const
+  {
+    const double mean = 0.5 * (double(occlusion) + double(other));
+    return 1. - (1. - hidden_length) * (std::min)(1., mean / hidden_occlusion);
+  }
 };
 
 namespace internal {

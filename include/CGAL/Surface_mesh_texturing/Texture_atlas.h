@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace CGAL {
@@ -72,11 +73,21 @@ struct Texture_atlas_options
   /// `smooth_seams()`. Not those of charts that are cut again, or to fill the pages. With this `no_seams`
   /// must be empty.
   bool has_smooth_seams = false;
-  /// Whether charts are turned so that as much as possible of their borders, and of the creases in
-  /// them, runs along the rows and columns of the texture; then by quarters only. Chains of border
+  /// Finds the ambient occlusion of the vertices of a coarse mesh: seams rather lie where the surface
+  /// hides them. See `Chart_growth_options::occlusion`; for `Chart_growth_segmenter`. Nothing by default.
+  std::function<std::vector<float>(const Indexed_triangle_mesh&)> occlusion;
+  /// Whether charts are turned so that as much as possible of their borders, of the creases in them, and of
+  /// the edges of polygons (triangles with an edge in `no_seams`) runs along the rows and columns of the
+  /// texture; then by quarters only. Chains of border
   /// that nearly do so become straight, as far as the map stays one-to-one and within `bound`. Parts of
   /// a chart that is cut to fill the pages (`seam_price`) keep its direction.
   bool is_aligned = false;
+  /// Whether the smallest box around each chart, with sides along those of the page, is to consist of whole
+  /// texels, as light maps want it: a chart is stretched and moved to that by one texel at most. Texels on
+  /// the sides of a chart are then its own all over. The gap between charts is that of level 0,
+  /// `Packing_options::padding` times \f$ 2^m \f$ texels, also with `Packing_options::mip_levels`
+  /// \f$ m \f$.
+  bool has_whole_texels = false;
   /// The textures, and how charts are placed in them.
   Packing_options packing;
   /// For each triangle a number; charts with the same one for their first triangles lie on the same pages,
@@ -93,6 +104,9 @@ struct Texture_atlas_options
   /// take somewhat longer: what is linear in the size of the mesh is done in any case. 0 for no
   /// limit. With a limit the atlas depends on the speed of the machine.
   double seconds = 0.;
+  /// Asked from time to time, by several threads at the same time; once it returns `true` the atlas is
+  /// finished as if the `seconds` were over: a valid atlas, the best that there is by then.
+  std::function<bool()> is_enough;
   /// Threads with `Parallel_tag`; 0 for all that the machine has. The result does not depend on it.
   unsigned int threads = 0;
   /// Told the part done in [0, 1] from time to time, by one thread at a time; returning `false` cancels.
@@ -147,7 +161,11 @@ struct Texture_atlas_report
   std::size_t recut_charts = 0;
   std::size_t page_cuts = 0;      ///< cuts made to fill the pages; see `seam_price`
   std::size_t unwanted_seams = 0; ///< edges that are seams in spite of the option `no_seams`
-  /// Whether `Texture_atlas_options::seconds` were over before the atlas was as good as it gets.
+  /// Why less than `Texture_atlas_options::min_used` of the pages is used, as a part of a sentence; empty
+  /// if it is used.
+  std::string why_not_used;
+  /// Whether `Texture_atlas_options::seconds` were over, or `Texture_atlas_options::is_enough` said so,
+  /// before the atlas was as good as it gets.
   bool stopped_early = false;
   double seam_length = 0.;     ///< of all seams, each once, without the border of the surface
   /// Of the whole atlas, in texels to units of length: so `area_scale_range` compares charts too.

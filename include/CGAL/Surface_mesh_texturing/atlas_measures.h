@@ -37,6 +37,10 @@ struct Seam_measures
   double on_creases = 0.;
   /// The part of their length on edges where the surface is concave, by 10 degrees or more.
   double in_concavities = 0.;
+  /// The mean ambient occlusion along them, see `ambient_occlusion()`; NaN if it was not looked for.
+  double occlusion = std::numeric_limits<double>::quiet_NaN();
+  /// The mean ambient occlusion of the surface, for comparison; NaN if it was not looked for.
+  double surface_occlusion = std::numeric_limits<double>::quiet_NaN();
   /// The length of the seams around charts to that of the lines through the midpoints of their edges: 1
   /// for straight ones, 2 where edges turn by 120 degrees to and fro.
   double jaggedness = 1.;
@@ -96,6 +100,36 @@ inline std::pair<double, double> jagged_lengths(const Chart_mesh& chart,
     result.second += 0.5 * std::sqrt(squared_distance(a, c)); // from midpoint to midpoint
   }
   return result;
+}
+
+} // namespace internal
+
+namespace internal {
+
+// Measures how much the surface hides its seams, with the ambient occlusion of each vertex.
+inline void measure_occlusion(const Indexed_triangle_mesh& mesh,
+                              const Indexed_mesh::Triangle_adjacency& adjacency,
+                              const Face_charts& charts, const std::vector<float>& occlusion,
+                              Seam_measures& result)
+{
+  double sum = 0., length = 0., surface_sum = 0., area = 0.;
+  for(Triangle_index t = 0; t < mesh.triangles.size(); ++t) {
+    const Triangle_indices& vs = mesh.triangles[t];
+    const double part
+      = std::sqrt(squared_area(mesh.points[vs[0]], mesh.points[vs[1]], mesh.points[vs[2]]));
+    area += 3. * part;
+    for(int c = 0; c < 3; ++c) {
+      const Vertex_index v = vs[c], w = vs[(c + 1) % 3];
+      surface_sum += part * double(occlusion[v]);
+      if(!charts.is_seam(t, c) || adjacency.opposite(3 * t + Halfedge(c)) == no_halfedge)
+        continue;
+      const double edge = std::sqrt(squared_distance(mesh.points[v], mesh.points[w]));
+      length += 2. * edge;
+      sum += edge * (double(occlusion[v]) + double(occlusion[w]));
+    }
+  }
+  result.occlusion = length > 0. ? sum / length : 0.;
+  result.surface_occlusion = area > 0. ? surface_sum / area : 0.;
 }
 
 } // namespace internal

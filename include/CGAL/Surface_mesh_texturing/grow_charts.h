@@ -49,6 +49,9 @@ struct Chart_growth_options
   /// How much is tried to get along with fewer charts: triangles that are mapped for each triangle
   /// of the mesh.
   double effort = 150.;
+  /// Finds the ambient occlusion of each vertex, in [0, 1], such as `ambient_occlusion()`: seams count
+  /// less where the surface hides them; see `Crease_weights::hidden_length`. Nothing by default.
+  std::function<std::vector<float>(const Indexed_triangle_mesh&)> occlusion;
   /// Asked from time to time; once it returns `true` the charts stay as they are then: disks, but
   /// more than need be, and some of them may be beyond the bound. Then the result may not be the
   /// same again.
@@ -68,6 +71,7 @@ struct Chart_growth_result
   /// `max_charts`, or single patches that cannot be mapped any better.
   std::size_t number_of_bad_charts = 0;
   std::vector<bool> is_bad; ///< for each chart whether it is among them
+  std::vector<float> occlusion; ///< of each vertex, if it was found
 };
 
 namespace internal {
@@ -142,7 +146,16 @@ inline Chart_growth_result grow_charts(const Indexed_triangle_mesh& mesh,
   Chart_growth_result result;
   if(result.fail(internal::growth_error(mesh, options)))
     return result;
-  const internal::Growth_surface surface(mesh);
+  std::vector<float> occlusion;
+  if(options.occlusion)
+    occlusion = options.occlusion(mesh);
+  if(!occlusion.empty() && occlusion.size() != mesh.points.size()) {
+    result.fail(Mesh_status::BAD_OPTIONS, "there are ambient occlusions of "
+                                            + std::to_string(occlusion.size()) + " vertices for "
+                                            + std::to_string(mesh.points.size()));
+    return result;
+  }
+  const internal::Growth_surface surface(mesh, occlusion);
   if(!(surface.scale > 0.)) {
     result.fail(Mesh_status::BAD_MESH, Indexed_mesh::no_extent_error);
     return result;
@@ -159,9 +172,12 @@ inline Chart_growth_result grow_charts(const Indexed_triangle_mesh& mesh,
   search.is_enough = options.is_enough;
   search.progress = options.progress;
   internal::Chart_search growth(surface, search);
-  if(growth.run())
-    return internal::growth_result(mesh, growth.best().graph, options.bound, options.may_stretch);
-  result.cancel();
+  if(!growth.run()) {
+    result.cancel();
+    return result;
+  }
+  result = internal::growth_result(mesh, growth.best().graph, options.bound, options.may_stretch);
+  result.occlusion = std::move(occlusion);
   return result;
 }
 

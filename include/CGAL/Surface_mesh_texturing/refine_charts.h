@@ -69,6 +69,7 @@ about two edges of the coarse mesh at most.
 border, as those of `Flat_collapse_engine`
 \param points of the fine mesh
 \param options of the straightening; with `rounds` 0 the seams are only carried along
+\param occlusion of each vertex, its `ambient_occlusion()`; empty for none
 
 \pre all that: this is a part of `segment_coarse_to_fine()`, which makes `pm` itself and checks the
 rest, and whom a check of the collapses would cost more than they do
@@ -78,11 +79,13 @@ Time linear in the number of triangles of `pm`.
 inline Face_charts refine_charts(const Progressive_mesh& pm,
                                  const std::vector<Indexed_triangle_mesh::Point_3>& points,
                                  std::size_t k, const Face_charts& coarse,
-                                 const Straightening_options& options = Straightening_options())
+                                 const Straightening_options& options = Straightening_options(),
+                                 const std::vector<float>& occlusion = {})
 {
   CGAL_precondition(k <= pm.collapses.size() && points.size() == pm.number_of_vertices);
   internal::Halfedge_triangles mesh(pm.triangles, points.size());
   internal::Refinable_seam_graph graph(mesh, points, options.creases);
+  graph.set_occlusion(occlusion);
   const std::vector<Halfedge> edges = internal::collapse_all(pm, k, mesh);
   graph.set_seams(internal::seams_of_survivors(pm, mesh, edges, coarse));
   graph.pin_curved(options.pinned_defect);

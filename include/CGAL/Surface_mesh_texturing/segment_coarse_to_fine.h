@@ -49,6 +49,9 @@ struct Segmentation_result
   std::size_t coarse_faces = 0; ///< triangles of the coarse mesh
   std::size_t unwanted_seams = 0; ///< edges that are seams in spite of `no_seams`
   bool stopped_early = false; ///< whether the search for charts was ended by a limit of time
+  /// The ambient occlusion of each vertex, in [0, 1], if that was found with the charts: those of the coarse
+  /// mesh, where it is known, have lent it to the vertices that were collapsed into them.
+  std::vector<float> occlusion;
   double decimation_seconds = 0.; ///< time to make the coarse mesh
   double coarse_seconds = 0.;   ///< time to find charts there
   double refinement_seconds = 0.; ///< time to carry them to the mesh and to make seams straight
@@ -69,24 +72,45 @@ Mesh_outcome outcome_of(const Result& result)
 }
 template <class Result>
 const Face_charts& charts_of(const Result& result) { return result.charts; }
+template <class Result>
+auto occlusion_of(const Result& result, int) -> decltype(result.occlusion) { return result.occlusion; }
+template <class Result>
+std::vector<float> occlusion_of(const Result&, long) { return {}; }
 
 // The mesh after the collapses, with the vertices that are left.
-inline Indexed_triangle_mesh coarse_mesh(const Indexed_triangle_mesh& mesh,
-                                         const Progressive_mesh& pm)
+struct Coarse_mesh
 {
-  Indexed_triangle_mesh result;
-  result.triangles = triangles_after(pm, pm.collapses.size());
-  std::vector<Vertex_index> rank(mesh.points.size(), no_vertex);
-  for(Triangle_indices& t : result.triangles)
-    for(Vertex_index& v : t) {
-      if(rank[v] == no_vertex) {
-        rank[v] = Vertex_index(result.points.size());
-        result.points.push_back(mesh.points[v]);
+  Indexed_triangle_mesh mesh;
+  std::vector<Vertex_index> source; // of each vertex
+
+  Coarse_mesh(const Indexed_triangle_mesh& fine, const Progressive_mesh& pm)
+  {
+    mesh.triangles = triangles_after(pm, pm.collapses.size());
+    std::vector<Vertex_index> rank(fine.points.size(), no_vertex);
+    for(Triangle_indices& t : mesh.triangles)
+      for(Vertex_index& v : t) {
+        if(rank[v] == no_vertex) {
+          rank[v] = Vertex_index(source.size());
+          source.push_back(v);
+          mesh.points.push_back(fine.points[v]);
+        }
+        v = rank[v];
       }
-      v = rank[v];
-    }
-  return result;
-}
+  }
+
+  // What is known of its vertices, given to those that were collapsed into them as well.
+  std::vector<float> refined(const std::vector<float>& values, const Progressive_mesh& pm) const
+  {
+    if(values.size() != source.size())
+      return {};
+    std::vector<float> result(pm.number_of_vertices, 0.f);
+    for(std::size_t v = 0; v < source.size(); ++v)
+      result[source[v]] = values[v];
+    for(std::size_t i = pm.collapses.size(); i-- > 0;)
+      result[pm.collapses[i].removed] = result[pm.collapses[i].kept];
+    return result;
+  }
+};
 
 // For each corner of the first one of a triangle of `original` that corner of the mesh that is
 // prepared: triangles are sorted there by their smallest vertex, their first one, and otherwise keep
@@ -162,13 +186,19 @@ public:
     m_result.decimation_seconds = m_watch.lap();
     if(!m_result.is_ok() || is_cancelled(0.5))
       return m_result;
-    const Face_charts coarse = segment(coarse_mesh(mesh, pm));
+    const Coarse_mesh coarse_mesh(mesh, pm);
+    const Face_charts coarse = segment(coarse_mesh.mesh);
     m_result.coarse_seconds = m_watch.lap();
     if(!m_result.is_ok() || is_cancelled(0.7))
       return m_result;
+    const std::vector<float> occlusion = coarse_mesh.refined(m_result.occlusion, pm);
     m_result.charts = charts_of_original(
       m_original.triangles, prepared,
-      refine_charts(pm, mesh.points, pm.collapses.size(), coarse, m_options.straightening));
+      refine_charts(pm, mesh.points, pm.collapses.size(), coarse, m_options.straightening,
+                    occlusion));
+    m_result.occlusion.resize(occlusion.size());
+    for(std::size_t v = 0; v < occlusion.size(); ++v)
+      m_result.occlusion[prepared.source[v]] = occlusion[v];
     if(!no_seams.empty()) {
       const Triangle_adjacency adjacency(m_original.triangles);
       m_result.charts = keep_seams_off(m_original, adjacency, m_result.charts, no_seams,
@@ -213,6 +243,7 @@ private:
     if(m_result.fail(outcome_of(found))
        || m_result.fail(charts_error(coarse, charts_of(found))))
       return {};
+    m_result.occlusion = occlusion_of(found, 0);
     return cut_to_disks(coarse, charts_of(found), m_options.cut);
   }
 

@@ -535,7 +535,8 @@ def atlas(vertices: Any, faces: Any = None, /, *, max_charts: int = 0, seam_pric
           packing_time: float = 0., density: Optional[ArrayLike] = None,
           metric: Optional[ArrayLike] = None, charts: Optional[ArrayLike] = None,
           limits: Optional[ArrayLike] = None, separate: Optional[ArrayLike] = None,
-          align: bool = False, smooth_seams: bool = False, stack: bool = False,
+          align: bool = False, smooth_seams: bool = False, hide_seams: bool = False,
+          whole_texels: bool = False, stack: bool = False,
           symmetric: bool = False, mend: bool = False, time_limit: float = 0., threads: int = 0,
           progress: Progress = None, full: bool = False) -> Any:
     """Cuts a surface into charts, maps each one-to-one, and packs them into textures.
@@ -566,6 +567,8 @@ def atlas(vertices: Any, faces: Any = None, /, *, max_charts: int = 0, seam_pric
     align: whether borders of charts lie along rows and columns, straight where they nearly are.
     smooth_seams: whether seams are led through faces, which are cut there. Only with `full`: the faces
         are then those of Atlas.vertices and Atlas.faces, and vmapping and indices are for these.
+    hide_seams: whether seams rather lie where the surface hides them, by ambient occlusion.
+    whole_texels: whether the box around each chart consists of whole texels, for a light map.
     stack: whether equal parts of the surface, also mirrored ones, share their place.
     symmetric: whether mirrored halves, and equal parts, have equal charts; with `stack` in one place.
     mend: whether the input is mended first, see mend(); then the faces are those of the mended surface.
@@ -588,8 +591,8 @@ def atlas(vertices: Any, faces: Any = None, /, *, max_charts: int = 0, seam_pric
         "metric": None if metric is None else _real(metric, "metric"), "no_seams": no_seams,
         "charts": _labels(charts, "charts", back), "limits": _labels(limits, "limits", back),
         "separate": _labels(separate, "separate", back), "align": align,
-        "smooth_seams": smooth_seams, "stack": stack, "symmetric": symmetric,
-        "time_limit": time_limit}
+        "smooth_seams": smooth_seams, "hide_seams": hide_seams, "whole_texels": whole_texels,
+        "stack": stack, "symmetric": symmetric, "time_limit": time_limit}
     made = _hlscm.atlas(vertices, faces, options, threads, progress)
     return _atlas_of(made, vertices, faces, back, full)
 

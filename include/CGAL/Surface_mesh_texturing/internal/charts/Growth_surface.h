@@ -24,7 +24,7 @@ struct Growth_surface
   Indexed_triangle_mesh mesh;        // in a unit and at a place of its own
   double scale = 1.;                 // its lengths to those of the input
   Halfedge_triangles adjacency;
-  std::vector<double> length;        // of each halfedge
+  std::vector<double> length;        // of each halfedge, shorter where it is hidden
   std::vector<double> angle;         // across each halfedge between the normals, 0 on the border
   std::vector<double> area;          // of each triangle
   std::vector<Point> centre;         // of each triangle
@@ -32,7 +32,9 @@ struct Growth_surface
   std::vector<std::uint32_t> component;
   std::size_t number_of_components = 0;
 
-  explicit Growth_surface(const Indexed_triangle_mesh& input);
+  // The ambient occlusion is that of each vertex, or empty.
+  explicit Growth_surface(const Indexed_triangle_mesh& input,
+                          const std::vector<float>& occlusion = {});
 
   std::size_t size() const { return mesh.triangles.size(); }
 };
@@ -50,7 +52,8 @@ inline double round_to_unit(Indexed_triangle_mesh& mesh)
   return scale;
 }
 
-inline Growth_surface::Growth_surface(const Indexed_triangle_mesh& input)
+inline Growth_surface::Growth_surface(const Indexed_triangle_mesh& input,
+                                      const std::vector<float>& occlusion)
   : mesh(input), scale(round_to_unit(mesh)), adjacency(mesh.triangles, mesh.points.size())
   , length(3 * size()), angle(3 * size(), 0.), area(size()), centre(size())
   , defect(mesh.points.size(), 2. * CGAL_PI)
@@ -80,6 +83,10 @@ inline Growth_surface::Growth_surface(const Indexed_triangle_mesh& input)
     const auto x = cross_product(m, n);
     angle[h] = std::atan2(std::sqrt(x * x), m * n);
   }
+  if(!occlusion.empty())
+    for(std::uint32_t h = 0; h < length.size(); ++h)
+      length[h] *= Crease_weights().part_seen(occlusion[adjacency.source(h)],
+                                              occlusion[adjacency.target(h)]);
   const Face_charts components
     = label_charts(adjacency, std::vector<std::uint8_t>(size(), 0));
   component = components.chart;

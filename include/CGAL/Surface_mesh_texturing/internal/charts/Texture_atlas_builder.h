@@ -12,6 +12,7 @@
 #include <CGAL/Surface_mesh_texturing/internal/charts/map_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/filling/Filled_packing.h>
 #include <CGAL/Surface_mesh_texturing/internal/filling/page_sets.h>
+#include <CGAL/Surface_mesh_texturing/internal/packing/whole_texels.h>
 #include <CGAL/Surface_mesh_texturing/internal/mapped_charts/align_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/mapped_charts/straighten_borders.h>
 
@@ -124,13 +125,15 @@ private:
   Face_charts found(Segmentation_result result)
   {
     m_result.fail(result);
+    m_occlusion = std::move(result.occlusion);
     return std::move(result.charts);
   }
 
   // Whether the time is over, which who asks then takes into account. Asked from several threads.
   bool is_over() const
   {
-    const bool result = m_options.seconds > 0. && m_watch.seconds() >= m_options.seconds;
+    const bool result = (m_options.seconds > 0. && m_watch.seconds() >= m_options.seconds)
+                     || (m_options.is_enough && m_options.is_enough());
     if(result)
       m_was_over = true;
     return result;
@@ -150,6 +153,7 @@ private:
   const Atlas_models& m_models;
   std::optional<Triangle_adjacency> m_adjacency; // of the mesh, from the maps on
   Face_charts m_charts;
+  std::vector<float> m_occlusion; // of each vertex, or none
   std::vector<Mapped_chart> m_maps;
   Packing_result m_packing;
   std::size_t m_page_height = 0; // in texels
@@ -296,11 +300,13 @@ inline bool Texture_atlas_builder::pack()
   const Blocked_execution::Stopwatch watch;
   Chart_mapping mapping = chart_mapping(m_options.bound);
   if(m_options.is_aligned) {
-    align_charts(m_maps);
+    align_charts(m_options.no_seams, m_maps);
     if(!m_models.take_maps)
       straighten_borders(mapping, m_maps);
   }
   Packing_options packing = m_options.packing;
+  if(m_options.has_whole_texels)
+    packing.padding += padding_of_whole_texels(packing.mip_levels);
   packing.quarter_turns_only = packing.quarter_turns_only || m_options.is_aligned;
   constexpr double time_of_a_triangle = 5e-6, most_time = 0.25; // what the rest of the time allows
   packing.time_budget += (std::min)(most_time, time_of_a_triangle * double(m_mesh.triangles.size()));
@@ -326,6 +332,8 @@ inline bool Texture_atlas_builder::pack()
     Filled_packing filled(m_options, packing, mapping, pack_shapes, sets[i]);
     Packing_result packed = filled.run(m_models.is_bounded);
     m_result.report.page_cuts += filled.number_of_cuts();
+    if(m_result.report.why_not_used.empty())
+      m_result.report.why_not_used = filled.why_not_used();
     if(!m_result.fail(packed))
       add_pages(std::move(sets[i]), std::move(packed), m_maps, m_packing);
   }
@@ -351,10 +359,13 @@ inline void Texture_atlas_builder::fill()
   for(std::size_t i = 0; i < m_maps.size(); ++i) {
     const Mapped_chart& map = m_maps[i];
     const Vertex_index first = Vertex_index(atlas.mesh.uv.size());
-    for(const Point_2& p : map.uv) {
-      const Point_2 q = m_packing.placements[i](p);
-      atlas.mesh.uv.emplace_back(q.x() / double(atlas.width), q.y() / double(atlas.height));
-    }
+    std::vector<Point_2> placed;
+    for(const Point_2& p : map.uv)
+      placed.push_back(m_packing.placements[i](p));
+    if(m_options.has_whole_texels)
+      take_to_whole_texels(placed);
+    for(const Point_2& p : placed)
+      atlas.mesh.uv.emplace_back(p.x() / double(atlas.width), p.y() / double(atlas.height));
     for(std::size_t t = 0; t < map.chart.triangles.size(); ++t)
       for(int c = 0; c < 3; ++c)
         atlas.mesh.wedges[map.chart.triangles[t]][c] = first + map.chart.mesh.triangles[t][c];
@@ -366,6 +377,8 @@ inline void Texture_atlas_builder::fill()
   report.unwanted_seams = number_of_seams_on(*m_adjacency, atlas.charts, m_options.no_seams);
   report.texel_utilisation = m_packing.texel_utilisation;
   report.seams = measure_seams(m_mesh, *m_adjacency, atlas.charts);
+  if(!m_occlusion.empty())
+    measure_occlusion(m_mesh, *m_adjacency, atlas.charts, m_occlusion, report.seams);
   report.seam_length = report.seams.length;
   report.texels = measure_texels(atlas.mesh, atlas.charts, atlas.width, atlas.height);
   measure_atlas(atlas, report);

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -31,18 +32,44 @@ public:
 
   Packing_result run(bool may_cut)
   {
-    constexpr std::size_t most_charts = 200; // with more there is dust for all gaps
-    if(may_cut && m_charts.size() <= most_charts && m_pages.texels_per_unit == 0.
-       && (std::isfinite(m_options.seam_price) || m_options.min_used > 0.))
+    m_why_not_used = reason_for_no_cuts(may_cut);
+    if(m_why_not_used.empty() && (std::isfinite(m_options.seam_price) || m_options.min_used > 0.))
       cut_and_pack();
     else
       m_packing = pack();
+    if(m_packing.utilisation >= m_options.min_used)
+      m_why_not_used.clear();
+    else if(m_why_not_used.empty())
+      m_why_not_used = reason_for_no_more_cuts();
     return std::move(m_packing);
   }
 
   std::size_t number_of_cuts() const { return m_number_of_cuts; }
 
+  // Why less than `Texture_atlas_options::min_used` of the pages of these charts is used, after `run()`;
+  // empty if it is used.
+  const std::string& why_not_used() const { return m_why_not_used; }
+
 private:
+  std::string reason_for_no_cuts(bool may_cut) const
+  {
+    constexpr std::size_t most_charts = 200; // with more there is dust for all gaps
+    if(!may_cut)
+      return "charts that are given are not cut";
+    if(m_charts.size() > most_charts)
+      return "more than " + std::to_string(most_charts) + " charts are not cut";
+    return m_pages.texels_per_unit > 0. ? "the density of texels is given" : "";
+  }
+
+  std::string reason_for_no_more_cuts() const
+  {
+    if(!m_mapping.has_time())
+      return "the time was up";
+    if(m_options.max_charts > 0 && m_charts.size() >= m_options.max_charts)
+      return "there are as many charts as there may be";
+    return "no further cut of a chart that is tried lets them be packed more densely";
+  }
+
   Packing_result pack() const
   {
     std::vector<Chart_shape> shapes;
@@ -128,6 +155,7 @@ private:
   std::vector<Mapped_chart>& m_charts;
   Packing_result m_packing;
   std::size_t m_number_of_cuts = 0;
+  std::string m_why_not_used;
 };
 
 } // namespace internal

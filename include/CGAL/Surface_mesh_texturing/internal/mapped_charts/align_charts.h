@@ -63,8 +63,10 @@ inline double main_direction(std::vector<Direction_and_length> segments)
   return 0.;
 }
 
-// The directions of the border of a chart and of the creases within it.
-inline std::vector<Direction_and_length> directions_of(const Mapped_chart& map)
+// The directions of the border of a chart and of the creases within it, and of the edges of polygons: of
+// triangles that have `diagonals`, three bits for each triangle of the whole mesh, those of the others.
+inline std::vector<Direction_and_length>
+directions_of(const Mapped_chart& map, const std::vector<std::uint8_t>& diagonals)
 {
   const Indexed_triangle_mesh& mesh = map.chart.mesh;
   const double flat = std::cos(Crease_weights().flat_angle * CGAL_PI / 180.);
@@ -80,24 +82,29 @@ inline std::vector<Direction_and_length> directions_of(const Mapped_chart& map)
     return cross_product(mesh.points[v[1]] - mesh.points[v[0]],
                          mesh.points[v[2]] - mesh.points[v[0]]);
   };
+  const std::vector<std::uint8_t> inner = map.chart.sides(diagonals);
+  const auto is_of_polygon = [&inner](Halfedge h, Halfedge o) {
+    return !inner.empty() && (inner[triangle_of(h)] | inner[triangle_of(o)]) != 0
+        && !is_marked(inner, h) && !is_marked(inner, o);
+  };
   const Triangle_adjacency adjacency(mesh.triangles);
   for(Halfedge h = 0; h < adjacency.number_of_halfedges(); ++h) {
     const Halfedge o = adjacency.opposite(h);
     if(o == no_halfedge || o < h)
       continue;
     const auto p = normal(triangle_of(h)), q = normal(triangle_of(o));
-    if(p * q < flat * std::sqrt((p * p) * (q * q)))
+    if(p * q < flat * std::sqrt((p * p) * (q * q)) || is_of_polygon(h, o))
       add(h);
   }
   return result;
 }
 
 // Turns the maps so that as much of these as possible runs along the axes.
-inline void align_charts(std::vector<Mapped_chart>& maps)
+inline void align_charts(const std::vector<std::uint8_t>& diagonals, std::vector<Mapped_chart>& maps)
 {
-  Blocked_execution::blocked_for(maps.size(), 1, [&maps](std::size_t begin, std::size_t end) {
+  Blocked_execution::blocked_for(maps.size(), 1, [&](std::size_t begin, std::size_t end) {
     for(std::size_t i = begin; i < end; ++i) {
-      const double angle = main_direction(directions_of(maps[i]));
+      const double angle = main_direction(directions_of(maps[i], diagonals));
       const double c = std::cos(angle), s = std::sin(angle);
       for(Point_2& p : maps[i].uv)
         p = Point_2(c * p.x() + s * p.y(), c * p.y() - s * p.x());

@@ -39,6 +39,9 @@ public:
     m_cos_sharp = std::cos(weights.sharp_angle * pi / 180.);
   }
 
+  // Lets edges be shorter where vertices have ambient occlusion; empty for none.
+  void set_occlusion(std::vector<float> occlusion) { m_occlusion = std::move(occlusion); }
+
   // The length of an edge v w on the border.
   Length length(Vertex_index v, Vertex_index w) const { return to_units(norm(vector(v, w))); }
 
@@ -54,8 +57,8 @@ public:
     if((dot > 0. && dot * dot >= m_cos_flat * m_cos_flat * squares)
        || !(left_2 > least_sine_2 * e_2 * squared(to_l))
        || !(right_2 > least_sine_2 * e_2 * squared(to_r)))
-      return to_units(length);
-    return to_units(length * factor(dot, squares, left, to_r));
+      return to_units(part_seen(v, w) * length);
+    return to_units(part_seen(v, w) * length * factor(dot, squares, left, to_r));
   }
 
   // The angle at v between the edges to u and w, in degrees.
@@ -91,6 +94,11 @@ private:
     return 1. - (1. - m_weights.crease_length) * (std::min)(1., (std::max)(0., sharpness));
   }
 
+  double part_seen(Vertex_index v, Vertex_index w) const
+  {
+    return m_occlusion.empty() ? 1. : m_weights.part_seen(m_occlusion[v], m_occlusion[w]);
+  }
+
   Vector vector(Vertex_index v, Vertex_index w) const
   {
     const Point_3 &p = m_points[v], &q = m_points[w];
@@ -113,6 +121,7 @@ private:
   const std::vector<Point_3>& m_points;
   Crease_weights m_weights;
   double m_extent, m_cos_flat, m_cos_sharp;
+  std::vector<float> m_occlusion; // of each vertex, or none
 };
 
 // The seams of a mesh that vertex splits refine, with their lengths.
@@ -173,6 +182,12 @@ public:
   void avoid(std::vector<std::uint8_t> sides) { m_avoided = std::move(sides); }
 
   const Crease_metric& metric() const { return m_metric; }
+
+  // Lets edges be shorter where vertices have ambient occlusion; empty for none.
+  void set_occlusion(std::vector<float> occlusion)
+  {
+    m_metric.set_occlusion(std::move(occlusion));
+  }
 
   // Undoes the collapse of r into k that left e. The graph keeps its homotopy type.
   void split(Halfedge e, Vertex_index r, Vertex_index k);
