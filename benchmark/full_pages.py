@@ -22,8 +22,10 @@ import sys
 import tempfile
 
 COLUMNS = ("model,faces,charts_uncut,used_uncut,seconds_uncut,charts,used,seconds,seam,seam_uncut,jaggedness,"
-           "on_creases,in_concavities,compactness,quasi_conformal_50,quasi_conformal_99,area_5,area_95,"
-           "density_range,peer_charts,peer_used,peer_seconds")
+           "on_creases,in_concavities,compactness,"
+           "quasi_conformal_5,quasi_conformal_50,quasi_conformal_95,quasi_conformal_99,"
+           "area_5,area_50,area_95,area_99,density_range,"
+           "peer_charts,peer_used,peer_seconds")
 
 
 def processor_seconds():
@@ -80,9 +82,8 @@ def main():
                    f"{cut['utilisation']:.4f}", f"{seconds:.3f}", f"{seams['relative_length']:.3f}",
                    f"{whole['seams']['relative_length']:.3f}", f"{seams['jaggedness']:.3f}",
                    f"{seams['on_creases']:.3f}", f"{seams['in_concavities']:.3f}",
-                   f"{texels['compactness']:.3f}", f"{texels['quasi_conformal'][1]:.4f}",
-                   f"{texels['quasi_conformal'][3]:.4f}", f"{texels['area_scale'][0]:.3f}",
-                   f"{texels['area_scale'][2]:.3f}", f"{texels['density_range']:.3f}",
+                   f"{texels['compactness']:.3f}", *(f"{q:.4f}" for q in texels["quasi_conformal"]),
+                   *(f"{q:.3f}" for q in texels["area_scale"]), f"{texels['density_range']:.3f}",
                    of_peer([arguments.peer, os.path.join(work, "out", "atlas.obj"), arguments.texels,
                             arguments.padding], arguments.limit) if arguments.peer else ",,"]
             print(",".join(map(str, row)), flush=True)

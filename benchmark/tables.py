@@ -483,6 +483,34 @@ def full_pages():
                   "processor seconds"], lines)
 
 
+ATLAS_OPTIONS = {
+    "": "few charts, cut where that fills the page",
+    "--seam-price inf": "the fewest charts and shortest seams, to paint on",
+    "--seam-price 0.005": "a fuller page for longer seams",
+    "--min-used 88": "the fullest page, whatever the seams",
+    "--packing-time 2": "a fuller page with the same charts",
+    "--time-limit 0.3": "many small models, or a first look",
+    "--smooth-seams": "straight seams; faces are cut",
+    "--hide-seams": "seams where nobody looks",
+    "--align": "rows and columns: pixels, tiles, straight parts",
+    "--method low-stretch": "fewer charts of bodies with limbs, for angles",
+    "--max-quasi-conformal 1.5": "angles that are kept better",
+    "--max-area-scale 2": "as many texels everywhere in a chart"}
+
+
+def atlas_options():
+    """What options of an atlas are for, and what they do to many models."""
+    lines = []
+    for row in read("atlas_options.csv"):
+        name = row["options"]
+        lines.append([f"`{name}`" if name else "none", ATLAS_OPTIONS[name], number(row, "charts", 1),
+                      number(row, "used", 3), number(row, "seam"), number(row, "jaggedness", 3),
+                      f"{number(row, 'quasi_conformal_50', 3)}, {number(row, 'quasi_conformal_95', 3)}",
+                      f"{number(row, 'area_5')}, {number(row, 'area_95')}", number(row, "seconds")])
+    return table(["option", "for", "charts", "texture used", "seams", "jaggedness",
+                  "quasi-conformal ratio: 50 %, 95 %", "area scale: 5 %, 95 %", "processor seconds"], lines)
+
+
 def full_pages_peer():
     """The same models by xatlas, where it ended."""
     rows = [row for row in read("full_pages.csv") if row["peer_used"]]
@@ -546,7 +574,8 @@ TABLES = {table.__name__: table for table in (
     million_faces, ratios, scaling, growth, stages, stages_two_threads, atlases,
     atlases_beside_paper, atlases_short, live, levels, streams, python, compile_time, reading, low_stretch,
     low_stretch_estimates, low_stretch_peers,
-    one_to_one, equation_peers, signals, light_models, which_map, full_pages, full_pages_peer, ranks,
+    one_to_one, equation_peers, signals, light_models, which_map, full_pages, full_pages_peer,
+    atlas_options, ranks,
     interfaces,
     memory_of_commands)}
 BEGIN, END = "<!-- table ", "<!-- end of table -->"

@@ -7,7 +7,7 @@
 
 #include "surface_pictures.h"
 
-#include <CGAL/Indexed_mesh/border_loops.h>
+#include <CGAL/Indexed_mesh/Vertex_rings.h>
 #include <CGAL/Surface_mesh_multigrid/Surface_multigrid_solver.h>
 
 #include <complex>

@@ -370,6 +370,36 @@ TEST(Segment_coarse_to_fine, makes_disks)
     }
 }
 
+// A model of `SegmentCoarse` that has nothing but what the concept asks for.
+class Single_chart
+{
+public:
+  struct Result
+  {
+    SMT::Face_charts charts;
+    std::string error;
+  };
+
+  explicit Single_chart(int) {}
+  Single_chart(const Single_chart&) = delete;
+  Single_chart& operator=(const Single_chart&) = delete;
+  Result operator()(const Indexed_triangle_mesh& coarse) const
+  {
+    if(coarse.triangles.size() > 1000)
+      return {{}, "too many triangles"};
+    return {SMT::one_disk_per_component(coarse), ""};
+  }
+};
+
+TEST(Segment_coarse_to_fine, needs_nothing_but_the_concept)
+{
+  const Single_chart single(0);
+  const auto result = SMT::segment_coarse_to_fine(sphere(4), coarse(300), single);
+  EXPECT_EQ(error_in_disks(sphere(4), result.charts), "");
+  EXPECT_EQ(result.charts.number_of_charts, 1u);
+  EXPECT_EQ(SMT::segment_coarse_to_fine(sphere(4), coarse(5000), single).error, "too many triangles");
+}
+
 TEST(Segment_coarse_to_fine, does_not_depend_on_unit_and_threads)
 {
   for(const auto& mesh : {cube(24), with_noise(sphere(4), 0.01, seed)}) {

@@ -7,7 +7,7 @@
 #include <support/dense_multigrid.h>
 
 #include <CGAL/Multigrid/Conjugate_gradient.h>
-#include <CGAL/Multigrid/Monogrid_preconditioners.h>
+#include <CGAL/Multigrid/Smoothers.h>
 
 #include <gtest/gtest.h>
 

@@ -156,6 +156,36 @@ TEST(Repair, can_be_stopped_between_patches)
   }
 }
 
+// A model of `FlipRepairFunction` that has nothing but what the concept asks for: it may be copied.
+class Idle_repairer
+{
+public:
+  explicit Idle_repairer(int* calls) : m_calls(calls) {}
+  Flip_repair_report operator()(SMP::Map_to_repair&, const std::function<bool(double)>& progress) const
+  {
+    ++*m_calls;
+    Flip_repair_report report;
+    report.stopped_early = !progress(1.);
+    return report;
+  }
+
+private:
+  int* m_calls;
+};
+
+TEST(Repair, needs_nothing_of_the_function_but_the_concept)
+{
+  Surface_mesh mesh = to_surface_mesh(rough_chart(1));
+  const Outcome plain = parameterize(mesh, with_method(Conformal_method::DIRECT));
+  int calls = 0;
+  SMP::HLSCM_options options = with_method(Conformal_method::DIRECT);
+  options.repair_flips = Idle_repairer(&calls);
+  const Outcome run = parameterize(mesh, options);
+  ASSERT_EQ(run.error, SMP::OK);
+  EXPECT_EQ(calls, 1);
+  EXPECT_EQ(run.uv, plain.uv);
+}
+
 TEST(Repair, obeys_the_progress_function)
 {
   Surface_mesh mesh = to_surface_mesh(rough_chart(1));

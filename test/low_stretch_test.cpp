@@ -11,6 +11,7 @@
 #include <CGAL/Blocked_execution/blocked_for.h>
 
 #include <CGAL/Surface_mesh_parameterization/Low_stretch_parameterizer_3.h>
+#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/collapse_to_few.h>
 #include <CGAL/Surface_mesh_parameterization/parameterize.h>
 
 #include <CGAL/Polygon_mesh_processing/measure.h>
@@ -30,6 +31,8 @@ namespace low_stretch_test {
 using namespace CGAL::Surface_mesh_parameterization;
 using namespace test_support;
 using CGAL::Indexed_mesh::Mesh_status;
+
+namespace low_stretch = CGAL::Surface_mesh_parameterization::internal;
 
 constexpr std::uint64_t seed = 20261123;
 
@@ -185,6 +188,59 @@ TEST(Low_stretch_map, threads_do_not_change_a_bit)
 }
 
 // In other units and places the map is the same but for rounding.
+// A chart of which the passes of the decimation are done in several blocks.
+Indexed_triangle_mesh large_chart(Vertex_index columns, Vertex_index rows)
+{
+  return with_hills(irregular_grid(columns, rows, seed), 20., seed + 1);
+}
+
+TEST(Low_stretch_insertion, parts_have_nothing_in_common)
+{
+  typedef CGAL::Surface_mesh_multiresolution::Progressive_mesh Progressive_mesh;
+  const Indexed_triangle_mesh mesh = large_chart(500, 400);
+  Vertex_rings rings;
+  const Progressive_mesh pm = low_stretch::collapse_to_few(mesh, Vertex_rings(mesh), {}, 40,
+                                                        low_stretch::Border_rule::ANY, {}, rings);
+  std::size_t passes_in_parts = 0;
+  for(std::size_t pass = pm.batch_ends.size(); pass-- > 0;) {
+    const std::size_t first = pass == 0 ? 0 : pm.batch_ends[pass - 1], last = pm.batch_ends[pass];
+    const auto parts = low_stretch::insertion_parts(rings, pm.collapses, first, last);
+    passes_in_parts += parts.size() > 1 ? 1 : 0;
+    std::size_t next = first;
+    Vertex_index low = 0;
+    for(const low_stretch::Insertion_part& part : parts) {
+      EXPECT_EQ(part.first, next);
+      EXPECT_GE(part.low, low);
+      for(std::size_t i = part.first; i < part.last; ++i) {
+        const Vertex_index v = pm.collapses[i].removed;
+        for(std::uint32_t k = 0; k < rings.degree(v); ++k)
+          EXPECT_TRUE(part.low <= rings.ring(v)[k] && rings.ring(v)[k] < part.high) << seed;
+        EXPECT_TRUE(part.low <= v && v < part.high) << seed;
+      }
+      next = part.last;
+      low = part.high;
+    }
+    EXPECT_EQ(next, parts.empty() ? first : last);
+    for(std::size_t i = last; i-- > first;)
+      rings.split(pm.collapses[i].removed, pm.collapses[i].kept);
+  }
+  EXPECT_GE(passes_in_parts, 2u);
+}
+
+TEST(Low_stretch_insertion, threads_do_not_change_a_bit)
+{
+  const Indexed_triangle_mesh mesh = large_chart(320, 300);
+  Low_stretch_options options;
+  options.tolerance = 0.1;
+  std::vector<Low_stretch_map> maps;
+  for(const unsigned int threads : {1u, 3u}) {
+    const CGAL::Blocked_execution::Thread_scope scope(threads);
+    maps.push_back(low_stretch_map(mesh, options));
+    EXPECT_EQ(error_in_map(mesh, maps.back()), "") << seed;
+  }
+  EXPECT_EQ(maps[0].uv, maps[1].uv);
+}
+
 TEST(Low_stretch_map, units_do_not_matter)
 {
   const Indexed_triangle_mesh mesh = with_hills(irregular_grid(40, 30, seed), 8., seed);

@@ -6,7 +6,7 @@
 
 #include <support/dense_multigrid.h>
 
-#include <CGAL/Multigrid/Monogrid_preconditioners.h>
+#include <CGAL/Multigrid/Smoothers.h>
 #include <CGAL/Surface_mesh_parameterization/Solver_traits_cholesky.h>
 
 #include <CGAL/Eigen_solver_traits.h>

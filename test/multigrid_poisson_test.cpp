@@ -9,8 +9,8 @@
 
 #include <CGAL/Multigrid/Block_values.h>
 #include <CGAL/Multigrid/Conjugate_gradient.h>
-#include <CGAL/Multigrid/Monogrid_preconditioners.h>
 #include <CGAL/Multigrid/Rayleigh_quotient.h>
+#include <CGAL/Multigrid/Smoothers.h>
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
 #include <CGAL/Surface_mesh_multiresolution/Mesh_hierarchy.h>
 

@@ -8,8 +8,8 @@
 #include <support/mesh_generators.h>
 
 #include <CGAL/Multigrid/Block_values.h>
-#include <CGAL/Multigrid/Monogrid_preconditioners.h>
 #include <CGAL/Multigrid/Patch_corrections.h>
+#include <CGAL/Multigrid/Smoothers.h>
 #include <CGAL/Multigrid/Split_matrix.h>
 
 #include <gtest/gtest.h>

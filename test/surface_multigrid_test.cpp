@@ -102,6 +102,42 @@ TEST(Surface_multigrid, finds_distances_by_heat)
   EXPECT_EQ(heat_distances(of_nothing, {}, 0, distance).error, "the mesh has no triangles");
 }
 
+// A model of `SurfaceElement` that has nothing but what the concept asks for.
+class Scaled_laplace_element
+{
+public:
+  explicit Scaled_laplace_element(double factor) : m_factor(factor) {}
+  Scaled_laplace_element(const Scaled_laplace_element&) = delete;
+  Scaled_laplace_element& operator=(const Scaled_laplace_element&) = delete;
+  void operator()(const Surface_triangle& t, Element_matrix<double>& e) const
+  {
+    Laplace_element()(t, e);
+    for(int j = 0; j < 3; ++j) {
+      e.diagonal[j] *= m_factor;
+      e.beside[j] *= m_factor;
+    }
+  }
+
+private:
+  double m_factor;
+};
+
+TEST(Surface_multigrid, needs_nothing_of_an_element_but_the_concept)
+{
+  const auto mesh = sphere(4);
+  Surface_multigrid_solver<> solver(hierarchy_of(mesh));
+  solver.options().tolerance = 1e-10;
+  const Eigen::VectorXd b = lumped_mass(mesh).cwiseProduct(
+    Eigen::VectorXd::NullaryExpr(Eigen::Index(mesh.points.size()),
+                                 [&](Eigen::Index v) { return mesh.points[v].z(); }));
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(b.size()), y = x;
+  ASSERT_TRUE(solver.set_element(Laplace_element()).is_ok());
+  ASSERT_TRUE(solver.solve(b, x).is_ok());
+  ASSERT_TRUE(solver.set_element(Scaled_laplace_element(4.)).is_ok());
+  ASSERT_TRUE(solver.solve(b, y).is_ok());
+  EXPECT_LT((x - 4. * y).norm(), 1e-7 * x.norm());
+}
+
 // In a plane linear functions are harmonic, whatever the triangles.
 TEST(Surface_multigrid, reproduces_linear_functions)
 {

@@ -7,7 +7,7 @@
 #include "Chart.h"
 
 #include <CGAL/Multigrid/Conjugate_gradient.h>
-#include <CGAL/Multigrid/Monogrid_preconditioners.h>
+#include <CGAL/Multigrid/Smoothers.h>
 #include <CGAL/Multigrid/Sparse_cholesky.h>
 #include <CGAL/Surface_mesh_parameterization/Conformal_operator.h>
 

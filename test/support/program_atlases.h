@@ -19,6 +19,7 @@
 #include <cstring>
 #include <fstream>
 #include <map>
+#include <numeric>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -195,6 +196,42 @@ inline Picture read_picture(const std::string& png)
   }
   result.has_16_bits = stbi_is_16_bit_from_memory(bytes, int(png.size())) != 0;
   return result;
+}
+
+// How far the boxes of the charts of a texture are from ones of whole texels.
+inline double boxes_off_whole_texels(const Textured_soup& atlas, double texels)
+{
+  std::vector<std::size_t> chart(atlas.uv.size());
+  std::iota(chart.begin(), chart.end(), std::size_t(0));
+  for(bool has_changed = true; has_changed;) { // the smallest index goes around
+    has_changed = false;
+    for(const auto& face : atlas.uv_faces) {
+      std::size_t least = chart[face[0]];
+      for(const std::size_t v : face) {
+        least = std::min(least, chart[v]);
+      }
+      for(const std::size_t v : face) {
+        has_changed = has_changed || chart[v] != least;
+        chart[v] = least;
+      }
+    }
+  }
+  double off = 0;
+  for(std::size_t c = 0; c < chart.size(); ++c) {
+    for(int k = 0; k < 2; ++k) {
+      double low = atlas.uv[chart[c]][k], high = low;
+      for(std::size_t v = 0; v < chart.size(); ++v) {
+        if(chart[v] == chart[c]) {
+          low = std::min(low, atlas.uv[v][k]);
+          high = std::max(high, atlas.uv[v][k]);
+        }
+      }
+      for(const double side : {texels * low, texels * high}) {
+        off = std::max(off, std::abs(side - std::round(side)));
+      }
+    }
+  }
+  return off;
 }
 
 // Empty if a GLB file holds a model with that many faces, its tangents if it shall have some, and

@@ -9,7 +9,7 @@
 #include "running.h"
 
 #include <CGAL/Indexed_mesh/Soup_diagnosis.h>
-#include <CGAL/Indexed_mesh/border_loops.h>
+#include <CGAL/Indexed_mesh/Vertex_rings.h>
 #include <CGAL/Indexed_mesh/surface_of_soup.h>
 #include <CGAL/Indexed_mesh/weld_points.h>
 #include <CGAL/Surface_mesh_parameterization/Distortion_measures.h>

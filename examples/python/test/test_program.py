@@ -134,6 +134,16 @@ class Same_as_program(unittest.TestCase):
         np.testing.assert_allclose(np.bincount(made.face, area(made.vertices, made.faces)),
                                    area(np.asarray(mesh[0]), mesh[1]), rtol=1e-9)
 
+    def test_atlases_for_light_maps(self):
+        made = hlscm.atlas(*meshes.torus(), whole_texels=True, mip_levels=2, hide_seams=True, full=True)
+        for chart in range(made.charts.max() + 1):
+            texels = 1024 * made.uv[made.indices[made.charts == chart]].reshape(-1, 2)
+            box = np.concatenate([texels.min(axis=0), texels.max(axis=0)])
+            np.testing.assert_allclose(box, np.round(box), atol=1e-9)
+        self.assertGreater(made.report["seam_occlusion"], made.report["surface_occlusion"])
+        plain = hlscm.atlas(*meshes.torus(), full=True)
+        self.assertTrue(np.isnan(plain.report["seam_occlusion"]))
+
     def test_limits_and_pages_by_material(self):
         vertices, faces = meshes.two_parts()
         left = (vertices[faces][:, :, 0].mean(axis=1) > 0.5).astype(int)
@@ -179,7 +189,8 @@ class Same_as_program(unittest.TestCase):
         picture = rng.integers(0, 256, (64, 64, 3), dtype=np.uint8)
         hlscm.write_png(self.path("in.png"), picture)
         density = hlscm.image_importance(mesh, picture / np.float32(255))
-        made = hlscm.atlas(mesh.vertices, mesh.faces, density=density, mip_levels=2, full=True)
+        made = hlscm.atlas(mesh.vertices, mesh.faces, density=density, mip_levels=2,
+                           whole_texels=True, full=True)
         _, _, uv, uv_faces = self.atlas_of_program(self.path("in.obj"), "--importance",
                                                    self.path("in.png"), "--lightmap")
         self.assert_same_bits(made.uv[made.indices], uv[uv_faces])

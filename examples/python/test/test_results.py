@@ -438,7 +438,7 @@ class Documentation(unittest.TestCase):
                             exec(code, names)
             finally:
                 os.chdir(before)
-        self.assertEqual(len(rows), 24)
+        self.assertEqual(len(rows), 25)
         exec(re.search(r"\\code{.py}\n(.*?)\\endcode", chapter, re.DOTALL).group(1), names)
         self.assertEqual(names["x"].shape, names["b"].shape)
 

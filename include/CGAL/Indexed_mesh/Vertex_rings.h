@@ -8,6 +8,7 @@
 #include <CGAL/Blocked_execution/Uninitialized_vector.h>
 #include <CGAL/Blocked_execution/sort_and_select.h>
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
+#include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 #include <CGAL/Indexed_mesh/internal/Ring_lines.h>
 
 #include <CGAL/assertions.h>
@@ -202,6 +203,9 @@ public:
     return !is_spilled(t) && degree(t) - 1 + gained > line_capacity;
   }
 
+  /// The same for the rings that become longer when the collapse of v into t is undone.
+  bool needs_new_spill_to_split(Vertex_index v, Vertex_index t) const;
+
   /// Collapses v into its ring vertex k. Precondition: `is_collapse_valid(v, k)`.
   void collapse(Vertex_index v, std::uint32_t k);
 
@@ -284,6 +288,15 @@ inline void Vertex_rings::collapse(Vertex_index v, std::uint32_t k)
   splice(t, position(t, v), moved, count);
 }
 
+inline bool Vertex_rings::needs_new_spill_to_split(Vertex_index v, Vertex_index t) const
+{
+  const Vertex_index* r = ring(v);
+  return std::any_of(r, r + degree(v), [&](Vertex_index w) {
+    const bool may_grow = w != t || degree(v) <= 3;
+    return may_grow && !is_spilled(w) && degree(w) >= line_capacity;
+  });
+}
+
 // The picture of collapse(), from right to left.
 inline void Vertex_rings::split(Vertex_index v, Vertex_index t)
 {
@@ -319,6 +332,65 @@ inline void Vertex_rings::split(Vertex_index v, Vertex_index t)
     ring_of_t.insert(ring_of_t.end(), q + first + count, q + e);
   }
   set_ring(t, ring_of_t, is_border(t));
+}
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// Returns the border cycles, each with the surface on its left. Linear time.
+inline std::vector<std::vector<Vertex_index>> border_loops(const Vertex_rings& rings)
+{
+  std::vector<std::vector<Vertex_index>> loops;
+  std::vector<bool> is_seen(rings.size(), false);
+  for(Vertex_index start = 0; start < rings.size(); ++start) {
+    if(!rings.is_border(start) || is_seen[start])
+      continue;
+    loops.emplace_back();
+    for(Vertex_index v = start; !is_seen[v]; v = rings.ring(v)[0]) {
+      is_seen[v] = true;
+      loops.back().push_back(v);
+    }
+  }
+  return loops;
+}
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// Returns for each vertex whether it can be reached from `seed` along edges. Linear time.
+inline std::vector<bool> component_of(const Vertex_rings& rings, Vertex_index seed)
+{
+  // Every vertex points to its smallest neighbour; few trees result, and only edges between trees
+  // are looked at one by one
+  constexpr std::size_t block = 16384;
+  const std::size_t n = rings.size();
+  std::vector<Vertex_index> parent(n);
+  Blocked_execution::blocked_for(n, block, [&](std::size_t begin, std::size_t end) {
+    for(std::size_t v = begin; v < end; ++v) {
+      const Vertex_index* r = rings.ring(Vertex_index(v));
+      const std::uint32_t d = rings.degree(Vertex_index(v));
+      parent[v] = (std::min)(Vertex_index(v), *std::min_element(r, r + d));
+    }
+  });
+  for(std::size_t v = 0; v < n; ++v) // parents are smaller, and settled
+    parent[v] = parent[parent[v]];
+  std::vector<std::vector<std::pair<Vertex_index, Vertex_index>>> links(
+    Blocked_execution::number_of_blocks(n, block));
+  Blocked_execution::blocked_for(n, block, [&](std::size_t begin, std::size_t end) {
+    auto& found = links[begin / block];
+    for(std::size_t v = begin; v < end; ++v)
+      for(std::uint32_t i = 0; i < rings.degree(Vertex_index(v)); ++i) {
+        const Vertex_index w = rings.ring(Vertex_index(v))[i];
+        if(parent[w] < parent[v]
+           && (found.empty() || found.back() != std::make_pair(parent[v], parent[w])))
+          found.push_back({parent[v], parent[w]});
+      }
+  });
+  Disjoint_sets sets(std::move(parent));
+  for(const auto& block_links : links)
+    for(const auto& [a, b] : block_links)
+      sets.join(a, b);
+  const Vertex_index root = sets.find(seed);
+  std::vector<bool> is_reached(n);
+  for(std::size_t v = 0; v < n; ++v)
+    is_reached[v] = sets.find(Vertex_index(v)) == root;
+  return is_reached;
 }
 
 } // namespace Indexed_mesh

@@ -4,7 +4,6 @@
 #ifndef CGAL_MULTIGRID_BLOCK_VALUES_H
 #define CGAL_MULTIGRID_BLOCK_VALUES_H
 
-#include <CGAL/Multigrid/diagonalize.h>
 #include <CGAL/Multigrid/vector_operations.h>
 
 #include <Eigen/Cholesky>

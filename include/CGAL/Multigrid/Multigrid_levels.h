@@ -4,9 +4,9 @@
 #ifndef CGAL_MULTIGRID_MULTIGRID_LEVELS_H
 #define CGAL_MULTIGRID_MULTIGRID_LEVELS_H
 
-#include <CGAL/Blocked_execution/Level_table.h>
-#include <CGAL/Multigrid/Chebyshev_smoother.h>
+#include <CGAL/Blocked_execution/Progress.h>
 #include <CGAL/Multigrid/Schedule.h>
+#include <CGAL/Multigrid/Smoothers.h>
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,6 @@
 #define CGAL_MULTIGRID_RAYLEIGH_QUOTIENT_H
 
 #include <CGAL/Multigrid/Iteration_control.h>
-#include <CGAL/Multigrid/diagonalize.h>
 #include <CGAL/Multigrid/vector_operations.h>
 
 #include <algorithm>

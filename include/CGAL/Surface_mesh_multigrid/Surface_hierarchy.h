@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_MULTIGRID_SURFACE_HIERARCHY_H
 #define CGAL_SURFACE_MESH_MULTIGRID_SURFACE_HIERARCHY_H
 
-#include <CGAL/Blocked_execution/Level_table.h>
+#include <CGAL/Blocked_execution/Progress.h>
 #include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Indexed_mesh/mesh_arrays.h>
 #include <CGAL/Indexed_mesh/prepare_mesh.h>

@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_MESH_HIERARCHY_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_MESH_HIERARCHY_H
 
-#include <CGAL/Blocked_execution/Level_table.h>
+#include <CGAL/Blocked_execution/Progress.h>
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Blocked_execution/sort_and_select.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>

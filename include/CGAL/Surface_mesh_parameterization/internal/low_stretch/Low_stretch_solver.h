@@ -172,10 +172,7 @@ std::vector<Plane_point> Low_stretch_solver<Energy>::insert_all()
     if(l == finest) // all are back
       m_levels.forget_collapses();
     m_newton.add_level(m_levels.from_coarser(l));
-    if(l < finest)
-      minimize(l, m_coarse_energy, places);
-    else
-      minimize(l, m_energy, places);
+    l < finest ? minimize(l, m_coarse_energy, places) : minimize(l, m_energy, places);
     if(m_misses_pins)
       return {};
   }
@@ -244,7 +241,7 @@ bool Low_stretch_solver<Energy>::start(std::vector<Plane_point>& places)
   return is_valid(m_levels[0].mesh.triangles, circle);
 }
 
-// Undoes the collapses [first, last), the last one first.
+// Undoes the collapses [first, last), pass by pass, the last one first.
 template <class Energy>
 bool Low_stretch_solver<Energy>::insert(std::size_t first, std::size_t last,
                                         std::vector<Plane_point>& places)
@@ -253,11 +250,12 @@ bool Low_stretch_solver<Energy>::insert(std::size_t first, std::size_t last,
   std::optional<Border_guard> guard;
   if(m_levels.is_one_to_one())
     guard.emplace(m_levels.borders_after(last), places, 0.);
-  Vertex_insertion<Surface_metric, Coarse_energy> insertion(
-    m_levels.rings(), places, m_levels.is_fixed(), metric, m_coarse_energy, guard ? &*guard : nullptr);
-  for(std::size_t i = last; i-- > first;) {
-    m_levels.undo_tensor(i);
-    if(!insertion(m_levels.collapses().collapses[i], m_mean))
+  const Vertex_insertion insertion(m_levels.rings(), places, m_levels.is_fixed(), metric, m_coarse_energy,
+                                   guard ? &*guard : nullptr);
+  for(std::size_t begin; last > first; last = begin) {
+    begin = (std::max)(first, m_levels.begin_of_pass(last));
+    if(!insert_pass(insertion, m_levels.rings(), m_levels.collapses().collapses, begin, last, m_mean,
+                    [this](std::size_t i) { m_levels.undo_tensor(i); }))
       return false;
   }
   return true;

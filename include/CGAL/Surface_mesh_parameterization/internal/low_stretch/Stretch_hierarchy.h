@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_STRETCH_HIERARCHY_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_STRETCH_HIERARCHY_H
 
-#include <CGAL/Indexed_mesh/border_loops.h>
+#include <CGAL/Indexed_mesh/Vertex_rings.h>
 #include <CGAL/Surface_mesh_multiresolution/Mesh_hierarchy.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Stretch_task.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/collapse_to_few.h>
@@ -98,13 +98,21 @@ public:
   Indexed_mesh::Vertex_rings& rings() { return m_rings; }
   // The tensors of the metric after the collapses that are not undone.
   const Vertex_tensors& tensors() const { return m_tensors; }
-  // Undoes collapse i, the last that is not undone: the connectivity and the tensors, or these alone.
+  // Undoes collapse i, the last that is not undone around it: the connectivity and the tensors, or these
+  // alone.
   void split(std::size_t i)
   {
     m_rings.split(m_collapses.collapses[i].removed, m_collapses.collapses[i].kept);
     undo_tensor(i);
   }
-  void undo_tensor(std::size_t i) { m_tensors.undo(m_collapses.collapses[i]); }
+  void undo_tensor(std::size_t i) { m_tensors.undo(i, m_collapses.collapses[i]); }
+  // The first collapse of the pass that ends at or after collapse `end`.
+  std::size_t begin_of_pass(std::size_t end) const
+  {
+    const std::vector<std::size_t>& ends = m_collapses.batch_ends;
+    const auto it = std::lower_bound(ends.begin(), ends.end(), end);
+    return it == ends.begin() ? 0 : *(it - 1);
+  }
   void forget_collapses()
   {
     m_rings = Indexed_mesh::Vertex_rings();

@@ -138,13 +138,11 @@ public:
     }
   }
 
-  // Undoes the last collapse that is not undone.
-  void undo(const Halfedge_collapse& last)
+  // Undoes collapse i, the last one of those that changed the kept vertex.
+  void undo(std::size_t i, const Halfedge_collapse& collapse)
   {
-    if(!exist())
-      return;
-    m_means[last.kept] = m_before.back();
-    m_before.pop_back();
+    if(exist())
+      m_means[collapse.kept] = m_before[i];
   }
 
 private:

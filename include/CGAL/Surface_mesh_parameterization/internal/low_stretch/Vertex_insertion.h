@@ -4,13 +4,16 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_VERTEX_INSERTION_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_VERTEX_INSERTION_H
 
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Indexed_mesh/Vertex_rings.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Border_guard.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Stretched_star.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -19,6 +22,51 @@
 namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
+
+// A stretch [first, last) of the collapses of a pass whose rings, when they took place, have vertices of
+// [low, high) alone: no other stretch of the pass has any of these, so that they can be undone at the same
+// time.
+struct Insertion_part
+{
+  std::size_t first, last;
+  Vertex_index low, high;
+  std::vector<Vertex_index> crowded; // around which vertices beyond the bounds give way, too
+};
+
+// Cuts the collapses [first, last) of one pass, whose vertices ascend, into such parts; `rings` are those
+// before they are undone. The parts do not depend on the number of threads.
+inline std::vector<Insertion_part>
+insertion_parts(const Indexed_mesh::Vertex_rings& rings,
+                const std::vector<Surface_mesh_multiresolution::Halfedge_collapse>& collapses,
+                std::size_t first, std::size_t last)
+{
+  constexpr std::size_t least_size = 4096, block = 4096;
+  const std::size_t n = last - first;
+  if(n < 2 * least_size)
+    return {};
+  std::vector<Vertex_index> low(n), high(n); // of each ring, then of it and all after, or before it
+  Blocked_execution::blocked_for(n, block, [&](std::size_t begin, std::size_t end) {
+    for(std::size_t i = begin; i < end; ++i) {
+      const Vertex_index v = collapses[first + i].removed;
+      const Vertex_index* r = rings.ring(v);
+      const auto [least, greatest] = std::minmax_element(r, r + rings.degree(v));
+      low[i] = (std::min)(v, *least);
+      high[i] = (std::max)(v, *greatest);
+    }
+  });
+  for(std::size_t i = 1; i < n; ++i) {
+    high[i] = (std::max)(high[i], high[i - 1]);
+    low[n - 1 - i] = (std::min)(low[n - 1 - i], low[n - i]);
+  }
+  std::vector<Insertion_part> parts = {{first, last, 0, Vertex_index(rings.size()), {}}};
+  for(std::size_t i = least_size; i + least_size <= n; ++i)
+    if(high[i - 1] < low[i] && first + i - parts.back().first >= least_size) {
+      parts.back().last = first + i;
+      parts.back().high = low[i];
+      parts.push_back({first + i, last, low[i], Vertex_index(rings.size()), {}});
+    }
+  return parts;
+}
 
 // Puts the vertices of a mesh that collapses removed back into the map, one after the other.
 //
@@ -44,13 +92,28 @@ public:
     , m_guard(guard)
   {}
 
+  // The same for one part of a pass while others undo other ones; not with a guard.
+  Vertex_insertion for_part(Insertion_part& part) const
+  {
+    Vertex_insertion result(m_rings, m_places, m_is_fixed, m_metric, m_energy, nullptr);
+    result.m_part = &part;
+    return result;
+  }
+
+  bool has_guard() const { return m_guard != nullptr; }
+
   // Undoes a collapse. Where the energy is more than twice `mean` an area, the neighbourhood gives
-  // way. Returns whether there was a place for the vertex that rounding knows of.
+  // way. Returns whether there was a place for the vertex that rounding knows of; in a part, whether it
+  // could be undone without others.
   bool operator()(const Halfedge_collapse& c, double mean)
   {
     constexpr int attempts = 10;
     const Vertex_index v = c.removed;
+    if(m_part != nullptr && m_rings.needs_new_spill_to_split(v, c.kept))
+      return false;
     std::pair<double, bool> placed = place(v, c.kept);
+    if(m_part != nullptr && !placed.second)
+      return false;
     for(int i = 0; i < attempts && !placed.second; ++i) { // make room around v
       relax(c.kept);
       relax_ring(v);
@@ -61,12 +124,44 @@ public:
     m_rings.split(v, c.kept);
     if(m_guard != nullptr && m_rings.is_border(v))
       m_guard->insert(v, previous(v), m_rings.ring(v)[0]);
-    if(placed.first > 2. * mean * m_star.area())
+    if(!(placed.first > 2. * mean * m_star.area()))
+      return true;
+    if(m_part == nullptr || is_within_part(v))
       relax_crowd(v);
+    else
+      m_part->crowded.push_back(v);
     return true;
   }
 
+  // Relaxes v and its neighbours as long as much is gained.
+  void relax_crowd(Vertex_index v)
+  {
+    constexpr int rounds = 8;
+    constexpr double much = 0.05;
+    double last = relax(v)[1];
+    for(int i = 0; i < rounds; ++i) {
+      relax_ring(v);
+      const double energy = relax(v)[1];
+      if(!(energy < (1. - much) * last))
+        break;
+      last = energy;
+    }
+  }
+
 private:
+  // Whether all that counts where v and its neighbours are relaxed belongs to the part.
+  bool is_within_part(Vertex_index v) const
+  {
+    const auto has_ring = [this](Vertex_index w) {
+      const Vertex_index* r = m_rings.ring(w);
+      return std::all_of(r, r + m_rings.degree(w), [this](Vertex_index x) {
+        return m_part->low <= x && x < m_part->high;
+      });
+    };
+    const Vertex_index* r = m_rings.ring(v);
+    return has_ring(v) && std::all_of(r, r + m_rings.degree(v), has_ring);
+  }
+
   // The vertex before v on the border.
   Vertex_index previous(Vertex_index v) const { return m_rings.ring(v)[m_rings.degree(v) - 1]; }
 
@@ -162,21 +257,6 @@ private:
       relax(w);
   }
 
-  // Relaxes v and its neighbours as long as much is gained.
-  void relax_crowd(Vertex_index v)
-  {
-    constexpr int rounds = 8;
-    constexpr double much = 0.05;
-    double last = relax(v)[1];
-    for(int i = 0; i < rounds; ++i) {
-      relax_ring(v);
-      const double energy = relax(v)[1];
-      if(!(energy < (1. - much) * last))
-        break;
-      last = energy;
-    }
-  }
-
   static constexpr double infinity = (std::numeric_limits<double>::infinity)();
   static constexpr double enough = 0.01; // of the energy: what another step must gain
 
@@ -186,9 +266,43 @@ private:
   const Metric& m_metric;
   const Energy& m_energy;
   Border_guard* m_guard;
+  Insertion_part* m_part = nullptr;
   Stretched_star m_star;
   std::vector<Vertex_index> m_ring;
 };
+
+// Undoes the collapses [first, last) of one pass, the last one first, or those that have nothing to do
+// with each other at the same time. `undo(i)` is told of each before. Returns whether all were undone.
+template <class Insertion, class Undo>
+bool insert_pass(Insertion insertion, const Indexed_mesh::Vertex_rings& rings,
+                 const std::vector<Surface_mesh_multiresolution::Halfedge_collapse>& collapses,
+                 std::size_t first, std::size_t last, double mean, const Undo& undo)
+{
+  const auto insert = [&](std::size_t begin, std::size_t& end, Insertion& some) {
+    for(; end > begin; --end) {
+      undo(end - 1);
+      if(!some(collapses[end - 1], mean))
+        return false;
+    }
+    return true;
+  };
+  std::vector<Insertion_part> parts;
+  if(!insertion.has_guard())
+    parts = insertion_parts(rings, collapses, first, last);
+  if(parts.size() < 2)
+    return insert(first, last, insertion);
+  Blocked_execution::blocked_for(parts.size(), 1, [&](std::size_t i, std::size_t) {
+    Insertion some = insertion.for_part(parts[i]);
+    insert(parts[i].first, parts[i].last, some);
+  });
+  for(Insertion_part& part : parts) { // what is left
+    if(!insert(part.first, part.last, insertion))
+      return false;
+    for(const Vertex_index v : part.crowded)
+      insertion.relax_crowd(v);
+  }
+  return true;
+}
 
 } // namespace internal
 } // namespace Surface_mesh_parameterization

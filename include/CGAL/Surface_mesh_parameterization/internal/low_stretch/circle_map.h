@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_CIRCLE_MAP_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_CIRCLE_MAP_H
 
-#include <CGAL/Indexed_mesh/border_loops.h>
+#include <CGAL/Indexed_mesh/Vertex_rings.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Stretch_task.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/plane_geometry.h>
 

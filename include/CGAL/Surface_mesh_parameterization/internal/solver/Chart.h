@@ -4,15 +4,15 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_SOLVER_CHART_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_SOLVER_CHART_H
 
+#include <CGAL/Blocked_execution/Uninitialized_vector.h>
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Blocked_execution/compile_once.h>
-#include <CGAL/Blocked_execution/Uninitialized_vector.h>
 #include <CGAL/Indexed_mesh/Space_tensor.h>
 #include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 #include <CGAL/Indexed_mesh/mesh_error.h>
 
 #ifdef CGAL_HLSCM_DEFINITIONS
-#include <CGAL/Indexed_mesh/border_loops.h>
+#include <CGAL/Indexed_mesh/Vertex_rings.h>
 #include <CGAL/Indexed_mesh/prepare_mesh.h>
 #endif
 

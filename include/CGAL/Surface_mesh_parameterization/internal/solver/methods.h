@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_SOLVER_METHODS_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_SOLVER_METHODS_H
 
-#include <CGAL/Multigrid/Monogrid_preconditioners.h>
+#include <CGAL/Multigrid/Smoothers.h>
 #include <CGAL/Multigrid/Sparse_cholesky.h>
 #include <CGAL/Surface_mesh_parameterization/internal/repair/relax_flipped_faces.h>
 #include <CGAL/Surface_mesh_parameterization/internal/solver/Conformal_system.h>

@@ -4,7 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_STREAMED_GATHERED_HIERARCHY_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_STREAMED_GATHERED_HIERARCHY_H
 
-#include <CGAL/Indexed_mesh/border_loops.h>
+#include <CGAL/Indexed_mesh/Vertex_rings.h>
 #include <CGAL/Multigrid/Conjugate_gradient.h>
 #include <CGAL/Surface_mesh_parameterization/internal/solver/Chart.h>
 #include <CGAL/Surface_mesh_parameterization/internal/solver/methods.h>
