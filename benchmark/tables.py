@@ -469,7 +469,8 @@ def full_pages():
     """Atlases with and without cuts for the page, by the size of the model."""
     rows = read("full_pages.csv")
     lines = []
-    for low, high in ((1000, 3000), (3000, 10000), (10000, 30000), (30000, 300000), (1000, 300000)):
+    for low, high in ((200, 1000), (1000, 3000), (3000, 10000), (10000, 30000), (30000, 300000),
+                      (300000, 2000000), (1000, 2000000)):
         some = [row for row in rows if low <= int(row["faces"]) < high]
 
         def mean(column, some=some):
@@ -515,7 +516,7 @@ def full_pages_peer():
     """The same models by xatlas, where it ended."""
     rows = [row for row in read("full_pages.csv") if row["peer_used"]]
     lines = []
-    for low, high in ((1000, 3000), (3000, 10000), (10000, 300000)):
+    for low, high in ((200, 1000), (1000, 3000), (3000, 10000), (10000, 300000)):
         some = [row for row in rows if low <= int(row["faces"]) < high]
 
         def mean(column, some=some):

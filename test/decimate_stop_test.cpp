@@ -148,7 +148,7 @@ TEST_P(Stop_predicates, bounds_the_cost)
   Indexed_triangle_mesh mesh = hills();
   SMM::Progressive_surface surface;
   surface.points = mesh.points;
-  const auto np = CGAL::parameters::get_cost(Length_cost()).filter(SMS::internal::Accept_all_filter());
+  const auto np = CGAL::parameters::get_cost(Length_cost()).filter(SMS::Accept_all_filter());
   surface.progressive_mesh.number_of_vertices = mesh.points.size();
   surface.progressive_mesh.triangles = mesh.triangles;
   EXPECT_FALSE(SMM::internal::decimate_by<CGAL::Default>(options, np, {}, surface)); // not exhausted

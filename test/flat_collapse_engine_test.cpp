@@ -64,8 +64,8 @@ TEST(Flat_collapse_engine, strict_order_takes_the_cheapest)
         candidates.insert({cost.price[v], v});
     }
     const Progressive_mesh pm
-      = SMM::Flat_collapse_engine<Fixed_price, SMS::internal::Accept_all_filter>(
-          mesh, rings, {}, cost, SMS::internal::Accept_all_filter())
+      = SMM::Flat_collapse_engine<Fixed_price, SMS::Accept_all_filter>(
+          mesh, rings, {}, cost, SMS::Accept_all_filter())
         .run(flat_options(SMM::Collapse_order::STRICT, 0));
     EXPECT_EQ(error_in_progressive_mesh(mesh, pm), "");
     for(const auto& [removed, kept] : pm.collapses) {

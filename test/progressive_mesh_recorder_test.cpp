@@ -44,13 +44,13 @@ std::string error_in_recording(TriangleMesh& mesh, const Cost& cost,
                                const std::vector<bool>& is_locked)
 {
   typedef SMM::Progressive_mesh_recorder<TriangleMesh, Cost> Recorder;
-  typedef SMS::Halfedge_collapse_placement<Cost, SMS::internal::Accept_all_filter,
+  typedef SMS::Halfedge_collapse_placement<Cost, SMS::Accept_all_filter,
                                            typename Recorder::Vertex_is_locked_map> Placement;
   const auto points = CGAL::Indexed_mesh::copy_points(mesh);
   Recorder recorder(mesh, is_locked, cost);
   SMS::edge_collapse(mesh, Stop_at{40},
                      CGAL::parameters::get_cost(cost).visitor(recorder)
-                       .get_placement(Placement(cost, SMS::internal::Accept_all_filter(),
+                       .get_placement(Placement(cost, SMS::Accept_all_filter(),
                                                 recorder.vertex_is_locked_map()))
                        .edge_is_constrained_map(recorder.edge_is_constrained_map()));
   const Progressive_mesh& pm = recorder.progressive_mesh();

@@ -214,7 +214,7 @@ TEST(Build_progressive_mesh, policies_of_users_see_the_coordinates_of_the_mesh)
   options.target_vertices = 169 - 20;
   const SMM::Progressive_surface surface
     = SMM::build_progressive_mesh(mesh, options, Price_of_place(),
-                                  SMS::internal::Accept_all_filter());
+                                  SMS::Accept_all_filter());
   EXPECT_EQ(surface.error, "");
   ASSERT_EQ(surface.progressive_mesh.collapses.size(), 20u);
   for(const Halfedge_collapse& c : surface.progressive_mesh.collapses)

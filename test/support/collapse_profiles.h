@@ -28,7 +28,7 @@ namespace SMM = CGAL::Surface_mesh_multiresolution;
 namespace SMS = CGAL::Surface_mesh_simplification;
 using namespace test_support;
 using CGAL::Indexed_mesh::Vertex_rings;
-using SMS::internal::Accept_all_filter;
+using SMS::Accept_all_filter;
 
 typedef CGAL::Simple_cartesian<double> Kernel;
 typedef CGAL::Surface_mesh<Point_3> Surface_mesh;

@@ -26,12 +26,10 @@
 namespace CGAL {
 namespace Surface_mesh_parameterization {
 
-namespace internal {
-
-// Stands for "the parameterizer chooses the pins itself".
+/// \ingroup PkgHLSCMParameterizer
+/// Stands for a border parameterizer where `HLSCM_parameterizer_3` chooses the pins itself: two far
+/// vertices of the longest border.
 struct Far_border_pins {};
-
-} // namespace internal
 
 /*!
 \ingroup PkgHLSCMParameterizer
@@ -82,7 +80,7 @@ public:
   typedef TriangleMesh_ TriangleMesh;
   typedef TriangleMesh_ Triangle_mesh; ///< the same, by the name that CGAL 5.5 and later use
   /// What pins vertices.
-  typedef typename Default::Get<BorderParameterizer_, internal::Far_border_pins>::type
+  typedef typename Default::Get<BorderParameterizer_, Far_border_pins>::type
     Border_parameterizer;
   /// What solves the coarsest level.
   typedef SolverTraits_ Solver_traits;
@@ -235,7 +233,7 @@ wanted_pins(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvmap
     return std::nullopt;
   if(!m_pins.empty())
     return user_pins(mesh);
-  if constexpr(std::is_same<Border_parameterizer, internal::Far_border_pins>::value) {
+  if constexpr(std::is_same<Border_parameterizer, Far_border_pins>::value) {
     CGAL_USE(bhd);
     CGAL_USE(uvmap);
     CGAL_USE(vimap);

@@ -24,12 +24,9 @@
 namespace CGAL {
 namespace Surface_mesh_parameterization {
 
-namespace internal {
-
-// Stands for "the border is free".
+/// \ingroup PkgHLSCMStretch
+/// Stands for a border parameterizer where the border of a map of `Low_stretch_parameterizer_3` is free.
 struct Free_border {};
-
-} // namespace internal
 
 /*!
 \ingroup PkgHLSCMStretch
@@ -70,7 +67,7 @@ public:
   /// The energy.
   typedef typename Default::Get<Energy_, Symmetric_dirichlet_energy>::type Energy;
   /// What puts the border where it stays.
-  typedef typename Default::Get<BorderParameterizer_, internal::Free_border>::type Border_parameterizer;
+  typedef typename Default::Get<BorderParameterizer_, Free_border>::type Border_parameterizer;
 
   /// A vertex of the mesh.
   typedef typename boost::graph_traits<TriangleMesh>::vertex_descriptor vertex_descriptor;
@@ -150,7 +147,7 @@ public:
   }
 
 private:
-  static constexpr bool has_border = !std::is_same<Border_parameterizer, internal::Free_border>::value;
+  static constexpr bool has_border = !std::is_same<Border_parameterizer, Free_border>::value;
 
   template <class VertexUVMap, class VertexIndexMap, class VertexParameterizedMap>
   double hold_border(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvmap,

@@ -244,17 +244,17 @@ Newton_steps::Vectors Newton_steps::direction(Stretch_level<Energy>& level, cons
   const Vectors rest = m_past.rest_of(gradient);
   m_solved = m_unsolved = 0.;
   const auto matrix = stretch_matrix<Eigen::Matrix2d>(level);
+  if(m_coarse != Coarse_matrices::GALERKIN && m_matrices.size() == 1)
+    m_coarsest = stretch_matrix<Eigen::Matrix2d>(level, shift);
+  level.forget_derivatives(); // before there is a second matrix
   m_matrices.back()->assign(matrix);
   if(m_coarse == Coarse_matrices::GALERKIN)
     set_coarser(matrix);
-  else if(m_matrices.size() == 1)
-    m_coarsest = stretch_matrix<Eigen::Matrix2d>(level, shift);
   Levels levels;
   for(std::size_t l = 0; l < m_matrices.size(); ++l)
     levels.add_level(*m_matrices[l], m_transfers[l]);
   if(!levels.coarsest_solver().factorize(m_coarsest))
     return {};
-  level.forget_derivatives();
   double size = norm(rest);
   if(!pulled.empty() && !(size > 0.))
     size = norm(pulled);

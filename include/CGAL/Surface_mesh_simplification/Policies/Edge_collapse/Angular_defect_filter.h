@@ -43,7 +43,7 @@ does not influence a conformal map in this way, so that border vertices pass.
 
 \sa `Collapse_shape_filter`
 */
-template <class BaseFilter = internal::Accept_all_filter>
+template <class BaseFilter = Accept_all_filter>
 class Angular_defect_filter
 #ifndef DOXYGEN_RUNNING
   : public internal::Measured_filter<internal::Angular_defect_test, BaseFilter>

@@ -72,7 +72,7 @@ normal too far, that make a sliver, or that make a vertex of too large a degree.
 
 \sa `Angular_defect_filter`
 */
-template <class BaseFilter = internal::Accept_all_filter>
+template <class BaseFilter = Accept_all_filter>
 class Collapse_shape_filter
 #ifndef DOXYGEN_RUNNING
   : public internal::Measured_filter<internal::Collapse_shape_test, BaseFilter>

@@ -40,7 +40,7 @@ border.
 \cgalModels{GetPlacement of CGAL's Triangulated Surface Mesh Simplification}
 */
 template <class Cost = Volume_and_border_area_cost,
-          class Filter = internal::Accept_all_filter,
+          class Filter = Accept_all_filter,
           class VertexIsLockedMap = internal::No_locked_vertices>
 class Halfedge_collapse_placement
 {

@@ -55,6 +55,23 @@ struct Measured_collapse
   Collapse_measure measure;
 };
 
+/*!
+\ingroup PkgHLSCMPolicies
+
+The class `Accept_all_filter` lets every placement through: no base filter.
+
+\cgalModels{PlacementFilter of CGAL's Triangulated Surface Mesh Simplification}
+*/
+struct Accept_all_filter
+{
+  /// Returns `placement`.
+  template <class Profile, class OptionalPoint>
+  OptionalPoint operator()(const Profile&, const OptionalPoint& placement) const
+  {
+    return placement;
+  }
+};
+
 namespace internal {
 
 // Fills a star with the ring of the vertex `source(ring_begin)`, in units of the mean distance.
@@ -184,16 +201,6 @@ decltype(auto) measured(const Profile& profile, const OptionalPoint& placement)
   else
     return Measured_profile<Profile>(profile, placement);
 }
-
-// The filter that lets every placement through.
-struct Accept_all_filter
-{
-  template <class Profile, class OptionalPoint>
-  OptionalPoint operator()(const Profile&, const OptionalPoint& placement) const
-  {
-    return placement;
-  }
-};
 
 // The filter that applies `BaseFilter` and then a test of the measures of a collapse.
 template <class Test, class BaseFilter>

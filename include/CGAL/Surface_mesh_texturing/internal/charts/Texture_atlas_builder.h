@@ -16,6 +16,7 @@
 #include <CGAL/Surface_mesh_texturing/internal/mapped_charts/align_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/mapped_charts/straighten_borders.h>
 
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <functional>
@@ -376,12 +377,14 @@ inline void Texture_atlas_builder::fill()
   report.texels_per_unit = m_packing.texels_per_unit;
   report.unwanted_seams = number_of_seams_on(*m_adjacency, atlas.charts, m_options.no_seams);
   report.texel_utilisation = m_packing.texel_utilisation;
-  report.seams = measure_seams(m_mesh, *m_adjacency, atlas.charts);
+  const std::array<std::function<void()>, 3> measures = {{
+    [&] { report.seams = measure_seams(m_mesh, *m_adjacency, atlas.charts); },
+    [&] { report.texels = measure_texels(atlas.mesh, atlas.charts, atlas.width, atlas.height); },
+    [&] { measure_atlas(atlas, report); }}};
+  Blocked_execution::blocked_for(3, 1, [&](std::size_t i, std::size_t) { measures[i](); });
   if(!m_occlusion.empty())
     measure_occlusion(m_mesh, *m_adjacency, atlas.charts, m_occlusion, report.seams);
   report.seam_length = report.seams.length;
-  report.texels = measure_texels(atlas.mesh, atlas.charts, atlas.width, atlas.height);
-  measure_atlas(atlas, report);
 }
 
 #endif // CGAL_HLSCM_DEFINITIONS

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -223,25 +224,18 @@ inline Face_charts halve_chart(const Indexed_triangle_mesh& mesh)
   return charts_of_labels(adjacency, label);
 }
 
-// Maps charts: the large ones one after the other, each in parallel within, then the others side by
-// side.
+// Maps charts side by side, the largest ones first.
 inline std::vector<Mapped_chart> map_each(std::vector<Chart_mesh> charts,
                                           const Chart_mapping& mapping)
 {
-  constexpr std::size_t large = 50000; // triangles
   std::vector<Mapped_chart> result(charts.size());
-  std::vector<std::size_t> small;
-  for(std::size_t i = 0; i < charts.size(); ++i)
-    if(charts[i].mesh.triangles.size() < large)
-      small.push_back(i);
-    else
-      result[i] = map_chart(std::move(charts[i]), mapping);
-  std::stable_sort(small.begin(), small.end(), [&charts](std::size_t i, std::size_t j) {
+  std::vector<std::size_t> order(charts.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::stable_sort(order.begin(), order.end(), [&charts](std::size_t i, std::size_t j) {
     return charts[i].mesh.triangles.size() > charts[j].mesh.triangles.size();
   });
-  Blocked_execution::blocked_for(small.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for(std::size_t i = begin; i < end; ++i)
-      result[small[i]] = map_chart(std::move(charts[small[i]]), mapping);
+  Blocked_execution::blocked_for(order.size(), 1, [&](std::size_t i, std::size_t) {
+    result[order[i]] = map_chart(std::move(charts[order[i]]), mapping);
   });
   return result;
 }
