@@ -131,6 +131,28 @@ TEST(Hidden_seams, lie_where_the_surface_hides_them)
   EXPECT_LT(length_with, 1.1 * length_without) << seed_text;
 }
 
+// Where the mesh is another one than that of the search: cut into, or cut open.
+TEST(Hidden_seams, go_with_other_options)
+{
+  const Indexed_triangle_mesh mesh = torus(40, 20);
+  SMT::Texture_atlas_options options = small_texture();
+  options.occlusion = [](const Indexed_triangle_mesh& m) { return occlusion_of(m); };
+  options.has_smooth_seams = true;
+  const SMT::Texture_atlas_result smooth = SMT::build_texture_atlas(mesh, options);
+  ASSERT_EQ(smooth.error, "");
+  EXPECT_GT(smooth.atlas.new_vertices.size(), 0u);
+  EXPECT_TRUE(smooth.report.seams.occlusion >= 0. && smooth.report.seams.occlusion <= 1.);
+  options.has_smooth_seams = false;
+  std::vector<std::uint32_t> half(mesh.triangles.size(), 0);
+  std::fill(half.begin() + half.size() / 2, half.end(), 1);
+  const std::vector<std::uint8_t> limits = SMT::charts_of_labels(mesh.triangles, half).seams;
+  const SMT::Texture_atlas_result limited
+    = SMT::build_texture_atlas(mesh, options, SMT::Constrained_segmenter<>(limits));
+  ASSERT_EQ(limited.error, "");
+  EXPECT_EQ(error_in_atlas(mesh, limited.atlas), "");
+  EXPECT_TRUE(std::isnan(limited.report.seams.occlusion));
+}
+
 TEST(Hidden_seams, need_an_occlusion_of_each_vertex)
 {
   SMT::Texture_atlas_options options = small_texture();

@@ -207,7 +207,7 @@ TEST(Signal_metric, collapses_take_means_and_give_them_back)
   EXPECT_GE(lowest, least);
   EXPECT_LT(highest, 0.9 * greatest); // of means
   for(std::size_t i = pm.collapses.size(); i-- > 0;)
-    tensors.undo(pm.collapses[i]);
+    tensors.undo(i, pm.collapses[i]);
   for(std::size_t v = 0; v < is_gone.size(); ++v)
     ASSERT_EQ(tensors[v].xy, before[v].xy) << v;
 }

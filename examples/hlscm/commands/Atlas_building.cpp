@@ -106,10 +106,11 @@ Built_atlas build_atlas(const Input_surface& surface, const Program_options& opt
   library.packing.padding = options.atlas.padding;
   library.packing.mip_levels = options.atlas.mip_levels;
   library.packing.max_pages = options.atlas.pages;
-  if(options.atlas.hides_seams)
+  if(options.atlas.hides_seams) {
     library.occlusion = [](const Indexed_triangle_mesh& mesh) {
       return SMT::ambient_occlusion<Ray_caster>(mesh);
     };
+  }
   library.metric = metric_of_signal(surface, options);
   if(surface.surface.repairs.triangulated) {
     if(library.has_smooth_seams) {

@@ -173,7 +173,7 @@ std::vector<std::string> Atlas_report::all_warnings() const
     std::ostringstream text;
     text << std::setprecision(4) << 100 * atlas->utilisation
          << " % of the texture are used, less than " << 100 * wanted_utilisation
-         << " %: " << (atlas->why_not_used.empty() ? "charts overlap" : atlas->why_not_used);
+         << " %" << (atlas->why_not_used.empty() ? "" : ": ") << atlas->why_not_used;
     all.push_back(text.str());
   }
   if(overlapping_texels > 0) {

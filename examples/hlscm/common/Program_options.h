@@ -86,7 +86,7 @@ struct Atlas_settings
   double min_used = 0;        ///< % of the textures
   double largest_aspect = 1;  ///< of textures: width to height
   bool has_smooth_seams = false; ///< they go through faces
-  bool hides_seams = false; ///< they rather lie where the surface hides them
+  bool hides_seams = false;      ///< they rather lie where the surface hides them
   std::string charts;         ///< a file, or "uv"; empty: they are to be found
   bool is_one_disk = false;   ///< one chart for each connected component
   std::size_t pages = 1;      ///< at most

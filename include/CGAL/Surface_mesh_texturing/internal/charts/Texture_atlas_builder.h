@@ -101,6 +101,7 @@ public:
       segment();
     result.fail(m_result);
     result.charts = std::move(m_charts);
+    result.occlusion = std::move(m_occlusion);
     result.stopped_early = m_was_over;
     return result;
   }
@@ -126,7 +127,8 @@ private:
   Face_charts found(Segmentation_result result)
   {
     m_result.fail(result);
-    m_occlusion = std::move(result.occlusion);
+    if(result.occlusion.size() == m_mesh.points.size()) // not of a mesh that was cut open
+      m_occlusion = std::move(result.occlusion);
     return std::move(result.charts);
   }
 

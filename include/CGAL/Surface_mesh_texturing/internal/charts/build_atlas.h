@@ -61,6 +61,10 @@ inline Texture_atlas_result build_with_smooth_seams(const Indexed_triangle_mesh&
   with_charts.segment = [&](const Indexed_triangle_mesh&, const Texture_atlas_options&) {
     Segmentation_result charts = found;
     charts.charts = smooth.charts;
+    if(!charts.occlusion.empty())
+      for(const Edge_vertex& v : smooth.new_vertices)
+        charts.occlusion.push_back(float((1. - v.part) * double(charts.occlusion[v.from])
+                                         + v.part * double(charts.occlusion[v.to])));
     return charts;
   };
   result = Texture_atlas_builder(smooth.mesh, of_smooth, with_charts).run();
