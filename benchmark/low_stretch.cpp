@@ -27,10 +27,6 @@
 #include <utility>
 #include <vector>
 
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 namespace {
 
 namespace SMP = CGAL::Surface_mesh_parameterization;
@@ -58,42 +54,11 @@ std::size_t flips(const Arrays& mesh, const SMP::Low_stretch_map& map)
   return count;
 }
 
-// The memory that a map takes at most beside that of the mesh, of a run in a process of its own.
-double bytes_of(const Arrays& mesh, const SMP::Low_stretch_options& options)
-{
-  const auto peak = [] {
-    rusage usage = {};
-    getrusage(RUSAGE_SELF, &usage);
-    return 1024. * double(usage.ru_maxrss);
-  };
-  int ends[2];
-  if(pipe(ends) != 0)
-    throw std::runtime_error("no pipe");
-  const pid_t child = fork();
-  if(child < 0)
-    throw std::runtime_error("no process");
-  double bytes = peak();
-  if(child == 0) {
-    const CGAL::Blocked_execution::Thread_scope one(1);
-    SMP::low_stretch_map(mesh, options);
-    bytes = peak() - bytes;
-    _exit(::write(ends[1], &bytes, sizeof bytes) == ssize_t(sizeof bytes) ? 0 : 1);
-  }
-  close(ends[1]);
-  const bool is_read = ::read(ends[0], &bytes, sizeof bytes) == ssize_t(sizeof bytes);
-  close(ends[0]);
-  waitpid(child, nullptr, 0);
-  if(!is_read)
-    throw std::runtime_error("no memory was measured");
-  return bytes;
-}
-
 void print_row(const std::string& chart, const Arrays& mesh, double tolerance, unsigned int threads,
                int repetitions)
 {
   SMP::Low_stretch_options options;
   options.tolerance = tolerance;
-  const double bytes = bytes_of(mesh, options);
   SMP::Low_stretch_map map;
   const CGAL::Blocked_execution::Thread_scope scope(threads);
   const double seconds = timing::median_seconds_of(
@@ -103,8 +68,7 @@ void print_row(const std::string& chart, const Arrays& mesh, double tolerance, u
   std::cout << chart << ',' << mesh.triangles.size() << ',' << map.report.borders << ',' << tolerance
             << ',' << threads << ',' << seconds << ',' << 1e6 * seconds / double(mesh.triangles.size())
             << ',' << map.report.energy << ',' << map.report.energy_gap << ','
-            << map.report.iterations << ',' << flips(mesh, map) << ','
-            << bytes / double(mesh.triangles.size()) << std::endl;
+            << map.report.iterations << ',' << flips(mesh, map) << std::endl;
 }
 
 // What is left by the estimate and by a run until nothing moves.
@@ -185,7 +149,7 @@ int main(int argc, char** argv)
                   : has_estimates ? "chart,faces,borders,tolerance,converged,iterations,energy,"
                                     "gap_estimate,gap,iterations_of_best\n"
                                 : "chart,faces,borders,tolerance,threads,seconds,seconds_per_million,"
-                                  "energy,gap_estimate,iterations,flips,bytes_per_face\n");
+                                  "energy,gap_estimate,iterations,flips\n");
     std::cout.precision(8);
     for(const std::string& path : paths) {
       const Arrays mesh = read(path);
