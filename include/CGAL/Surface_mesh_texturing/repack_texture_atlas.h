@@ -83,8 +83,8 @@ that are missing or not finite, and a chart that would lie on the pages of two s
 \tparam ConcurrencyTag as for `build_texture_atlas()`
 \tparam Packer a model of `ChartPacker`, or `Default` for `Raster_packer`
 \param mesh the surface and its texture
-\param options of these count `density`, `is_aligned`, `largest_aspect`, `packing`, `page_set`,
-       `seconds`, `threads` and `progress`
+\param options of these count `density`, `has_whole_texels`, `is_aligned`, `is_enough`, `largest_aspect`,
+       `packing`, `page_set`, `seconds`, `threads` and `progress`
 \param repacking how charts are taken over, before `options.density` counts
 \param packer what packs them
 
