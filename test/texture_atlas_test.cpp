@@ -155,29 +155,48 @@ TEST(Texture_atlas, does_not_depend_on_the_unit_of_length)
   }
 }
 
-// A surface that is not symmetric
-TEST(Texture_atlas, does_not_depend_on_how_the_surface_is_turned)
+Eigen::Matrix3d random_rotation(Random& random)
 {
-  Indexed_triangle_mesh mesh = with_noise(torus(60, 30), 0.02, seed);
-  for(auto& p : mesh.points)
-    p = Point_3(2. * p.x(), p.y(), p.z());
-  SMT::Segmentation_options options;
-  options.coarse_faces = 1500;
-  const SMT::Segmentation_result charts = SMT::segment_into_charts(mesh, options);
-  ASSERT_EQ(charts.error, "");
-  Random random(seed);
-  for(int turn = 0; turn < 5; ++turn) {
-    Eigen::Vector4d quaternion;
+  Eigen::Vector4d quaternion;
+  do
     for(double& x : quaternion)
       x = uniform(random, -1., 1.);
-    const Eigen::Matrix3d rotation = Eigen::Quaterniond(quaternion).normalized().toRotationMatrix();
-    Indexed_triangle_mesh turned = mesh;
-    for(auto& p : turned.points) {
-      const Eigen::Vector3d q = rotation * Eigen::Vector3d(p.x(), p.y(), p.z());
-      p = Point_3(q[0] + 3., q[1], q[2]);
+  while(quaternion.norm() > 1.);
+  return Eigen::Quaterniond(quaternion).normalized().toRotationMatrix();
+}
+
+// Surfaces without symmetry, with a mirror, and with as much of them in all directions
+std::vector<Named_mesh> surfaces_to_be_turned()
+{
+  Indexed_triangle_mesh long_torus = with_noise(torus(40, 20), 0.02, seed), bumpy_sphere = sphere(3);
+  for(auto& p : long_torus.points)
+    p = Point_3(2. * p.x(), p.y(), p.z());
+  for(auto& p : bumpy_sphere.points) {
+    const double r = 1. + 0.3 * std::cos(5. * p.x()) * std::cos(5. * p.y()) * std::cos(5. * p.z());
+    p = Point_3(r * p.x(), r * p.y(), r * p.z());
+  }
+  return {{"torus with noise", long_torus}, {"torus", torus(40, 20)}, {"sphere", sphere(3)},
+          {"bumpy sphere", bumpy_sphere}};
+}
+
+TEST(Texture_atlas, does_not_depend_on_how_the_surface_is_turned)
+{
+  SMT::Segmentation_options options;
+  options.coarse_faces = 800;
+  Random random(seed);
+  for(const auto& [name, mesh] : surfaces_to_be_turned()) {
+    const SMT::Segmentation_result charts = SMT::segment_into_charts(mesh, options);
+    ASSERT_EQ(charts.error, "") << name;
+    for(int turn = 0; turn < 10; ++turn) {
+      const Eigen::Matrix3d rotation = random_rotation(random);
+      Indexed_triangle_mesh turned = mesh;
+      for(auto& p : turned.points) {
+        const Eigen::Vector3d q = rotation * Eigen::Vector3d(p.x(), p.y(), p.z());
+        p = Point_3(q[0] + 3., q[1], q[2]);
+      }
+      EXPECT_EQ(SMT::segment_into_charts(turned, options).charts.chart, charts.charts.chart)
+        << name << ", turn " << turn << seed_text;
     }
-    EXPECT_EQ(SMT::segment_into_charts(turned, options).charts.chart, charts.charts.chart)
-      << "turn " << turn << seed_text;
   }
 }
 

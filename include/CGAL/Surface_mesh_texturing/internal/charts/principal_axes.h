@@ -10,6 +10,10 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
 namespace CGAL {
 namespace Surface_mesh_texturing {
 namespace internal {
@@ -47,37 +51,110 @@ Area_moments area_moments(const Triangles& triangles, const Corners& corners, co
   return result;
 }
 
+// The principal axes of a mesh with an extent of about 1, in the directions in which there is more of it
+// far away. Where moments are equal and where both sides are alike, the first far corner decides, so that
+// axes turn with the mesh in any case.
+class Principal_axes
+{
+public:
+  typedef Eigen::Vector3d Vector;
+  typedef Eigen::Matrix3d Matrix;
+
+  explicit Principal_axes(const Indexed_mesh::Indexed_triangle_mesh& mesh) : m_mesh(mesh)
+  {
+    const auto corners = [](const Triangle& t) -> const Triangle& { return t; };
+    const auto point_of = [this](Indexed_mesh::Vertex_index v) { return point(v); };
+    const Area_moments moments = area_moments(mesh.triangles, corners, point_of);
+    m_centre = moments.centre;
+    const Eigen::SelfAdjointEigenSolver<Matrix> solver(moments.second);
+    m_axes = solver.eigenvectors();
+    settle_equal_moments(solver.eigenvalues());
+    settle_directions(moments.area);
+  }
+
+  // The coordinates along the axes, from the centre
+  Vector along(Indexed_mesh::Vertex_index v) const { return m_axes.transpose() * (point(v) - m_centre); }
+
+private:
+  typedef Indexed_mesh::Triangle_indices Triangle;
+
+  Vector point(Indexed_mesh::Vertex_index v) const
+  {
+    return Vector(m_mesh.points[v].x(), m_mesh.points[v].y(), m_mesh.points[v].z());
+  }
+
+  // The projection of the first corner for which it is at least a third of the longest
+  Vector first_far(const Matrix& projection) const
+  {
+    double longest = 0.;
+    const auto projected = [&](Indexed_mesh::Vertex_index v) -> Vector {
+      return projection * (point(v) - m_centre);
+    };
+    for(const Triangle& t : m_mesh.triangles)
+      for(const Indexed_mesh::Vertex_index v : t)
+        longest = (std::max)(longest, projected(v).norm());
+    for(const Triangle& t : m_mesh.triangles)
+      for(const Indexed_mesh::Vertex_index v : t)
+        if(projected(v).norm() > longest / 3.)
+          return projected(v);
+    return Vector::Zero();
+  }
+
+  void settle_equal_moments(const Vector& moments)
+  {
+    const double least_difference = 1e-6 * moments.sum(); // for which axes have 9 digits
+    const bool first_are_equal = moments[1] - moments[0] < least_difference;
+    const bool last_are_equal = moments[2] - moments[1] < least_difference;
+    const auto across = [](const Vector& a) -> Matrix { return Matrix::Identity() - a * a.transpose(); };
+    const Matrix inside = last_are_equal ? Matrix(Matrix::Identity()) : across(m_axes.col(2));
+    if(first_are_equal)
+      turn(0, inside);
+    if(first_are_equal || last_are_equal)
+      turn(1, inside * across(m_axes.col(0)));
+  }
+
+  void turn(int axis, const Matrix& projection)
+  {
+    const Vector direction = first_far(projection);
+    if(direction.norm() > 0.)
+      m_axes.col(axis) = direction.normalized();
+  }
+
+  void settle_directions(double area)
+  {
+    const double least_skewness = 1e-9 * area;
+    Vector skewness = Vector::Zero();
+    for(const Triangle& t : m_mesh.triangles) {
+      const Vector a = point(t[0]), b = point(t[1]), c = point(t[2]);
+      const Vector q = m_axes.transpose() * ((a + b + c) / 3. - m_centre);
+      skewness += (b - a).cross(c - a).norm() * q.cwiseProduct(q).cwiseProduct(q);
+    }
+    for(int i = 0; i < 2; ++i) {
+      const Vector axis = m_axes.col(i);
+      if((std::abs(skewness[i]) > least_skewness ? skewness[i] : first_far(axis * axis.transpose()).dot(axis))
+         < 0.)
+        m_axes.col(i) = -axis;
+    }
+    m_axes.col(2) = m_axes.col(0).cross(m_axes.col(1));
+  }
+
+  const Indexed_mesh::Indexed_triangle_mesh& m_mesh;
+  Vector m_centre;
+  Matrix m_axes;
+};
+
 // The mesh about its centre, of an extent of about 1, turned such that its principal axes are those of
-// space, in the directions in which there is more of it far away: where vertices are sorted along a
-// curve, what is found does not depend then on how a mesh was turned, unless it is symmetric. As it was
-// if it has no extent.
+// space: where vertices are sorted along a curve, what is found does not depend then on how a mesh was
+// turned. As it was if it has no extent.
 inline Indexed_mesh::Indexed_triangle_mesh
 along_principal_axes(Indexed_mesh::Indexed_triangle_mesh mesh)
 {
-  typedef Eigen::Vector3d Vector;
-  typedef Indexed_mesh::Triangle_indices Triangle_indices;
-  const auto point = [&mesh](Indexed_mesh::Vertex_index v) {
-    return Vector(mesh.points[v].x(), mesh.points[v].y(), mesh.points[v].z());
-  };
   if(!(Indexed_mesh::normalize(mesh) > 0.))
     return mesh;
-  const auto corners = [](const Triangle_indices& t) -> const Triangle_indices& { return t; };
-  const Area_moments moments = area_moments(mesh.triangles, corners, point);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moments.second);
-  Eigen::Matrix3d axes = solver.eigenvectors();
-  Vector skewness = Vector::Zero();
-  for(const Triangle_indices& t : mesh.triangles) {
-    const Vector a = point(t[0]), b = point(t[1]), c = point(t[2]);
-    const Vector q = axes.transpose() * ((a + b + c) / 3. - moments.centre);
-    skewness += (b - a).cross(c - a).norm() * q.cwiseProduct(q).cwiseProduct(q);
-  }
-  for(int i = 0; i < 2; ++i)
-    if(skewness[i] < 0.)
-      axes.col(i) = -axes.col(i);
-  axes.col(2) = axes.col(0).cross(axes.col(1));
-  for(auto& p : mesh.points) {
-    const Vector q = axes.transpose() * (Vector(p.x(), p.y(), p.z()) - moments.centre);
-    p = Indexed_mesh::Indexed_triangle_mesh::Point_3(q[0], q[1], q[2]);
+  const Principal_axes axes(mesh);
+  for(std::size_t v = 0; v < mesh.points.size(); ++v) {
+    const Eigen::Vector3d q = axes.along(Indexed_mesh::Vertex_index(v));
+    mesh.points[v] = Indexed_mesh::Indexed_triangle_mesh::Point_3(q[0], q[1], q[2]);
   }
   return mesh;
 }
