@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Maps a surface with a border to the plane so that lengths, areas and angles are all kept as well as
-// possible, with an energy of its own, and draws a checkerboard on it. Writes low_stretch.png.
+// possible, with an energy of its own, and draws a checkerboard on it; then pulls at a vertex of a map
+// no two parts of which may overlap. Writes low_stretch.png.
 
 #include "surface_pictures.h"
 
+#include <CGAL/Surface_mesh_parameterization/Live_low_stretch_map.h>
 #include <CGAL/Surface_mesh_parameterization/low_stretch_map.h>
 
 #include <cmath>
@@ -26,6 +28,16 @@ struct Cloth_energy
   }
 };
 
+typedef std::vector<CGAL::Simple_cartesian<double>::Point_2> Uv;
+
+std::size_t number_of_flips(const surface_pictures::Mesh& mesh, const Uv& uv)
+{
+  std::size_t flipped = 0;
+  for(const auto& t : mesh.triangles)
+    flipped += orientation(uv[t[0]], uv[t[1]], uv[t[2]]) != CGAL::LEFT_TURN ? 1 : 0;
+  return flipped;
+}
+
 int main(int argc, char* argv[])
 {
   surface_pictures::Mesh mesh;
@@ -38,10 +50,18 @@ int main(int argc, char* argv[])
     return EXIT_FAILURE;
   }
 
-  std::size_t flipped = 0;
-  for(const auto& t : mesh.triangles)
-    for(const auto* uv : {&map.uv, &cloth.uv})
-      flipped += orientation((*uv)[t[0]], (*uv)[t[1]], (*uv)[t[2]]) != CGAL::LEFT_TURN ? 1 : 0;
+  // Two vertices hold it, a third one is pulled.
+  SMP::Low_stretch_options options;
+  options.is_one_to_one = true;
+  SMP::Live_low_stretch_map<> live(mesh, options);
+  const std::size_t last = mesh.points.size() - 1;
+  for(const std::size_t v : {std::size_t(0), last / 2, last})
+    live.set_pin(v, live.uv()[v]);
+  live.set_pin(last / 2, live.uv()[last / 2] + 0.02 * (live.uv()[last] - live.uv()[0]));
+  const bool is_pulled = live.solve();
+
+  const std::size_t flipped = number_of_flips(mesh, map.uv) + number_of_flips(mesh, cloth.uv)
+                            + number_of_flips(mesh, live.uv());
   std::cout << mesh.triangles.size() << " faces in " << map.report.seconds << " s, energy "
             << map.report.energy << " (4 without any stretch), " << flipped << " flipped\n";
 
@@ -52,5 +72,5 @@ int main(int argc, char* argv[])
   for(const auto& p : map.uv)
     checker.push_back(std::tanh(8. * wave(p.x()) * wave(p.y())));
   const bool is_drawn = surface_pictures::draw("low_stretch.png", mesh, checker, 0);
-  return is_drawn && flipped == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+  return is_drawn && is_pulled && flipped == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -1,19 +1,13 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Low-stretch maps from a given map, with pins that are dragged, with prescribed borders and with
-// weights of faces.
+// Low-stretch maps from a given map, with pins that are dragged, and with weights of faces.
 
 #include <support/chart_generators.h>
 #include <support/low_stretch_checks.h>
 
 #include <CGAL/Surface_mesh_parameterization/Live_low_stretch_map.h>
-#include <CGAL/Surface_mesh_parameterization/Low_stretch_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/conformal_map.h>
-
-#include <CGAL/Polygon_mesh_processing/measure.h>
-#include <CGAL/Surface_mesh_parameterization/Circular_border_parameterizer_3.h>
-#include <CGAL/Surface_mesh_parameterization/Square_border_parameterizer_3.h>
 
 #include <gtest/gtest.h>
 
@@ -32,14 +26,6 @@ typedef CGAL::Simple_cartesian<double>::Point_2 Point_2;
 
 constexpr std::uint64_t seed = 20261124;
 
-std::vector<Named_mesh> charts()
-{
-  return {{"hills", with_hills(irregular_grid(30, 25, seed), 8., seed)},
-          {"noisy hills", with_noise(with_hills(irregular_grid(26, 21, seed), 6., seed), 0.3, seed)},
-          {"dome", on_sphere(round_disk(18), 2.2)},
-          {"sphere with holes", with_holes(sphere(3), 5, seed)}};
-}
-
 // Tutte's map to a circle.
 Uv circle_map(const Indexed_triangle_mesh& mesh)
 {
@@ -49,15 +35,6 @@ Uv circle_map(const Indexed_triangle_mesh& mesh)
   return uv;
 }
 
-// What is wrong with pins: that they are not kept, exactly.
-std::string error_in_pins(const std::vector<HLSCM_pin>& pins, const Uv& uv)
-{
-  for(const HLSCM_pin& pin : pins)
-    if(uv[pin.vertex] != Point_2(pin.u, pin.v))
-      return "vertex " + std::to_string(pin.vertex) + " is not where it is pinned";
-  return {};
-}
-
 // --- From a given map
 
 // From a conformal map, from one to a circle and from its own result the iteration ends at the energy
@@ -65,7 +42,7 @@ std::string error_in_pins(const std::vector<HLSCM_pin>& pins, const Uv& uv)
 TEST(Low_stretch_start, ends_where_other_starts_end)
 {
   std::size_t conformal_starts = 0;
-  for(const Named_mesh& chart : charts()) {
+  for(const Named_mesh& chart : low_stretch_charts(seed)) {
     Low_stretch_options options;
     const Low_stretch_map own = low_stretch_map(chart.mesh, options);
     std::vector<std::pair<std::string, Uv>> starts
@@ -94,7 +71,7 @@ TEST(Low_stretch_start, ends_where_other_starts_end)
 
 TEST(Low_stretch_start, unit_and_place_of_the_start_do_not_matter)
 {
-  const Indexed_triangle_mesh mesh = charts()[0].mesh;
+  const Indexed_triangle_mesh mesh = low_stretch_charts(seed)[0].mesh;
   Low_stretch_options options;
   options.start = circle_map(mesh);
   const double energy = low_stretch_map(mesh, options).report.energy;
@@ -107,7 +84,7 @@ TEST(Low_stretch_start, unit_and_place_of_the_start_do_not_matter)
 TEST(Low_stretch_start, pins_are_reached)
 {
   Random random(seed);
-  for(const Named_mesh& chart : charts()) {
+  for(const Named_mesh& chart : low_stretch_charts(seed)) {
     Low_stretch_options options;
     options.start = circle_map(chart.mesh);
     const Low_stretch_map free = low_stretch_map(chart.mesh, options);
@@ -179,7 +156,7 @@ TEST(Low_stretch_start, bad_starts_are_named)
 
 TEST(Live_low_stretch_map, pins_are_followed)
 {
-  for(const Named_mesh& chart : charts()) {
+  for(const Named_mesh& chart : low_stretch_charts(seed)) {
     Low_stretch_options options;
     const Low_stretch_map free = low_stretch_map(chart.mesh, options);
     const std::size_t n = chart.mesh.points.size();
@@ -242,112 +219,11 @@ TEST(Live_low_stretch_map, the_map_stays_if_there_is_no_other)
   EXPECT_EQ(error_in_orientation(mesh, live.uv()), "");
 }
 
-// --- Prescribed borders
-
-typedef Surface_mesh::Vertex_index Vertex;
-typedef CGAL::Kernel_traits<Surface_mesh::Point>::Kernel::Point_2 Mesh_point_2;
-
-// The border stays where CGAL's parameterizer puts it, and no face is flipped.
-template <class Border>
-void map_with_border(const std::string& name, const Indexed_triangle_mesh& arrays)
-{
-  Surface_mesh mesh = to_surface_mesh(arrays);
-  auto uv = mesh.add_property_map<Vertex, Mesh_point_2>("v:uv").first;
-  auto border_uv = mesh.add_property_map<Vertex, Mesh_point_2>("v:border").first;
-  auto index = mesh.add_property_map<Vertex, int>("v:index").first;
-  auto is_set = mesh.add_property_map<Vertex, bool>("v:set", false).first;
-  const auto border = CGAL::Polygon_mesh_processing::longest_border(mesh).first;
-  Border own;
-  ASSERT_EQ(own.parameterize(mesh, border, border_uv, index, is_set), OK) << name;
-  Low_stretch_parameterizer_3<Surface_mesh, CGAL::Default, CGAL::Sequential_tag, Border>
-    parameterizer((Border()));
-  ASSERT_EQ(parameterizer.parameterize(mesh, border, uv), OK) << name << parameterizer.outcome().error;
-  // CGAL's squares run the wrong way round
-  const double sign = CGAL::orientation(border_uv[target(border, mesh)], border_uv[source(border, mesh)],
-                                        Mesh_point_2(0.5, 0.5)) == CGAL::LEFT_TURN ? 1. : -1.;
-  Uv result;
-  for(const Vertex v : mesh.vertices()) {
-    result.emplace_back(sign * uv[v].x(), uv[v].y());
-    if(is_set[v]) {
-      EXPECT_EQ(uv[v], border_uv[v]) << name << ", vertex " << v;
-    }
-  }
-  EXPECT_EQ(error_in_orientation(arrays, result) + error_in_turns(arrays, result), "") << name;
-  EXPECT_TRUE(parameterizer.report().converged) << name;
-  EXPECT_GE(parameterizer.report().energy, 4.) << name;
-  EXPECT_NEAR(parameterizer.report().area, CGAL::Polygon_mesh_processing::area(mesh),
-              1e-6 * parameterizer.report().area) << name;
-}
-
-TEST(Low_stretch_border, stays_where_it_is_put)
-{
-  std::vector<Named_mesh> all = charts();
-  const Indexed_triangle_mesh jagged = with_jagged_border(irregular_grid(30, 24, seed), 0.5, seed);
-  all.push_back({"jagged", with_hills(jagged, 5., seed)});
-  all.push_back({"tall", moved(charts()[0].mesh, [](const Point_3& p) {
-    return Point_3(p.x(), p.y(), 8. * p.z());
-  })});
-  all.push_back({"strip", with_noise(irregular_grid(90, 4, seed), 0.1, seed)});
-  for(const Named_mesh& chart : all)
-    map_with_border<Circular_border_arc_length_parameterizer_3<Surface_mesh>>(chart.name, chart.mesh);
-  for(const Named_mesh& chart : {all[2], all[3]}) // no face has three corners on a side
-    map_with_border<Square_border_arc_length_parameterizer_3<Surface_mesh>>(chart.name, chart.mesh);
-}
-
-// The border of a grid, counterclockwise.
-std::vector<Vertex_index> border_of(const Indexed_triangle_mesh& mesh)
-{
-  const auto loops = CGAL::Indexed_mesh::border_loops(CGAL::Indexed_mesh::Vertex_rings(mesh));
-  return loops.at(0);
-}
-
-// An L, of which the map is not convex.
-TEST(Low_stretch_border, need_not_be_convex)
-{
-  const Indexed_triangle_mesh mesh = with_hills(irregular_grid(24, 24, seed), 3., seed);
-  Low_stretch_options options;
-  for(const Vertex_index v : border_of(mesh)) {
-    const Point_3& p = mesh.points[v];
-    // The corner at (24, 24) goes in
-    const double fold = 10. * std::max(0., (p.x() + p.y() - 24.) / 24.);
-    options.pins.push_back({v, p.x() - fold, p.y() - fold});
-  }
-  const Low_stretch_map map = low_stretch_map(mesh, options);
-  ASSERT_EQ(error_in_map(mesh, map), "");
-  EXPECT_EQ(error_in_pins(options.pins, map.uv), "");
-}
-
-TEST(Low_stretch_border, without_a_map_is_named)
-{
-  const Indexed_triangle_mesh mesh = irregular_grid(16, 16, seed);
-  const std::vector<Vertex_index> border = border_of(mesh);
-  const auto error = [&](const auto& place) {
-    Low_stretch_options options;
-    for(std::size_t i = 0; i < border.size(); ++i) {
-      const Point_2 p = place(2. * CGAL_PI * double(i) / double(border.size()));
-      options.pins.push_back({border[i], p.x(), p.y()});
-    }
-    const Low_stretch_map map = low_stretch_map(mesh, options);
-    EXPECT_TRUE(map.uv.empty());
-    EXPECT_EQ(map.status, Mesh_status::FAILED);
-    return map.error;
-  };
-  // The wrong way round, an eight, twice around
-  const auto is_named = [&](double x_turns, double y_turns, const std::string& word) {
-    return error([=](double a) {
-      return Point_2(8. * std::cos(x_turns * a), 8. * std::sin(y_turns * a));
-    }).find(word) != std::string::npos;
-  };
-  EXPECT_TRUE(is_named(1., -1., "border"));
-  EXPECT_TRUE(is_named(1., 2., "turns over"));
-  EXPECT_TRUE(is_named(2., 2., "turns over"));
-}
-
 // --- Weights
 
 TEST(Low_stretch_weights, equal_ones_change_nothing)
 {
-  const Indexed_triangle_mesh mesh = charts()[1].mesh;
+  const Indexed_triangle_mesh mesh = low_stretch_charts(seed)[1].mesh;
   const Low_stretch_map map = low_stretch_map(mesh);
   Low_stretch_options options;
   for(const double weight : {1., 2., 0.7}) {
@@ -379,7 +255,7 @@ double weighted_energy(const Indexed_triangle_mesh& mesh, const Uv& uv,
 // A face with the weight 2 counts as two of them would.
 TEST(Low_stretch_weights, count_as_copies_of_faces)
 {
-  for(const Named_mesh& chart : charts()) {
+  for(const Named_mesh& chart : low_stretch_charts(seed)) {
     Low_stretch_options options;
     options.tolerance = 1e-5;
     const Low_stretch_map plain = low_stretch_map(chart.mesh, options);

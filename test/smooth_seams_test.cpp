@@ -215,12 +215,12 @@ TEST(Smooth_seams, an_atlas_has_them)
     all.push_back({"hills", with_noise(with_hills(irregular_grid(40, 30, s), 8., s), 0.2, s)});
   constexpr double smooth_already = 1.05; // of jaggedness: such seams may only become shorter
   double less_jagged = 0.;
+  std::size_t page_cuts = 0;
   for(const Named_mesh& surface : all) {
     SMT::Texture_atlas_options options;
     options.packing.width = options.packing.height = 256;
     options.coarse_faces = 500;
     options.bound.area_scale = 1.5;
-    options.seam_price = 1e9; // cuts for the page are not smooth
     const auto found = SMT::Chart_growth_segmenter()(surface.mesh, options);
     ASSERT_EQ(found.error, "") << surface.name << seed_text;
     const SMT::Given_charts_segmenter segmenter(found.charts); // the same charts for both
@@ -234,6 +234,8 @@ TEST(Smooth_seams, an_atlas_has_them)
     EXPECT_EQ(error_in_atlas(mesh, atlas), "") << surface.name << seed_text;
     EXPECT_EQ(IM::manifold_error(mesh), "") << surface.name << seed_text;
     EXPECT_EQ(smooth.report.charts.size(), plain.report.charts.size()) << surface.name << seed_text;
+    EXPECT_EQ(smooth.report.page_cuts, plain.report.page_cuts) << surface.name << seed_text;
+    page_cuts += plain.report.page_cuts;
     EXPECT_LT(smooth.report.seam_length, plain.report.seam_length) << surface.name << seed_text;
     EXPECT_LT(smooth.report.seams.jaggedness,
               (std::max)(plain.report.seams.jaggedness, smooth_already))
@@ -245,6 +247,9 @@ TEST(Smooth_seams, an_atlas_has_them)
     EXPECT_TRUE(plain.atlas.source_triangle.empty());
   }
   EXPECT_GT(less_jagged, 0.) << seed_text;
+  if(!is_sanitized) {
+    EXPECT_GT(page_cuts, 0u) << seed_text; // these are smooth, too
+  }
   SMT::Texture_atlas_options options;
   options.has_smooth_seams = true;
   Surface_mesh graph = to_surface_mesh(grid(5, 5));

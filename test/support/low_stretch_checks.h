@@ -6,7 +6,7 @@
 
 // What is promised of low-stretch maps, as functions that return what is wrong.
 
-#include <support/mesh_generators.h>
+#include <support/chart_generators.h>
 
 #include <CGAL/Surface_mesh_parameterization/low_stretch_map.h>
 
@@ -104,6 +104,23 @@ inline double largest_change_of_length(const Indexed_triangle_mesh& mesh, const 
       sum += length;
     }
   return largest * 3. * double(mesh.triangles.size()) / sum;
+}
+
+inline std::vector<Named_mesh> low_stretch_charts(std::uint64_t seed)
+{
+  return {{"hills", with_hills(irregular_grid(30, 25, seed), 8., seed)},
+          {"noisy hills", with_noise(with_hills(irregular_grid(26, 21, seed), 6., seed), 0.3, seed)},
+          {"dome", on_sphere(round_disk(18), 2.2)},
+          {"sphere with holes", with_holes(sphere(3), 5, seed)}};
+}
+
+// What is wrong with pins: that they are not kept, exactly.
+inline std::string error_in_pins(const std::vector<HLSCM_pin>& pins, const Uv& uv)
+{
+  for(const auto& pin : pins)
+    if(uv[pin.vertex] != Uv::value_type(pin.u, pin.v))
+      return "vertex " + std::to_string(pin.vertex) + " is not where it is pinned";
+  return {};
 }
 
 } // namespace test_support

@@ -6,7 +6,9 @@
 #include "common/Interruption.h"
 #include "common/Mesh.h"
 #include "common/Program_error.h"
+#include "reading/Face_numbers.h"
 
+#include <CGAL/Surface_mesh_parameterization/Polygonal_border_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/low_stretch_map.h>
 
 #include <CGAL/Polygon_mesh_processing/measure.h>
@@ -36,32 +38,37 @@ SMP::Low_stretch_map map_with(Stretch energy, const CGAL::Indexed_mesh::Indexed_
   return SMP::low_stretch_map(mesh, options, SMP::Symmetric_dirichlet_energy());
 }
 
-// Where CGAL's parameterizer puts the longest border, from a square with the corners (0, 0) and (1, 1),
-// with the area of the surface.
+// Where a border parameterizer puts the longest border, with the area of the surface.
 template <typename Parameterizer>
 std::vector<SMP::HLSCM_pin>
-pins_by(const Program_options& options, const CGAL::Indexed_mesh::Indexed_triangle_mesh& component)
+pins_by(Parameterizer parameterizer, const Program_options& options,
+        const CGAL::Indexed_mesh::Indexed_triangle_mesh& component)
 {
   Mesh mesh = build_mesh(component);
   const Uv_map uv = mesh.add_property_map<Mesh::Vertex_index, Kernel::Point_2>("v:uv").first;
   const auto index = mesh.add_property_map<Mesh::Vertex_index, int>("v:index").first;
   const auto is_set = mesh.add_property_map<Mesh::Vertex_index, bool>("v:set").first;
   const auto border = CGAL::Polygon_mesh_processing::longest_border(mesh).first;
-  if(Parameterizer().parameterize(mesh, border, uv, index, is_set) != SMP::OK) {
+  const SMP::Error_code error = parameterizer.parameterize(mesh, border, uv, index, is_set);
+  if(error == SMP::ERROR_WRONG_PARAMETER) {
+    throw Program_error(options.border_polygon, "give three or more corners of a polygon, in their order "
+                                                "around it, no side of which crosses another one");
+  }
+  if(error != SMP::OK) {
     throw Program_error(options.input, "the border is too short to be put there");
   }
+  const Kernel::Point_2 origin = uv[mesh.target(border)];
   double twice_area = 0; // border halfedges have the surface on their right side
   for(const auto h : CGAL::halfedges_around_face(border, mesh)) {
-    const Kernel::Point_2 &p = uv[mesh.target(h)], &q = uv[mesh.source(h)];
-    twice_area += (p.x() - 0.5) * (q.y() - 0.5) - (p.y() - 0.5) * (q.x() - 0.5);
+    twice_area += CGAL::determinant(uv[mesh.target(h)] - origin, uv[mesh.source(h)] - origin);
   }
   const double scale
       = std::sqrt(2 * CGAL::Polygon_mesh_processing::area(mesh) / std::abs(twice_area));
   std::vector<SMP::HLSCM_pin> pins;
   for(const auto h : CGAL::halfedges_around_face(border, mesh)) {
-    const Kernel::Point_2& p = uv[mesh.target(h)];
-    pins.push_back({std::size_t(mesh.target(h)), std::copysign(scale, twice_area) * (p.x() - 0.5),
-                    scale * (p.y() - 0.5)});
+    const Kernel::Vector_2 p = uv[mesh.target(h)] - origin;
+    pins.push_back({std::size_t(mesh.target(h)), std::copysign(scale, twice_area) * p.x(),
+                    scale * p.y()});
   }
   return pins;
 }
@@ -71,9 +78,12 @@ border_pins(const Program_options& options, const CGAL::Indexed_mesh::Indexed_tr
 {
   switch(options.border) {
   case Border::CIRCLE:
-    return pins_by<SMP::Circular_border_arc_length_parameterizer_3<Mesh>>(options, component);
+    return pins_by(SMP::Circular_border_arc_length_parameterizer_3<Mesh>(), options, component);
   case Border::SQUARE:
-    return pins_by<SMP::Square_border_arc_length_parameterizer_3<Mesh>>(options, component);
+    return pins_by(SMP::Square_border_arc_length_parameterizer_3<Mesh>(), options, component);
+  case Border::POLYGON:
+    return pins_by(SMP::Polygonal_border_parameterizer_3<Mesh>(read_points(options.border_polygon)),
+                   options, component);
   case Border::FREE: break;
   }
   return {};
@@ -95,6 +105,11 @@ map_with_low_stretch(const Program_options& options,
   const std::vector<SMP::HLSCM_pin> border = border_pins(options, component);
   library.pins.insert(library.pins.end(), border.begin(), border.end());
   library.start = std::move(start);
+  if(!options.weights_of_faces.empty()
+     && options.weights_of_faces.size() != component.triangles.size()) {
+    throw Program_error(options.input, "the weights of faces are for one component, choose it by --component");
+  }
+  library.face_weights = options.weights_of_faces;
   library.is_one_to_one = options.is_one_to_one;
   if(options.is_tolerance_given) {
     library.tolerance = options.library.tolerance;
@@ -111,8 +126,9 @@ map_with_low_stretch(const Program_options& options,
   if(!map.is_ok()) {
     throw Program_error(options.input, map.error
                                            + (options.border == Border::SQUARE
-                                                  ? ": faces with three corners on a side of the "
-                                                    "square have no room, choose --border circle"
+                                                      || options.border == Border::POLYGON
+                                                  ? ": faces with three corners on a side have no room, "
+                                                    "choose --border circle"
                                                   : ""));
   }
   stretch = map.report;

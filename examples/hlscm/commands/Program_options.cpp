@@ -149,7 +149,7 @@ void check_very_large(const CLI::App& run, const Program_options& o)
     return;
   }
   for(const char* option :
-      {"--border", "--component", "--energy", "--engine", "--from-uv", "--one-to-one", "--pictures",
+      {"--border", "--component", "--energy", "--engine", "--face-weights", "--from-uv", "--one-to-one", "--pictures",
        "--pin", "--prolongation", "--repair-flips", "--schedule", "--signal", "--strict",
        "--time-limit", "--weights", "--weld"}) {
     if(run.count(option) > 0) {
@@ -193,11 +193,23 @@ void add_parameterize(CLI::App& app, Program_options& o)
                       "(default); that of angles alone; the distance from a rotation, with a "
                       "barrier; that of areas more than that of angles");
   add_signal(*run, o);
-  add_choice<Border>(*run, "--border",
-                     {{"free", Border::FREE}, {"circle", Border::CIRCLE}, {"square", Border::SQUARE}},
-                     o.border,
-                     "where --method low-stretch puts the longest border: anywhere (default), or by its "
-                     "length along a circle or a square of the area of the surface");
+  const auto set_border = [&o](const std::string& text) {
+    o.border = text == "free"     ? Border::FREE
+               : text == "circle" ? Border::CIRCLE
+               : text == "square" ? Border::SQUARE
+                                  : Border::POLYGON;
+    o.border_polygon = o.border == Border::POLYGON ? text : "";
+  };
+  run->add_option_function<std::string>(
+         "--border", set_border,
+         "where --method low-stretch puts the longest border: anywhere (default), or by its length along "
+         "a circle, a square or any polygon with the area of the surface: a file with its corners, two "
+         "numbers each")
+      ->type_name("free|circle|square|FILE");
+  run->add_option("--face-weights", o.face_weights,
+                  "what faces count with --method low-stretch, beside their area: a file with a positive "
+                  "number for each face of IN, of which one component is mapped")
+      ->type_name("FILE");
   run->add_flag("--one-to-one", o.is_one_to_one,
                 "no two parts of a map of --method low-stretch overlap, at the cost of some stretch");
   run->add_flag("--from-uv", o.is_from_uv,
@@ -359,7 +371,8 @@ void check(const Program_options& o)
   }
   const bool is_low_stretch = !o.method;
   const char* only = o.is_from_uv ? "--from-uv" : o.is_one_to_one ? "--one-to-one"
-                     : o.border != Border::FREE ? "--border" : nullptr;
+                     : o.border != Border::FREE ? "--border"
+                     : !o.face_weights.empty() ? "--face-weights" : nullptr;
   if(!is_low_stretch && only != nullptr) {
     throw CLI::ValidationError(only, "it needs --method low-stretch");
   }

@@ -8,6 +8,7 @@
 
 #include "common/Interruption.h"
 #include "common/Program_error.h"
+#include "reading/Face_numbers.h"
 
 #include <CGAL/Surface_mesh_parameterization/self_overlap.h>
 
@@ -350,6 +351,9 @@ Mapped_surface map_input(const Input_surface& input, const Program_options& give
 {
   Program_options options = given;
   options.library.metric = metric_of_signal(input, given);
+  if(!options.face_weights.empty()) {
+    options.weights_of_faces = read_face_numbers(options.face_weights, input, options.input);
+  }
   std::vector<SMP::HLSCM_pin> pins
       = checked_pins(options, input.file.soup.number_of_vertices());
   for(SMP::HLSCM_pin& pin : pins) {

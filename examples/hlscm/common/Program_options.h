@@ -26,7 +26,7 @@ enum class Engine { FLAT, FLAT_STRICT, CGAL };
 enum class Stretch { SYMMETRIC_DIRICHLET, MIPS, ARAP, AREA };
 
 /// Where the borders of maps with low stretch go.
-enum class Border { FREE, CIRCLE, SQUARE };
+enum class Border { FREE, CIRCLE, SQUARE, POLYGON };
 
 /// A vertex of the input, counted from 0, and where it goes.
 struct Pin
@@ -138,7 +138,10 @@ struct Program_options
   /// empty: nothing
   std::string signal;
   double signal_weight = 4; ///< how much that counts
-  Border border = Border::FREE;                   ///< then
+  Border border = Border::FREE; ///< then
+  std::string border_polygon;   ///< then: a file with its corners
+  std::string face_weights;     ///< then: a file with a number for each face; empty: all count alike
+  std::vector<double> weights_of_faces; ///< then: what is in it, for the triangles that are mapped
   bool is_from_uv = false;    ///< then: begins with the texture coordinates of the file
   bool is_one_to_one = false; ///< then: no two parts of a component overlap
   bool repairs_flips = false; ///< of the map

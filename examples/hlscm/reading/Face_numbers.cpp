@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -15,20 +16,22 @@ namespace hlscm {
 
 namespace {
 
-std::vector<double> read_numbers(const std::string& name)
+// `contents`: what the file should have; `kind`: what its numbers should be.
+std::vector<double> read_numbers(const std::string& name, double least, const char* contents,
+                                 const char* kind)
 {
   std::ifstream file(name);
   if(!file) {
-    throw Program_error(name, "cannot be opened, give a file with a number for each face");
+    throw Program_error(name, std::string("cannot be opened, give a file with ") + contents);
   }
   std::vector<double> numbers;
   for(std::string word; file >> word;) {
     double number = 0;
     const auto end = word.data() + word.size();
     const auto result = std::from_chars(word.data(), end, number);
-    if(result.ec != std::errc() || result.ptr != end || !std::isfinite(number) || number < 0) {
+    if(result.ec != std::errc() || result.ptr != end || !std::isfinite(number) || number < least) {
       throw Program_error(name, "its word " + std::to_string(numbers.size() + 1)
-                                    + " is not a number of 0 or more: " + word.substr(0, 20));
+                                    + " is not " + kind + ": " + word.substr(0, 20));
     }
     numbers.push_back(number);
   }
@@ -54,7 +57,8 @@ std::string name_in(const std::string& line)
 std::vector<double> read_face_numbers(const std::string& name, const Input_surface& surface,
                                       const std::string& input)
 {
-  const std::vector<double> of_faces = read_numbers(name);
+  const std::vector<double> of_faces
+      = read_numbers(name, 0, "a number for each face", "a number of 0 or more");
   const std::size_t faces = surface.file.soup.number_of_faces();
   if(of_faces.size() != faces) {
     throw Program_error(name, "it has " + std::to_string(of_faces.size()) + " numbers, but " + input
@@ -66,6 +70,21 @@ std::vector<double> read_face_numbers(const std::string& name, const Input_surfa
     result.push_back(of_faces[face]);
   }
   return result;
+}
+
+std::vector<CGAL::Simple_cartesian<double>::Point_2> read_points(const std::string& name)
+{
+  const std::vector<double> numbers
+      = read_numbers(name, std::numeric_limits<double>::lowest(), "two numbers for each point", "a number");
+  if(numbers.size() % 2 != 0) {
+    throw Program_error(name, "it has " + std::to_string(numbers.size())
+                                  + " numbers, give two for each point");
+  }
+  std::vector<CGAL::Simple_cartesian<double>::Point_2> points;
+  for(std::size_t i = 0; i < numbers.size(); i += 2) {
+    points.emplace_back(numbers[i], numbers[i + 1]);
+  }
+  return points;
 }
 
 Named_parts parts_of_surface(const Input_surface& surface, Name_of_part name)

@@ -6,6 +6,8 @@
 
 #include "reading/Surface_reading.h"
 
+#include <CGAL/Simple_cartesian.h>
+
 #include <string>
 #include <vector>
 
@@ -15,6 +17,9 @@ namespace hlscm {
 /// returns the number of each triangle; throws `Program_error`.
 std::vector<double> read_face_numbers(const std::string& name, const Input_surface& surface,
                                       const std::string& input);
+
+/// Reads a text file with two numbers for each point, white space between; throws `Program_error`.
+std::vector<CGAL::Simple_cartesian<double>::Point_2> read_points(const std::string& name);
 
 /// What parts a mesh into parts that have names.
 enum class Name_of_part { GROUP, MATERIAL };

@@ -70,8 +70,8 @@ struct Texture_atlas_options
   /// one-to-one maps: `Texture_atlas_report::unwanted_seams`. Empty for none.
   std::vector<std::uint8_t> no_seams;
   /// Whether seams are led through triangles, which are cut there, so that they are smooth; see
-  /// `smooth_seams()`. Not those of charts that are cut again, or to fill the pages. With this `no_seams`
-  /// must be empty.
+  /// `smooth_seams()`. Charts are mapped and packed a second time then. Of a chart that has to be cut
+  /// again after that, which is rare, new seams run along edges. With this `no_seams` must be empty.
   bool has_smooth_seams = false;
   /// Finds the ambient occlusion of the vertices of a coarse mesh: seams rather lie where the surface
   /// hides them. See `Chart_growth_options::occlusion`; for `Chart_growth_segmenter`. Nothing by default.

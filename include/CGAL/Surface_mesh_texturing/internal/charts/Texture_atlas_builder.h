@@ -93,18 +93,8 @@ public:
     return std::move(m_result);
   }
 
-  // What comes first of it.
-  Segmentation_result charts()
-  {
-    Segmentation_result result;
-    if(check())
-      segment();
-    result.fail(m_result);
-    result.charts = std::move(m_charts);
-    result.occlusion = std::move(m_occlusion);
-    result.stopped_early = m_was_over;
-    return result;
-  }
+  // The ambient occlusion of the vertices, or nothing
+  const std::vector<float>& occlusion() const { return m_occlusion; }
 
 private:
   bool check();

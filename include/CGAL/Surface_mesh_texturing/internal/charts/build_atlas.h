@@ -9,8 +9,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_texturing {
@@ -23,25 +26,63 @@ CGAL_HLSCM_INLINE Texture_atlas_result build_atlas(const Indexed_triangle_mesh& 
 
 #ifdef CGAL_HLSCM_DEFINITIONS
 
-// Builds the atlas of the surface with seams through its triangles: first come the charts, then the rest
-// for the triangles into which these were cut.
+// The charts of an atlas for the triangles into which smooth seams have cut those of its mesh.
+inline Segmentation_result charts_of_pieces(const Smooth_seams_result& smooth, std::vector<float> occlusion)
+{
+  Segmentation_result result;
+  result.charts = smooth.charts;
+  if(!occlusion.empty())
+    for(const Edge_vertex& v : smooth.new_vertices)
+      occlusion.push_back(
+        float((1. - v.part) * double(occlusion[v.from]) + v.part * double(occlusion[v.to])));
+  result.occlusion = std::move(occlusion);
+  return result;
+}
+
+// What the report of the charts before adds to that of the same ones with smooth seams.
+inline void add_report(const Texture_atlas_report& before, Texture_atlas_report& report)
+{
+  report.recut_charts += before.recut_charts;
+  report.page_cuts += before.page_cuts;
+  report.stopped_early = report.stopped_early || before.stopped_early;
+  if(report.why_not_used.empty())
+    report.why_not_used = before.why_not_used;
+  report.seconds_segment += before.seconds_segment;
+  report.seconds_map += before.seconds_map;
+  report.seconds_pack += before.seconds_pack;
+  report.seconds_total += before.seconds_total;
+}
+
+// Builds the atlas of the surface with seams through its triangles: first comes one with seams along
+// edges, of all cuts that there will be, then that of its charts for the triangles into which these were
+// cut.
 inline Texture_atlas_result build_with_smooth_seams(const Indexed_triangle_mesh& mesh,
                                                     const Texture_atlas_options& options,
                                                     const Atlas_models& models)
 {
-  constexpr double least_seconds = 1e-9; // 0 would be no limit
-  const Blocked_execution::Stopwatch watch;
+  constexpr double first_part = 0.6; // of the time
   Texture_atlas_result result;
   if(!options.no_seams.empty() || !options.page_set.empty() || models.take_maps)
     result.fail(Mesh_status::BAD_OPTIONS, "seams cannot go through triangles if some edges shall be "
                                           "none, if parts have pages of their own, or if the charts "
                                           "have maps");
-  Segmentation_result found;
-  if(result.is_ok())
-    found = Texture_atlas_builder(mesh, options, models).charts();
-  if(result.fail(found))
+  if(!result.is_ok())
     return result;
-  Smooth_seams_result smooth = smooth_seams(mesh, found.charts);
+  const auto part_of = [&options](double begin, double end) {
+    Texture_atlas_options part = options;
+    part.seconds *= end - begin;
+    if(options.progress)
+      part.progress = [&options, begin, end](double done) {
+        return options.progress(begin + done * (end - begin));
+      };
+    return part;
+  };
+  const Texture_atlas_options of_first = part_of(0., first_part);
+  Texture_atlas_builder first(mesh, of_first, models);
+  Texture_atlas_result along_edges = first.run();
+  if(!along_edges.is_ok())
+    return along_edges;
+  Smooth_seams_result smooth = smooth_seams(mesh, along_edges.atlas.charts);
   if(result.fail(smooth))
     return result;
   const auto of_pieces = [&smooth](auto& values) {
@@ -50,26 +91,19 @@ inline Texture_atlas_result build_with_smooth_seams(const Indexed_triangle_mesh&
       pieces.push_back(values[smooth.triangle[t]]);
     values = std::move(pieces);
   };
-  Texture_atlas_options of_smooth = options;
+  Texture_atlas_options of_smooth = part_of(first_part, 1.);
   of_pieces(of_smooth.density);
   of_pieces(of_smooth.metric);
-  const double seconds_segment = watch.seconds();
-  if(options.seconds > 0.)
-    of_smooth.seconds = (std::max)(least_seconds, options.seconds - seconds_segment);
+  of_smooth.seam_price = std::numeric_limits<double>::infinity(); // all cuts that are worth it are made
+  if(!along_edges.report.why_not_used.empty())
+    of_smooth.min_used = 0.;
   Atlas_models with_charts = models;
   with_charts.is_for_any_mesh = false; // there is nothing to be tried on a coarser one
-  with_charts.segment = [&](const Indexed_triangle_mesh&, const Texture_atlas_options&) {
-    Segmentation_result charts = found;
-    charts.charts = smooth.charts;
-    if(!charts.occlusion.empty())
-      for(const Edge_vertex& v : smooth.new_vertices)
-        charts.occlusion.push_back(float((1. - v.part) * double(charts.occlusion[v.from])
-                                         + v.part * double(charts.occlusion[v.to])));
-    return charts;
-  };
+  const Segmentation_result charts = charts_of_pieces(smooth, first.occlusion());
+  with_charts.segment
+    = [&charts](const Indexed_triangle_mesh&, const Texture_atlas_options&) { return charts; };
   result = Texture_atlas_builder(smooth.mesh, of_smooth, with_charts).run();
-  result.report.seconds_segment += seconds_segment;
-  result.report.seconds_total += seconds_segment;
+  add_report(along_edges.report, result.report);
   if(result.is_ok()) {
     result.atlas.source_triangle = std::move(smooth.triangle);
     result.atlas.new_vertices = std::move(smooth.new_vertices);
