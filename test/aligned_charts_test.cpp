@@ -16,10 +16,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace aligned_charts_test {
@@ -36,10 +39,10 @@ const std::string seed_text = ", seed " + std::to_string(seed);
 Textured_triangle_mesh turned_notch(double angle)
 {
   const Indexed_triangle_mesh plane = grid(12, 5);
-  std::vector<bool> is_out(plane.points.size());
-  for(std::size_t v = 0; v < is_out.size(); ++v)
-    is_out[v] = plane.points[v].x() > 7.5 && plane.points[v].y() > 2.5;
-  const Indexed_triangle_mesh notched = without_vertices(plane, is_out);
+  std::vector<bool> is_kept(plane.points.size());
+  for(std::size_t v = 0; v < is_kept.size(); ++v)
+    is_kept[v] = plane.points[v].x() < 7.5 || plane.points[v].y() < 2.5;
+  const Indexed_triangle_mesh notched = without_vertices(plane, is_kept);
   Textured_triangle_mesh mesh = {notched.points, notched.triangles, {}, notched.triangles};
   const double c = std::cos(angle), s = std::sin(angle);
   for(const auto& p : mesh.points)
@@ -64,6 +67,62 @@ TEST(Aligned_charts, have_straight_borders_along_the_axes)
         if(result.atlas.charts.is_seam(t, c)) {
           EXPECT_LT((std::min)(std::abs(p.x() - q.x()), std::abs(p.y() - q.y())), 1e-12) << angle;
         }
+      }
+  }
+}
+
+// The border of a diamond of quads runs across them: both directions are asked for, the other one by the
+// diagonals of the quads, which shall not be seams.
+TEST(Aligned_charts, of_a_texture_lie_along_the_edges_of_quads)
+{
+  Indexed_triangle_mesh square = grid(16, 16);
+  square.triangles.clear();
+  for(Vertex_index y = 0; y < 16; ++y) // diagonals run as the side of the diamond that is near
+    for(Vertex_index x = 0; x < 16; ++x) {
+      const Vertex_index a = 17 * y + x, b = a + 1, c = a + 18, d = a + 17;
+      const bool is_falling = (x < 8) == (y < 8);
+      square.triangles.push_back({a, b, is_falling ? d : c});
+      square.triangles.push_back({is_falling ? b : a, c, d});
+    }
+  std::vector<bool> is_kept(square.points.size());
+  for(std::size_t v = 0; v < is_kept.size(); ++v)
+    is_kept[v] = std::abs(square.points[v].x() - 8.) + std::abs(square.points[v].y() - 8.) < 8.5;
+  const Indexed_triangle_mesh diamond = without_vertices(square, is_kept);
+  Textured_triangle_mesh mesh = {diamond.points, diamond.triangles, {}, diamond.triangles};
+  const double angle = 0.3;
+  for(const auto& p : mesh.points)
+    mesh.uv.emplace_back(std::cos(angle) * p.x() - std::sin(angle) * p.y(),
+                         std::sin(angle) * p.x() + std::cos(angle) * p.y());
+  const auto is_diagonal = [&](Vertex_index a, Vertex_index b) {
+    return mesh.points[a].x() != mesh.points[b].x() && mesh.points[a].y() != mesh.points[b].y();
+  };
+  std::vector<std::uint8_t> diagonals(mesh.triangles.size(), 0);
+  std::map<std::pair<Vertex_index, Vertex_index>, int> count;
+  for(const Triangle_indices& t : mesh.triangles)
+    for(int c = 0; c < 3; ++c)
+      ++count[std::minmax(t[c], t[(c + 1) % 3])];
+  for(std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for(int c = 0; c < 3; ++c) {
+      const Vertex_index a = mesh.triangles[t][c], b = mesh.triangles[t][(c + 1) % 3];
+      if(is_diagonal(a, b) && count[std::minmax(a, b)] == 2)
+        diagonals[t] = std::uint8_t(diagonals[t] | 1u << c);
+    }
+  SMT::Texture_atlas_options options = small_texture();
+  options.is_aligned = true;
+  for(const bool are_quads : {false, true}) {
+    options.no_seams = are_quads ? diagonals : std::vector<std::uint8_t>();
+    const auto result = SMT::repack_texture_atlas(mesh, options);
+    ASSERT_EQ(result.error, "");
+    const auto& uv = result.atlas.mesh.uv;
+    const auto& w = result.atlas.mesh.wedges;
+    for(std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      for(int c = 0; c < 3; ++c) {
+        if(is_diagonal(mesh.triangles[t][c], mesh.triangles[t][(c + 1) % 3]))
+          continue;
+        const auto d = uv[w[t][(c + 1) % 3]] - uv[w[t][c]];
+        const double part = (std::min)(std::abs(d.x()), std::abs(d.y()))
+                          / (std::max)(std::abs(d.x()), std::abs(d.y()));
+        EXPECT_NEAR(part, are_quads ? 0. : 1., 1e-9) << are_quads;
       }
   }
 }

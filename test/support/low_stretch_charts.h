@@ -83,6 +83,38 @@ inline std::vector<Named_mesh> nasty_charts(std::uint64_t s)
   };
 }
 
+// A chart of a few to some 400 faces, with any of what is hard about others.
+inline Indexed_triangle_mesh random_chart(std::uint64_t s)
+{
+  Random random(s);
+  const auto number = [&random](double lo, double hi) { return Vertex_index(uniform(random, lo, hi)); };
+  const auto perhaps = [&random] { return uniform(random, 0., 1.) < 0.3; };
+  Indexed_triangle_mesh mesh;
+  switch(number(0., 6.)) {
+  case 0: mesh = irregular_grid(number(1., 15.), number(1., 12.), s); break;
+  case 1: mesh = round_disk(number(2., 9.)); break;
+  case 2: mesh = with_holes(irregular_grid(number(5., 14.), number(5., 12.), s), number(1., 6.), s); break;
+  case 3: mesh = with_jagged_border(irregular_grid(number(4., 14.), number(4., 12.), s), 0.5, s); break;
+  case 4: mesh = cylinder(number(3., 12.), number(1., 15.)); break;
+  default: mesh = with_holes(sphere(2), number(1., 6.), s); break;
+  }
+  if(perhaps())
+    mesh = with_hills(mesh, uniform(random, 0., 10.), s);
+  if(perhaps())
+    mesh = with_noise(mesh, uniform(random, 0., 1.5), s);
+  if(perhaps())
+    mesh = with_slivers(mesh, uniform(random, 1., 50.));
+  if(perhaps())
+    mesh = moved(mesh, [f = uniform(random, 1., 50.)](const Point_3& p) { return Point_3(p.x(), p.y(), f * p.z()); });
+  if(perhaps())
+    mesh = with_caps(mesh, 0.2, s);
+  if(perhaps())
+    mesh = with_zero_area_triangles(mesh, number(1., 4.), s);
+  if(perhaps())
+    mesh = with_duplicate_points(mesh, number(1., 4.), s);
+  return perhaps() ? shuffled(mesh, s) : mesh;
+}
+
 // Those of up to 1,500 faces.
 inline std::vector<Named_mesh> small_ones_of(std::vector<Named_mesh> charts)
 {

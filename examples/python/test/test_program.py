@@ -176,7 +176,8 @@ class Same_as_program(unittest.TestCase):
         mesh = self.textured_input()
         for options, words in (({}, ()), ({"keep_scale": True}, ("--keep-scale",)),
                                ({"align": True, "padding": 6, "resolution": 512},
-                                ("--align", "--padding", "6", "--texture", "512"))):
+                                ("--align", "--padding", "6", "--texture", "512")),
+                               ({"whole_texels": True, "mip_levels": 2}, ("--lightmap",))):
             with self.subTest(**options):
                 made = hlscm.repack(mesh, full=True, **options)
                 _, _, uv, uv_faces = self.atlas_of_program(self.path("in.obj"), "--repack", *words)

@@ -144,6 +144,7 @@ private:
     if(!(e > FT(0)) && !(g > FT(0))) {
       e = g = FT(least_length * least_length);
       f = e / FT(2);
+      twice_area = e * sqrt(FT(3)) / FT(2);
     }
     const FT squared_lengths = FT(2) * (e + g - f);
     twice_area = (std::max)(twice_area, FT(2 * least_area) * squared_lengths);

@@ -84,7 +84,7 @@ that are missing or not finite, and a chart that would lie on the pages of two s
 \tparam Packer a model of `ChartPacker`, or `Default` for `Raster_packer`
 \param mesh the surface and its texture
 \param options of these count `density`, `has_whole_texels`, `is_aligned`, `is_enough`, `largest_aspect`,
-       `packing`, `page_set`, `seconds`, `threads` and `progress`
+       `no_seams` (for `is_aligned` and the report), `packing`, `page_set`, `seconds`, `threads` and `progress`
 \param repacking how charts are taken over, before `options.density` counts
 \param packer what packs them
 
@@ -116,7 +116,6 @@ Repacked_atlas_result repack_texture_atlas(const Textured_triangle_mesh& mesh,
   }
   Texture_atlas_options used = options;
   used.metric.clear();
-  used.no_seams.clear();
   used.has_smooth_seams = false;
   internal::Atlas_models models;
   models.is_own = models.is_bounded = false;

@@ -618,8 +618,8 @@ def repack(mesh: Any, /, *, keep_scale: bool = False, strict: bool = False,
            resolution: Union[int, Tuple[int, int]] = 1024, largest_aspect: float = 1.,
            padding: int = 2, mip_levels: int = 0, pages: int = 1, texels_per_unit: float = 0.,
            packer: str = "raster", packing_time: float = 0., density: Optional[ArrayLike] = None,
-           separate: Optional[ArrayLike] = None, align: bool = False, time_limit: float = 0.,
-           threads: int = 0, progress: Progress = None, full: bool = False) -> Any:
+           separate: Optional[ArrayLike] = None, align: bool = False, whole_texels: bool = False,
+           time_limit: float = 0., threads: int = 0, progress: Progress = None, full: bool = False) -> Any:
     """Packs the charts that a mesh has in its texture anew: each is turned, moved and scaled only.
 
     mesh: a TexturedMesh, (vertices, faces, uv, uv_faces), whose uv may lie anywhere.
@@ -635,7 +635,8 @@ def repack(mesh: Any, /, *, keep_scale: bool = False, strict: bool = False,
         "largest_aspect": largest_aspect, "padding": padding, "mip_levels": mip_levels,
         "pages": pages, "texels_per_unit": texels_per_unit, "packer": packer,
         "packing_time": packing_time, "density": _list(density, "density"),
-        "separate": _labels(separate, "separate", None), "align": align, "time_limit": time_limit}
+        "separate": _labels(separate, "separate", None), "align": align, "whole_texels": whole_texels,
+        "time_limit": time_limit}
     made = _hlscm.repack(textured, options, threads, progress)
     for sentence in made["report"]["defects"]:
         warnings.warn(sentence, RuntimeWarning, stacklevel=2)
