@@ -69,7 +69,7 @@ TEST(Low_stretch_map, corners_at_one_point_do_no_harm)
                                                               Point_3(1., 2., 3.));
   const double side = Reference_triangle<double>::least_length;
   EXPECT_NEAR(triangle.area(), std::sqrt(3.) / 4. * side * side, 1e-9 * side * side);
-  const Indexed_triangle_mesh mesh = random_chart(20263188);
+  const Indexed_triangle_mesh mesh = random_chart(407);
   const auto is_point = [&mesh](const Triangle_indices& t) {
     return mesh.points[t[0]] == mesh.points[t[1]] && mesh.points[t[1]] == mesh.points[t[2]];
   };

@@ -89,14 +89,17 @@ inline Indexed_triangle_mesh random_chart(std::uint64_t s)
   Random random(s);
   const auto number = [&random](double lo, double hi) { return Vertex_index(uniform(random, lo, hi)); };
   const auto perhaps = [&random] { return uniform(random, 0., 1.) < 0.3; };
+  // One after the other: compilers evaluate arguments in any order
+  const Vertex_index kind = number(0., 6.), columns = number(4., 15.), rows = number(1., 12.),
+                     holes = number(1., 6.);
   Indexed_triangle_mesh mesh;
-  switch(number(0., 6.)) {
-  case 0: mesh = irregular_grid(number(1., 15.), number(1., 12.), s); break;
-  case 1: mesh = round_disk(number(2., 9.)); break;
-  case 2: mesh = with_holes(irregular_grid(number(5., 14.), number(5., 12.), s), number(1., 6.), s); break;
-  case 3: mesh = with_jagged_border(irregular_grid(number(4., 14.), number(4., 12.), s), 0.5, s); break;
-  case 4: mesh = cylinder(number(3., 12.), number(1., 15.)); break;
-  default: mesh = with_holes(sphere(2), number(1., 6.), s); break;
+  switch(kind) {
+  case 0: mesh = irregular_grid(columns, rows, s); break;
+  case 1: mesh = round_disk(2 + columns / 2); break;
+  case 2: mesh = with_holes(irregular_grid(columns, rows + 3, s), holes, s); break;
+  case 3: mesh = with_jagged_border(irregular_grid(columns, rows + 3, s), 0.5, s); break;
+  case 4: mesh = cylinder(columns, rows); break;
+  default: mesh = with_holes(sphere(2), holes, s); break;
   }
   if(perhaps())
     mesh = with_hills(mesh, uniform(random, 0., 10.), s);
