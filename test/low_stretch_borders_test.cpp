@@ -12,7 +12,9 @@
 #include <CGAL/Polygon_2.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Surface_mesh_parameterization/Circular_border_parameterizer_3.h>
+#include <CGAL/Surface_mesh_parameterization/Mean_value_coordinates_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/Square_border_parameterizer_3.h>
+#include <CGAL/Surface_mesh_parameterization/parameterize.h>
 #include <CGAL/determinant.h>
 
 #include <boost/property_map/property_map.hpp>
@@ -156,6 +158,25 @@ TEST(Polygonal_border_parameterizer_3, is_a_border_of_low_stretch_maps)
   const Named_mesh chart = low_stretch_charts(seed)[2]; // no face has three corners on a side
   for(const Corners& corners : polygons())
     map_with_border(chart.name, chart.mesh, Polygonal_border(corners));
+}
+
+// To a convex polygon, by CGAL's mean values, no face is flipped either.
+TEST(Polygonal_border_parameterizer_3, is_a_border_of_maps_of_cgal)
+{
+  const Named_mesh chart = low_stretch_charts(seed)[2];
+  Surface_mesh mesh = to_surface_mesh(chart.mesh);
+  auto uv = mesh.add_property_map<Vertex, Mesh_point_2>("v:uv").first;
+  const Corners corners = {{0, 0}, {2, 0}, {3, 1}, {1, 3}, {0, 2}};
+  Mean_value_coordinates_parameterizer_3<Surface_mesh, Polygonal_border> parameterizer(
+    (Polygonal_border(corners)));
+  ASSERT_EQ(CGAL::Surface_mesh_parameterization::parameterize(
+              mesh, parameterizer, CGAL::Polygon_mesh_processing::longest_border(mesh).first, uv), OK);
+  Uv result;
+  for(const Vertex v : mesh.vertices())
+    result.emplace_back(uv[v].x(), uv[v].y());
+  EXPECT_EQ(error_in_orientation(chart.mesh, result), "");
+  for(const Mesh_point_2& corner : corners)
+    EXPECT_EQ(std::count(uv.begin(), uv.end(), corner), 1);
 }
 
 TEST(Polygonal_border_parameterizer_3, says_what_is_wrong)
