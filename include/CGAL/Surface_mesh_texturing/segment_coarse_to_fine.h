@@ -261,7 +261,7 @@ private:
 
 Returns charts of `mesh` that are disks: a coarse mesh is made by halfedge collapses, charts are
 found there, and their seams are carried back and made straight. The charts do not depend on how the
-mesh is turned, moved or scaled, up to rounding, unless it is symmetric.
+mesh is turned, moved or scaled, up to rounding.
 
 \param mesh any number of components, closed or not, of any genus, size and place
 \param options see there
