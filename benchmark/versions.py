@@ -5,8 +5,8 @@
 
 Usage: benchmark/versions.py PROGRAM_THEN PROGRAM_NOW MESH.ply... > benchmark/results/versions.csv
 
-One thread. `work` is what the program says of itself: hierarchy, operators and solution of a map, the atlas, or
-all of the levels; `wall` is by the clock with files. Medians.
+One thread. `work` is what the program says of itself: hierarchy, operators and solution of a map, the map and
+the progressive mesh of levels, or the atlas; `wall` is by the clock with files. Medians.
 """
 
 import json
@@ -38,14 +38,13 @@ def work_of(report):
 
 
 def run(program, mesh, arguments, folder):
-    """The seconds of the work, those by the clock, and the report."""
+    """The seconds of the work, and those by the clock."""
     begin = time.perf_counter()
     subprocess.run([program, arguments[0], mesh, *arguments[1:], "--threads", "1", "--quiet", "--report",
                     "report.json"], cwd=folder, check=True, capture_output=True)
     wall = time.perf_counter() - begin
     with open(os.path.join(folder, "report.json"), encoding="utf-8") as file:
-        report = json.load(file)
-    return work_of(report), wall
+        return work_of(json.load(file)), wall
 
 
 def main():

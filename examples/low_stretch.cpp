@@ -28,16 +28,6 @@ struct Cloth_energy
   }
 };
 
-typedef std::vector<CGAL::Simple_cartesian<double>::Point_2> Uv;
-
-std::size_t number_of_flips(const surface_pictures::Mesh& mesh, const Uv& uv)
-{
-  std::size_t flipped = 0;
-  for(const auto& t : mesh.triangles)
-    flipped += orientation(uv[t[0]], uv[t[1]], uv[t[2]]) != CGAL::LEFT_TURN ? 1 : 0;
-  return flipped;
-}
-
 int main(int argc, char* argv[])
 {
   surface_pictures::Mesh mesh;
@@ -45,23 +35,25 @@ int main(int argc, char* argv[])
     return EXIT_FAILURE;
   const SMP::Low_stretch_map map = SMP::low_stretch_map(mesh);
   const SMP::Low_stretch_map cloth = SMP::low_stretch_map(mesh, {}, Cloth_energy());
-  if(!map.is_ok() || !cloth.is_ok()) {
-    std::cerr << map.error << "\n";
+  SMP::Low_stretch_options options;
+  options.is_one_to_one = true;
+  SMP::Live_low_stretch_map<> live(mesh, options);
+  if(!map.is_ok() || !cloth.is_ok() || !live.has_map()) {
+    std::cerr << (map.is_ok() ? live.outcome().error : map.error) << "\n";
     return EXIT_FAILURE;
   }
 
   // Two vertices hold it, a third one is pulled.
-  SMP::Low_stretch_options options;
-  options.is_one_to_one = true;
-  SMP::Live_low_stretch_map<> live(mesh, options);
   const std::size_t last = mesh.points.size() - 1;
   for(const std::size_t v : {std::size_t(0), last / 2, last})
     live.set_pin(v, live.uv()[v]);
   live.set_pin(last / 2, live.uv()[last / 2] + 0.02 * (live.uv()[last] - live.uv()[0]));
   const bool is_pulled = live.solve();
 
-  const std::size_t flipped = number_of_flips(mesh, map.uv) + number_of_flips(mesh, cloth.uv)
-                            + number_of_flips(mesh, live.uv());
+  std::size_t flipped = 0;
+  for(const auto* uv : {&map.uv, &cloth.uv, &live.uv()})
+    for(const auto& t : mesh.triangles)
+      flipped += orientation((*uv)[t[0]], (*uv)[t[1]], (*uv)[t[2]]) != CGAL::LEFT_TURN ? 1 : 0;
   std::cout << mesh.triangles.size() << " faces in " << map.report.seconds << " s, energy "
             << map.report.energy << " (4 without any stretch), " << flipped << " flipped\n";
 

@@ -6,7 +6,6 @@
 #include "common/Interruption.h"
 #include "common/Mesh.h"
 #include "common/Program_error.h"
-#include "reading/Face_numbers.h"
 
 #include <CGAL/Surface_mesh_parameterization/Polygonal_border_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/low_stretch_map.h>
@@ -82,8 +81,8 @@ border_pins(const Program_options& options, const CGAL::Indexed_mesh::Indexed_tr
   case Border::SQUARE:
     return pins_by(SMP::Square_border_arc_length_parameterizer_3<Mesh>(), options, component);
   case Border::POLYGON:
-    return pins_by(SMP::Polygonal_border_parameterizer_3<Mesh>(read_points(options.border_polygon)),
-                   options, component);
+    return pins_by(SMP::Polygonal_border_parameterizer_3<Mesh>(options.border_corners), options,
+                   component);
   case Border::FREE: break;
   }
   return {};
@@ -107,7 +106,8 @@ map_with_low_stretch(const Program_options& options,
   library.start = std::move(start);
   if(!options.weights_of_faces.empty()
      && options.weights_of_faces.size() != component.triangles.size()) {
-    throw Program_error(options.input, "the weights of faces are for one component, choose it by --component");
+    throw Program_error(options.input, "the weights of faces are for one component, choose it by "
+                                       "--component");
   }
   library.face_weights = options.weights_of_faces;
   library.is_one_to_one = options.is_one_to_one;

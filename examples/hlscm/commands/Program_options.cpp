@@ -149,8 +149,8 @@ void check_very_large(const CLI::App& run, const Program_options& o)
     return;
   }
   for(const char* option :
-      {"--border", "--component", "--energy", "--engine", "--face-weights", "--from-uv", "--one-to-one", "--pictures",
-       "--pin", "--prolongation", "--repair-flips", "--schedule", "--signal", "--strict",
+      {"--border", "--component", "--energy", "--engine", "--face-weights", "--from-uv", "--one-to-one",
+       "--pictures", "--pin", "--prolongation", "--repair-flips", "--schedule", "--signal", "--strict",
        "--time-limit", "--weights", "--weld"}) {
     if(run.count(option) > 0) {
       throw CLI::ValidationError(option, "it cannot be used with --memory");

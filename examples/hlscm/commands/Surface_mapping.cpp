@@ -351,6 +351,9 @@ Mapped_surface map_input(const Input_surface& input, const Program_options& give
 {
   Program_options options = given;
   options.library.metric = metric_of_signal(input, given);
+  if(options.border == Border::POLYGON) {
+    options.border_corners = read_points(options.border_polygon);
+  }
   if(!options.face_weights.empty()) {
     options.weights_of_faces = read_face_numbers(options.face_weights, input, options.input);
   }

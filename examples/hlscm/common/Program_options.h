@@ -4,6 +4,7 @@
 #ifndef HLSCM_PROGRAM_PROGRAM_OPTIONS_H
 #define HLSCM_PROGRAM_PROGRAM_OPTIONS_H
 
+#include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
 #include <CGAL/Surface_mesh_texturing/Chart_distortion.h>
 
@@ -140,6 +141,7 @@ struct Program_options
   double signal_weight = 4; ///< how much that counts
   Border border = Border::FREE; ///< then
   std::string border_polygon;   ///< then: a file with its corners
+  std::vector<CGAL::Simple_cartesian<double>::Point_2> border_corners; ///< then: what is in it
   std::string face_weights;     ///< then: a file with a number for each face; empty: all count alike
   std::vector<double> weights_of_faces; ///< then: what is in it, for the triangles that are mapped
   bool is_from_uv = false;    ///< then: begins with the texture coordinates of the file
