@@ -13,15 +13,16 @@ namespace hlscm {
 /// Returns a PNG file of `width` x `height` pixels: a checkerboard with so many squares in a row.
 inline std::string checkerboard_png(std::size_t width, std::size_t height, std::size_t squares)
 {
-  std::vector<std::uint8_t> rgb;
-  for(std::size_t y = 0; y < height; ++y) {
+  constexpr std::array<std::uint8_t, 3> light = {250, 247, 242}, dark = {56, 102, 158};
+  std::vector<std::uint8_t> rows[2], rgb; // two kinds of rows
+  for(std::size_t kind = 0; kind < 2; ++kind)
     for(std::size_t x = 0; x < width; ++x) {
-      const bool is_dark = (x * squares / width + y * squares / width) % 2 == 1;
-      for(const int value : is_dark ? std::array<int, 3>{56, 102, 158}
-                                    : std::array<int, 3>{250, 247, 242}) {
-        rgb.push_back(std::uint8_t(value));
-      }
+      const auto& colour = (x * squares / width + kind) % 2 == 1 ? dark : light;
+      rows[kind].insert(rows[kind].end(), colour.begin(), colour.end());
     }
+  for(std::size_t y = 0; y < height; ++y) {
+    const std::vector<std::uint8_t>& row = rows[y * squares / width % 2];
+    rgb.insert(rgb.end(), row.begin(), row.end());
   }
   return encode_png(rgb, width);
 }

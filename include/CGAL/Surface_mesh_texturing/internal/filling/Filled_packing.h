@@ -82,7 +82,7 @@ private:
   {
     constexpr std::size_t most_cuts = 16;
     constexpr double least_gain = 0.005, all = 1.;
-    constexpr double safe = 0.08; // gains that are not lost to what the estimate does not know
+    constexpr double safe = 0.06; // gains that are not lost to what the estimate does not know
     Page_filler filler(m_charts, m_pages, m_mapping);
     if(std::isfinite(m_options.seam_price)) {
       const double used = filler.used();

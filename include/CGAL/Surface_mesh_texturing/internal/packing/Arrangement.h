@@ -65,17 +65,21 @@ public:
   }
 
   // Returns the least overlap at the places x, x + 1 ... x + n - 1 of row y, and the overlaps in
-  // `result`; once all are known to be greater than `most`, they are no longer summed.
-  int overlaps(const Silhouette& s, int x, int y, int n, int most, int* result) const
+  // `result`; once all are known to be greater than `most`, they are no longer summed. Adds the number
+  // of runs that were looked at to `runs`.
+  int overlaps(const Silhouette& s, int x, int y, int n, int most, int* result, std::size_t& runs) const
   {
+    constexpr std::size_t at_a_time = 4;
     std::fill_n(result, n, 0);
     int least = 0;
     const int* origin = m_sums.data() + std::ptrdiff_t(m_width + 1) * (y - m_y) + (x - m_x);
-    for(std::size_t i = 0; i < s.runs.size() && least <= most;) {
-      const std::size_t end = (std::min)(s.runs.size(), i + 8);
+    for(std::size_t i = 0; i < s.longest_first.size() && least <= most;) {
+      const std::size_t end = (std::min)(s.longest_first.size(), i + at_a_time);
+      runs += end - i;
       for(; i < end; ++i) {
-        const int* row = origin + std::ptrdiff_t(m_width + 1) * s.runs[i].y;
-        const int *from = row + s.runs[i].begin, *to = row + s.runs[i].end;
+        const Cell_run& run = s.longest_first[i];
+        const int* row = origin + std::ptrdiff_t(m_width + 1) * run.y;
+        const int *from = row + run.begin, *to = row + run.end;
         for(int k = 0; k < n; ++k)
           result[k] += to[k] - from[k];
       }

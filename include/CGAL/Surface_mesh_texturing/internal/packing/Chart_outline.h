@@ -38,6 +38,7 @@ struct Chart_outline
   Vector_2d centre = {0., 0.};                  // of the bounding box, in the chart's plane
   double angle = 0.;    // of the rotation that aligns the smallest rectangle, long side along x
   double area = 0.;     // of all triangles, in common units
+  std::size_t triangles = 0;
   double diameter = 0.; // about, and not more, in common units: however the chart is turned
 };
 
@@ -203,6 +204,7 @@ inline bool has_repeated_vertex(const Indexed_mesh::Triangle_indices& t)
 inline Chart_outline chart_outline(const Chart_shape& chart, double unit)
 {
   Chart_outline result;
+  result.triangles = chart.triangles.size();
   const auto box = bounding_box(chart);
   std::vector<Vector_2d> points(chart.uv.size());
   for(int c = 0; c < 2; ++c) {

@@ -123,7 +123,7 @@ private:
   void sweep(Arrangement& a, const May_go_on& may_go_on, Move move);
 
   void move_anywhere(Arrangement& a, std::size_t chart);
-  std::vector<Candidate> coarse_candidates(Arrangement& a, std::size_t chart);
+  std::vector<Candidate> coarse_candidates(Arrangement& a, std::size_t chart, int most);
   void add_others(std::size_t chart, std::uint32_t page, Arrangement& a, Silhouettes& s);
   void search(const Silhouette& s, Raster_place place, int right, int top, Candidate& best);
   void search_near(std::size_t chart, const Raster_place& centre, int radius, Arrangement& a,
@@ -202,9 +202,9 @@ inline void Overlap_search::search(const Silhouette& s, Raster_place place, int 
 {
   const int left = place.x, n = right - left + 1;
   m_row.resize(n);
+  std::size_t runs = 0;
   for(; place.y <= top; ++place.y) {
-    m_base.work += 0.25 * n * double(s.runs.size());
-    if(m_field.overlaps(s, left, place.y, n, best.overlap - 1, m_row.data()) >= best.overlap)
+    if(m_field.overlaps(s, left, place.y, n, best.overlap - 1, m_row.data(), runs) >= best.overlap)
       continue;
     for(int k = 0; k < n; ++k)
       if(m_row[k] < best.overlap) {
@@ -212,26 +212,30 @@ inline void Overlap_search::search(const Silhouette& s, Raster_place place, int 
         best = {m_row[k], place};
       }
   }
+  m_base.work += 0.25 * n * double(runs);
 }
 
-// The best place for each of the best directions.
+// The best place for each of the best directions, at which less than `most` overlaps. Of many directions
+// every eighth is tried, others each time.
 inline std::vector<Overlap_search::Candidate>
-Overlap_search::coarse_candidates(Arrangement& a, std::size_t chart)
+Overlap_search::coarse_candidates(Arrangement& a, std::size_t chart, int most)
 {
   constexpr std::size_t number = 6;
+  constexpr int many = 24;
+  const std::size_t apart = m_base.coarse.rotations() < many ? 1 : 8;
   std::vector<Candidate> result;
   const Silhouette_raster& raster = m_base.coarse.raster();
   for(std::size_t page = 0; page < m_base.pages; ++page) {
     m_field.reset(0, 0, raster.width, raster.height);
     m_base.work += double(raster.width) * raster.height;
     add_others(chart, std::uint32_t(page), a, m_base.coarse);
-    for(int r = 0; r < m_base.coarse.rotations(); ++r) {
+    for(int r = int(m_base.random.index(apart)); r < m_base.coarse.rotations(); r += int(apart)) {
       const Silhouette& s = m_base.coarse(chart, r);
       if(s.width == 0 || s.width > raster.width || s.height > raster.height)
         continue;
-      Candidate best = {(std::numeric_limits<int>::max)(), Raster_place()};
+      Candidate best = {most, Raster_place()};
       if(result.size() == number)
-        best.overlap = result.back().overlap;
+        best.overlap = (std::min)(most, result.back().overlap);
       search(s, {std::uint32_t(page), r, 0, 0}, raster.width - s.width, raster.height - s.height,
              best);
       if(!best.place.is_found())
@@ -264,11 +268,12 @@ inline void Overlap_search::search_near(std::size_t chart, const Raster_place& c
 inline void Overlap_search::move_anywhere(Arrangement& a, std::size_t chart)
 {
   constexpr int reach = 6;
+  constexpr int rounding = 30; // in about two cells of the coarse raster
   const int radius = m_base.coarse.raster().ratio / m_middle.raster().ratio;
-  Candidate best = {(std::numeric_limits<int>::max)(), a.place(chart)};
-  const std::vector<Candidate> candidates = coarse_candidates(a, chart);
+  Candidate best = {(std::numeric_limits<int>::max)() / 2, a.place(chart)};
   search_near(chart, a.place(chart), reach, a, best);
-  for(const Candidate& c : candidates) {
+  const int most = best.overlap / (radius * radius) + rounding; // others are no better than that nearby
+  for(const Candidate& c : coarse_candidates(a, chart, most)) {
     const Loose_place place = m_base.coarse.loose_place(chart, c.place);
     search_near(chart, m_middle.raster_place(chart, place), radius, a, best);
   }

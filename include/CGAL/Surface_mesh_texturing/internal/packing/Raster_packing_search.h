@@ -80,16 +80,21 @@ private:
   // Enough for charts of equal sizes on one page to have 8 cells a side.
   double coarse_cells() const { return (std::max)(128. * 128., 64. * m_outlines.size()); }
 
-  // For higher densities, before the work of the budget: less for few charts and small pages, more for
-  // large ones. None for many, of which so short a time does not make a denser packing.
+  // For higher densities, before the work of the budget: less for few charts, small pages and small
+  // meshes, more for large ones, of which all else takes longer. None for many charts, of which so short
+  // a time does not make a denser packing.
   double raising_work() const
   {
-    constexpr double most = 40.;
-    const double n = double(m_outlines.size());
-    if(n > most)
+    constexpr double most_charts = 40., least_size = 0.35, largest_size = 4., largest = 8.;
+    const double charts = double(m_outlines.size());
+    if(charts > most_charts)
       return 0.;
-    const double cells = double(m_exact.width) * m_exact.height;
-    return 1.5e8 * (std::min)(1., n / 12.) * (std::min)(4., std::sqrt(cells) / 1000.);
+    double triangles = 0.;
+    for(const Chart_outline& outline : m_outlines)
+      triangles += double(outline.triangles);
+    const double size = (std::min)(largest_size, (std::max)(least_size, triangles / 1e4));
+    const double side = std::sqrt(double(m_exact.width) * m_exact.height) / 1000.;
+    return 1.5e8 * (std::min)(1., charts / 12.) * (std::min)(largest, size * side);
   }
 
   Packing_result with_density(double density);

@@ -39,6 +39,7 @@ struct Silhouette
   Vector_2d centre = {};       // of the chart, from the lower left corner
   std::vector<Cell_run> runs;
   std::vector<int> row_begin;  // the first run of each row, and the end of all
+  std::vector<Cell_run> longest_first; // the same runs
 };
 
 inline Silhouette silhouette_of(const Texel_mask& mask, const Vector_2d& centre)
@@ -53,6 +54,9 @@ inline Silhouette silhouette_of(const Texel_mask& mask, const Vector_2d& centre)
     ++result.row_begin[run.y + 1];
   for(int y = 0; y < mask.height(); ++y)
     result.row_begin[y + 1] += result.row_begin[y];
+  result.longest_first = result.runs;
+  std::stable_sort(result.longest_first.begin(), result.longest_first.end(),
+                   [](const Cell_run& a, const Cell_run& b) { return a.end - a.begin > b.end - b.begin; });
   return result;
 }
 

@@ -51,6 +51,16 @@ inline int number_of_bits(Word w)
 #endif
 }
 
+// The largest integer up to a number, which must be one: `std::floor()` is a call without SSE 4.1.
+inline int floor_of(double x)
+{
+  const int towards_zero = int(x);
+  return towards_zero - int(x < towards_zero);
+}
+
+// The smallest integer from such a number on.
+inline int ceil_of(double x) { return -floor_of(-x); }
+
 // The cells x from `begin` to before `end` of row `y`.
 struct Cell_run
 {
@@ -214,8 +224,8 @@ inline void add_segment(const Vector_2d& a, const Vector_2d& b, Texel_mask& mask
 {
   const Vector_2d &lo = a[1] < b[1] ? a : b, &hi = a[1] < b[1] ? b : a;
   const double height = hi[1] - lo[1], slope = height > 0. ? (hi[0] - lo[0]) / height : 0.;
-  const int first = int(std::floor(lo[1] - touching_tolerance / 2.));
-  const int last = int(std::floor(hi[1] + touching_tolerance / 2.));
+  const int first = floor_of(lo[1] - touching_tolerance / 2.);
+  const int last = floor_of(hi[1] + touching_tolerance / 2.);
   for(int y = first; y <= last; ++y) {
     // the ends of the part within the row, or somewhat more
     const double bottom = y - touching_tolerance, top = y + 1. + touching_tolerance;
@@ -223,37 +233,59 @@ inline void add_segment(const Vector_2d& a, const Vector_2d& b, Texel_mask& mask
     const double z = hi[1] <= top ? hi[0] : lo[0] + (top - lo[1]) * slope;
     const double left = (std::max)((std::min)(x, z), (std::min)(a[0], b[0]));
     const double right = (std::min)((std::max)(x, z), (std::max)(a[0], b[0]));
-    mask.add({y, int(std::floor(left - touching_tolerance / 2.)),
-              int(std::floor(right + touching_tolerance / 2.)) + 1});
+    mask.add({y, floor_of(left - touching_tolerance / 2.),
+              floor_of(right + touching_tolerance / 2.) + 1});
   }
+}
+
+// Where an outline crosses the middle of a row of cells.
+struct Row_crossing
+{
+  double x;
+  int winding;
+  bool operator<(const Row_crossing& o) const { return x < o.x; }
+};
+
+// The crossings of each row, of which there are `rows`, one after the other; `ends` becomes where each
+// row ends.
+inline std::vector<Row_crossing> row_crossings(const std::vector<Outline_edge>& edges, int rows,
+                                               std::vector<int>& ends)
+{
+  const auto first_row = [rows](double y) { return (std::min)(rows, (std::max)(0, ceil_of(y - 0.5))); };
+  ends.assign(rows + 1, 0);
+  for(const Outline_edge& e : edges) {
+    const int from = first_row(e.from[1]), to = first_row(e.to[1]);
+    for(int y = (std::min)(from, to); y < (std::max)(from, to); ++y)
+      ++ends[y + 1];
+  }
+  for(int y = 0; y < rows; ++y)
+    ends[y + 1] += ends[y];
+  std::vector<Row_crossing> result(ends[rows]);
+  for(const Outline_edge& e : edges) {
+    const bool is_up = e.from[1] < e.to[1];
+    const Vector_2d &lo = is_up ? e.from : e.to, &hi = is_up ? e.to : e.from;
+    const int end = first_row(hi[1]);
+    for(int y = first_row(lo[1]); y < end; ++y)
+      result[ends[y]++] = {lo[0] + (y + 0.5 - lo[1]) * (hi[0] - lo[0]) / (hi[1] - lo[1]),
+                           is_up ? e.winding : -e.winding};
+  }
+  ends.pop_back();
+  return result;
 }
 
 // Adds the cells whose centres have a winding number other than 0.
 inline void add_inside(const std::vector<Outline_edge>& edges, Texel_mask& mask)
 {
-  struct Crossing
-  {
-    int y;
-    double x;
-    int winding;
-    bool operator<(const Crossing& o) const { return y != o.y ? y < o.y : x < o.x; }
-  };
-  std::vector<Crossing> crossings;
-  for(const Outline_edge& e : edges) {
-    const bool is_up = e.from[1] < e.to[1];
-    const Vector_2d &lo = is_up ? e.from : e.to, &hi = is_up ? e.to : e.from;
-    const int end = int(std::ceil(hi[1] - 0.5));
-    for(int y = int(std::ceil(lo[1] - 0.5)); y < end; ++y)
-      crossings.push_back({y, lo[0] + (y + 0.5 - lo[1]) * (hi[0] - lo[0]) / (hi[1] - lo[1]),
-                           is_up ? e.winding : -e.winding});
-  }
-  std::sort(crossings.begin(), crossings.end());
-  int winding = 0;
-  for(std::size_t i = 0; i + 1 < crossings.size(); ++i) {
-    winding += crossings[i].winding; // 0 after the last one of a row
-    if(winding != 0)
-      mask.add({crossings[i].y, int(std::ceil(crossings[i].x - 0.5)),
-                int(std::ceil(crossings[i + 1].x - 0.5))});
+  std::vector<int> ends;
+  std::vector<Row_crossing> crossings = row_crossings(edges, mask.height(), ends);
+  for(int y = 0, begin = 0; y < mask.height(); begin = ends[y++]) {
+    std::sort(crossings.begin() + begin, crossings.begin() + ends[y]);
+    int winding = 0;
+    for(int i = begin; i + 1 < ends[y]; ++i) {
+      winding += crossings[i].winding;
+      if(winding != 0)
+        mask.add({y, ceil_of(crossings[i].x - 0.5), ceil_of(crossings[i + 1].x - 0.5)});
+    }
   }
 }
 
