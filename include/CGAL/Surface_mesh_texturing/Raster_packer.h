@@ -27,11 +27,10 @@ texels, where each chart is placed again among the places near to that on the co
 
 For 2 to 64 charts, what was found is then made denser: all charts grow, lengths by one percent at
 first and by a quarter of that later, and those that overlap are moved, one at a time, to where they
-overlap the others the least, in any of the directions (each time in an eighth of them), until none
-do. Overlaps that remain weigh
-more and more, so that charts leave places where they are stuck: guided local search (J. Egeblad,
-B. K. Nielsen and A. Odgaard, *Fast neighborhood search for two- and three-dimensional nesting
-problems*, European Journal of Operational Research 183, 2007; S. Umetani et al., *Solving the
+overlap the others the least, in any of the directions (an eighth of them each time), until none do.
+Overlaps that remain weigh more and more, so that charts leave places where they are stuck: guided local
+search (J. Egeblad, B. K. Nielsen and A. Odgaard, *Fast neighborhood search for two- and three-dimensional
+nesting problems*, European Journal of Operational Research 183, 2007; S. Umetani et al., *Solving the
 irregular strip packing problem via guided local search for overlap minimization*, International
 Transactions in Operational Research 16, 2009). All places are looked at on a raster of 72 to 288
 cells a chart, some on a raster four times as fine, and only what does not overlap on that of texels
