@@ -15,6 +15,7 @@
 #include <CGAL/Surface_mesh_parameterization/Live_low_stretch_map.h>
 #include <CGAL/Surface_mesh_parameterization/Low_stretch_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/Map_certificate.h>
+#include <CGAL/Surface_mesh_parameterization/Polygonal_border_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/Signal_metric.h>
 #include <CGAL/Surface_mesh_parameterization/Spectral_conformal_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/border_first_map.h>
@@ -432,6 +433,21 @@ TYPED_TEST(Bad_input, gives_an_error_and_a_sentence)
 TYPED_TEST(Bad_input, is_not_seen_in_a_good_one)
 {
   EXPECT_EQ(TypeParam::what_is_wrong(good_input()), "");
+}
+
+// What has an error code alone, as CGAL's concept of it has none for sentences.
+TEST(Polygonal_border, needs_a_border_with_a_length)
+{
+  const SMP::Polygonal_border_parameterizer_3<Surface_mesh> square({{0, 0}, {1, 0}, {1, 1}, {0, 1}});
+  const auto error_of = [&square](const Input& input) {
+    Surface_mesh mesh = to_surface_mesh(input.mesh);
+    const auto is_set = mesh.add_property_map<Surface_mesh::Vertex_index, bool>("v:set", false).first;
+    return square.parameterize(mesh, chosen_halfedge(mesh, input.border), new_uv_map(mesh), 0, is_set);
+  };
+  EXPECT_EQ(error_of(good_input()), SMP::OK);
+  for(const Input& input : bad_inputs())
+    if(has_halfedges(input.mesh) && input.texture == Texture::GOOD && input.name != "genus 1")
+      EXPECT_NE(error_of(input), SMP::OK) << input.name;
 }
 
 } // namespace bad_input_test

@@ -295,6 +295,9 @@ struct Occlusion_door : Door<Needs::ARRAYS>
     result.fail(Mesh_status::BAD_MESH, CGAL::Indexed_mesh::mesh_error(mesh));
     EXPECT_EQ(SMT::ambient_occlusion<Caster>(mesh, 8).empty(), !result.is_ok());
     EXPECT_EQ(SMT::normal_signal(mesh).error, result.error);
+    EXPECT_EQ(SMT::vertex_normals(mesh.points, mesh.triangles).empty(),
+              mesh.points.empty()
+                || !CGAL::Indexed_mesh::index_error(mesh.triangles, mesh.points.size()).empty());
     return result;
   }
 };
