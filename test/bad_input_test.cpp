@@ -372,6 +372,8 @@ struct Distortion_door : Textured_door<Needs::ARRAYS>
   static Mesh_outcome outcome_of(const Textured_triangle_mesh& mesh)
   {
     SMP::measure_face_distortion(mesh); // no signal
+    SMM::with_wedges(mesh);
+    SMM::vertices_of_wedges(mesh);
     return SMP::measure_distortion(mesh);
   }
 };
@@ -402,6 +404,25 @@ struct Repair_door : Door<Needs::TRIANGLES>
   }
 };
 
+struct Mesh_measures_door : Door<Needs::ARRAYS, Takes::HALFEDGES>
+{
+  static Mesh_outcome outcome_of(const Indexed_triangle_mesh& arrays)
+  {
+    Surface_mesh mesh = to_surface_mesh(arrays);
+    const Uv_map uv = new_uv_map(mesh);
+    for(const auto v : vertices(mesh))
+      uv[v] = Point_2(mesh.point(v).x(), mesh.point(v).y());
+    const auto distortion
+      = mesh.add_property_map<Surface_mesh::Face_index, SMP::Face_distortion>("f:d").first;
+    EXPECT_TRUE(SMP::measure_face_distortion(mesh, uv, distortion));
+    SMP::certify_map(mesh, uv); // no signal
+    const SMP::Flip_repair_report repaired = SMP::repair_flipped_faces(mesh, uv);
+    const Mesh_outcome result = SMP::measure_distortion(mesh, uv);
+    EXPECT_EQ(repaired.error, result.error);
+    return result;
+  }
+};
+
 template <class Door>
 class Bad_input
   : public testing::Test
@@ -420,7 +441,7 @@ typedef testing::Types<Parameterizer_door<SMP::Conformal_method::HLSCM>,
                        Of_mesh_of_chart, Of_mesh<Deviation_door<Which::FINE>>,
                        Of_mesh<Deviation_door<Which::LIGHT>>, Of_mesh<Hierarchy_door>,
                        Of_mesh<Signal_metric_door>, Of_mesh<Distortion_door>,
-                       Of_mesh<Certificate_door>, Of_mesh<Repair_door>>
+                       Of_mesh<Mesh_measures_door>, Of_mesh<Certificate_door>, Of_mesh<Repair_door>>
   Doors;
 TYPED_TEST_SUITE(Bad_input, Doors);
 

@@ -127,6 +127,13 @@ inline std::string repeated_vertex_error(const std::vector<Triangle_indices>& tr
 }
 
 /// \ingroup PkgHLSCMIndexedMesh
+/// Says that a mesh has no triangles.
+inline std::string no_triangles_error(const std::string& name = {})
+{
+  return (name.empty() ? "the mesh" : name) + " has no triangles";
+}
+
+/// \ingroup PkgHLSCMIndexedMesh
 /// Says what is wrong with the arrays of a mesh, which may be `Indexed_triangle_mesh` or one with
 /// texture coordinates: no triangles, an index out of range, a coordinate that is not finite. Linear
 /// time.
@@ -134,7 +141,7 @@ template <class Mesh>
 std::string mesh_error(const Mesh& mesh, const std::string& name = {})
 {
   if(mesh.triangles.empty())
-    return (name.empty() ? "the mesh" : name) + " has no triangles";
+    return no_triangles_error(name);
   const std::string error = index_error(mesh.triangles, mesh.points.size(), name);
   return error.empty() ? point_error(mesh.points, name) : error;
 }
