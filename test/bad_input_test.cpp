@@ -466,10 +466,10 @@ TEST(Polygonal_border, needs_a_border_with_a_length)
     return square.parameterize(mesh, chosen_halfedge(mesh, input.border), new_uv_map(mesh), 0, is_set);
   };
   EXPECT_EQ(error_of(good_input()), SMP::OK);
-  for(const Input& input : bad_inputs()) {
-    if(has_halfedges(input.mesh) && input.texture == Texture::GOOD && input.name != "genus 1")
+  for(const Input& input : bad_inputs())
+    if(has_halfedges(input.mesh) && input.texture == Texture::GOOD && input.name != "genus 1") {
       EXPECT_NE(error_of(input), SMP::OK) << input.name;
-  }
+    }
 }
 
 } // namespace bad_input_test
