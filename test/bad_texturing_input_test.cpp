@@ -17,7 +17,6 @@
 #include <CGAL/Surface_mesh_texturing/bake_colors.h>
 #include <CGAL/Surface_mesh_texturing/bake_displacement.h>
 #include <CGAL/Surface_mesh_texturing/build_texture_atlas.h>
-#include <CGAL/Surface_mesh_texturing/rendering_error.h>
 #include <CGAL/boost/graph/generators.h>
 
 #include <gtest/gtest.h>
@@ -161,78 +160,16 @@ TEST(Bad_texturing_input, meshes_without_charts_give_a_sentence)
     expect_good(door(grid(4, 4)), door_name);
 }
 
-typedef std::function<Mesh_outcome(const Textured_triangle_mesh&, const Textured_triangle_mesh&)>
-  Two_meshes;
-
-// What takes a fine mesh and a light model that share an atlas.
-std::vector<std::pair<std::string, Two_meshes>> baking_doors()
+TEST(Bad_texturing_input, rays_need_a_length)
 {
-  return {{"bake_normal_map",
-           [](const auto& fine, const auto& light) {
-             return SMT::bake_normal_map(fine, light, small_image());
-           }},
-          {"bake_displacement",
-           [](const auto& fine, const auto& light) {
-             return SMT::bake_displacement(fine, light, small_image()).map;
-           }},
-          {"bake_vertex_colors",
-           [](const auto& fine, const auto& light) {
-             const std::vector<float> values(fine.points.size(), 1.f);
-             return SMT::bake_vertex_colors(fine, values, 1, light, small_image());
-           }},
-          {"bake_image", [](const auto& fine, const auto& light) {
-             const SMT::Texture_image image = {1, 1, 1, {1.f}};
-             return SMT::bake_image(fine, fine, image, light, small_image());
-           }}};
-}
-
-TEST(Bad_texturing_input, bad_meshes_are_not_baked)
-{
-  const Textured_triangle_mesh good = textured(grid(4, 4));
-  for(const auto& [door_name, door] : baking_doors()) {
-    expect_good(door(good, good), door_name);
-    for(const auto& [mesh_name, mesh] : bad_textured_meshes()) {
-      expect_bad_mesh(door(mesh, good), door_name + ", fine mesh: " + mesh_name);
-      expect_bad_mesh(door(good, mesh), door_name + ", light model: " + mesh_name);
-    }
-  }
-}
-
-TEST(Bad_texturing_input, bad_meshes_are_not_baked_by_rays)
-{
-  typedef SMT::AABB_tree_ray_caster Caster;
   const Textured_triangle_mesh light = textured(grid(4, 4));
-  for(const auto& [name, mesh] : bad_meshes())
-    expect_bad_mesh(SMT::bake_normal_map_by_rays<Caster>(mesh, light, small_image()), name);
-  for(const auto& [name, mesh] : bad_textured_meshes())
-    expect_bad_mesh(SMT::bake_normal_map_by_rays<Caster>(grid(4, 4), mesh, small_image()), name);
   for(const double distance : {0., -1., nan, infinity}) {
     SMT::Baking_by_rays_options options = small_image();
     options.max_distance = distance;
-    expect_bad_options(SMT::bake_normal_map_by_rays<Caster>(grid(4, 4), light, options),
-                       std::to_string(distance));
+    expect_bad_options(
+      SMT::bake_normal_map_by_rays<SMT::AABB_tree_ray_caster>(grid(4, 4), light, options),
+      std::to_string(distance));
   }
-}
-
-TEST(Bad_texturing_input, bad_meshes_have_no_levels_no_frames_and_no_rendering_error)
-{
-  const Textured_triangle_mesh good = textured(grid(4, 4));
-  const SMT::Tangent_frames frames = SMT::tangent_frames(good, SMT::vertex_normals(good));
-  const SMT::Texture_image map = {1, 1, 3, {0.f, 0.f, 1.f}};
-  const auto error = [&](const auto& original, const auto& light) {
-    return SMT::rendering_error(original, light, frames, map, SMT::Normal_space::TANGENT, 8);
-  };
-  expect_good(error(good, good), "rendering_error");
-  for(const auto& [name, mesh] : bad_textured_meshes()) {
-    expect_bad_mesh(SMM::build_textured_progressive_mesh(mesh), name);
-    expect_bad_mesh(error(good, mesh), name);
-    SMT::tangent_frames(mesh, SMT::vertex_normals(mesh)); // no signal
-  }
-  for(const auto& [name, mesh] : bad_meshes())
-    expect_bad_mesh(error(textured(mesh), good), name);
-  Indexed_triangle_mesh beyond = grid(4, 4);
-  beyond.triangles[5][1] = Vertex_index(beyond.points.size());
-  EXPECT_TRUE(SMT::vertex_normals(beyond.points, beyond.triangles).empty());
 }
 
 TEST(Bad_texturing_input, texture_deviation_needs_a_texture)

@@ -76,15 +76,28 @@ struct Mesh_outcome
 inline std::string of_mesh(const std::string& name) { return name.empty() ? name : " of " + name; }
 
 /// \ingroup PkgHLSCMIndexedMesh
+/// Says that something has a number, a coordinate unless another `entry` is named, that is not finite.
+inline std::string not_finite_error(const std::string& what,
+                                    const std::string& entry = "a coordinate")
+{
+  return what + " has " + entry + " that is not a finite number";
+}
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// Returns whether all coordinates of a point are finite numbers.
+inline bool is_finite(const Indexed_triangle_mesh::Point_3& p)
+{
+  return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z());
+}
+
+/// \ingroup PkgHLSCMIndexedMesh
 /// Says which vertex has a coordinate that is not a finite number.
 inline std::string point_error(const std::vector<Indexed_triangle_mesh::Point_3>& points,
                                const std::string& name = {})
 {
   for(std::size_t v = 0; v < points.size(); ++v)
-    for(int c = 0; c < 3; ++c)
-      if(!std::isfinite(points[v][c]))
-        return "vertex " + std::to_string(v) + of_mesh(name)
-             + " has a coordinate that is not a finite number";
+    if(!is_finite(points[v]))
+      return not_finite_error("vertex " + std::to_string(v) + of_mesh(name));
   return {};
 }
 
@@ -114,6 +127,13 @@ inline std::string repeated_vertex_error(const std::vector<Triangle_indices>& tr
 }
 
 /// \ingroup PkgHLSCMIndexedMesh
+/// Says that a mesh has no triangles.
+inline std::string no_triangles_error(const std::string& name = {})
+{
+  return (name.empty() ? "the mesh" : name) + " has no triangles";
+}
+
+/// \ingroup PkgHLSCMIndexedMesh
 /// Says what is wrong with the arrays of a mesh, which may be `Indexed_triangle_mesh` or one with
 /// texture coordinates: no triangles, an index out of range, a coordinate that is not finite. Linear
 /// time.
@@ -121,7 +141,7 @@ template <class Mesh>
 std::string mesh_error(const Mesh& mesh, const std::string& name = {})
 {
   if(mesh.triangles.empty())
-    return (name.empty() ? "the mesh" : name) + " has no triangles";
+    return no_triangles_error(name);
   const std::string error = index_error(mesh.triangles, mesh.points.size(), name);
   return error.empty() ? point_error(mesh.points, name) : error;
 }

@@ -235,7 +235,7 @@ std::string Surface_multigrid_solver<Value, Tag>::values_error(const std::string
 {
   for(std::size_t v = 0; v < std::size_t(values.size()); ++v)
     if(!std::isfinite(double(Vector_traits::squared_norm(Vector_value(values[v])))))
-      return name + " has an entry at vertex " + std::to_string(v) + " that is not a finite number";
+      return Indexed_mesh::not_finite_error(name, "an entry at vertex " + std::to_string(v));
   return size_error(name, values.size());
 }
 

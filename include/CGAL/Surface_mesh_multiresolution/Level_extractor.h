@@ -52,7 +52,7 @@ inline std::size_t position_with(const Textured_progressive_mesh& mesh,
 
 /// \ingroup PkgHLSCMLevelsOfDetail
 /// Returns the number of triangles after `k` collapses. Linear time; `Level_extractor` knows it for
-/// all `k`.
+/// all `k`. Precondition: there are so many collapses.
 inline std::size_t number_of_triangles_after(const Textured_progressive_mesh& mesh, std::size_t k)
 {
   CGAL_precondition(k <= mesh.number_of_collapses());
@@ -61,7 +61,7 @@ inline std::size_t number_of_triangles_after(const Textured_progressive_mesh& me
 
 /// \ingroup PkgHLSCMLevelsOfDetail
 /// Returns the mesh after `k` collapses, vertices and wedges numbered as in `mesh`. Linear time.
-/// Precondition: `mesh.is_whole(k)`.
+/// Precondition: there are so many collapses, and `mesh.is_whole(k)`.
 inline Wedge_mesh textured_level(const Textured_progressive_mesh& mesh, std::size_t k)
 {
   CGAL_precondition(k <= mesh.number_of_collapses() && mesh.is_whole(k));
@@ -82,7 +82,8 @@ time proportional to their number.
 
 A level after \f$ k \f$ collapses has the first wedges, vertices and triangles of the fine mesh; a
 corner that is not among these wedges has collapsed into one of them. Corners are stored at every
-other halving of the mesh, so that few steps lead there.
+other halving of the mesh, so that few steps lead there. No `k` may be greater than the number of
+collapses.
 
 Memory: up to 24 bytes a triangle and 8 a wedge. Construction in linear time.
 */

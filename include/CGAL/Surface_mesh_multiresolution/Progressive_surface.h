@@ -15,6 +15,7 @@
 
 #include <array>
 #include <numeric>
+#include <string>
 #include <vector>
 
 namespace CGAL {
@@ -41,6 +42,7 @@ struct Progressive_surface
 /// \ingroup PkgHLSCMMultiresolution
 /// Returns the mesh after `k` collapses; sets `source_vertex` to the number that each of its
 /// vertices has in the fine mesh, ascending. Linear time in the size of the fine mesh.
+/// \pre `k` is at most the number of collapses
 inline Indexed_triangle_mesh level_after(const Progressive_surface& surface, std::size_t k,
                                          std::vector<Vertex_index>& source_vertex)
 {
@@ -61,7 +63,7 @@ inline Indexed_triangle_mesh level_after(const Progressive_surface& surface, std
 }
 
 /// \ingroup PkgHLSCMMultiresolution
-/// Returns the mesh after `k` collapses. Linear time in the size of the fine mesh.
+/// Returns the mesh after `k` collapses; see the other overload.
 inline Indexed_triangle_mesh level_after(const Progressive_surface& surface, std::size_t k)
 {
   std::vector<Vertex_index> source_vertex;
@@ -76,16 +78,19 @@ Appends the mesh after `k` collapses to a mesh, vertices and faces in the order 
 \tparam TriangleMesh a model of `MutableFaceGraph`
 \tparam NamedParameters a sequence of named parameters
 \param surface the progressive mesh
-\param k a number of collapses, at most all
+\param k a number of collapses
 \param result where the level goes
 \param np `vertex_point_map`: where the points go, `get(vertex_point, result)` by default;
        `geom_traits`: what makes them, see `Indexed_mesh::converted_point()`
 
+\return what is wrong, and nothing is appended: the mesh was bad, or there are fewer collapses
+
 Linear time in the size of the fine mesh.
 */
 template <class TriangleMesh, class NamedParameters = parameters::Default_named_parameters>
-void copy_level(const Progressive_surface& surface, std::size_t k, TriangleMesh& result,
-                const NamedParameters& np = parameters::default_values())
+Indexed_mesh::Mesh_outcome copy_level(const Progressive_surface& surface, std::size_t k,
+                                      TriangleMesh& result,
+                                      const NamedParameters& np = parameters::default_values())
 {
   using parameters::choose_parameter;
   using parameters::get_parameter;
@@ -94,6 +99,14 @@ void copy_level(const Progressive_surface& surface, std::size_t k, TriangleMesh&
   typedef typename boost::property_traits<Vertex_point_map>::value_type Point_3;
   Vertex_point_map vpm = choose_parameter(get_parameter(np, internal_np::vertex_point),
                                           get_property_map(vertex_point, result));
+  Mesh_outcome outcome;
+  if(surface.status != Mesh_status::CANCELLED)
+    outcome.fail(surface);
+  if(k > surface.progressive_mesh.collapses.size())
+    outcome.fail(Mesh_status::BAD_OPTIONS,
+                 "there is no level after " + std::to_string(k) + " collapses");
+  if(!outcome.is_ok())
+    return outcome;
   const Indexed_triangle_mesh level = level_after(surface, k);
   std::vector<vertex_descriptor> copies;
   copies.reserve(level.points.size());
@@ -104,6 +117,7 @@ void copy_level(const Progressive_surface& surface, std::size_t k, TriangleMesh&
   for(const Triangle_indices& t : level.triangles)
     Euler::add_face(std::array<vertex_descriptor, 3>{copies[t[0]], copies[t[1]], copies[t[2]]},
                     result);
+  return outcome;
 }
 
 /*!

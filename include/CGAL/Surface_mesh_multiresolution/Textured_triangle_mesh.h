@@ -195,6 +195,14 @@ private:
   std::vector<Corner> m_corners;
 };
 
+// Whether the invariants hold.
+inline bool has_its_own_indices(const Textured_triangle_mesh& mesh)
+{
+  return mesh.wedges.size() == mesh.triangles.size()
+      && index_error(mesh.triangles, mesh.points.size()).empty()
+      && index_error(mesh.wedges, mesh.uv.size()).empty();
+}
+
 // The texture coordinate of a halfedge by a function or a property map.
 template <class CornerUv, class Halfedge>
 auto uv_at(const CornerUv& corner_uv, const Halfedge h)
@@ -256,12 +264,14 @@ textured_triangle_mesh(const TriangleMesh& mesh, const CornerUv& corner_uv,
 
 Returns `mesh` with one texture coordinate for each wedge, that is for the corners of a vertex
 between one seam and the next, in the order of the vertices. An edge is no seam if the texture
-coordinates of its ends are equal on both sides, whatever their indices. Linear time for bounded
-degrees.
+coordinates of its ends are equal on both sides, whatever their indices. Returns an empty mesh if an
+index is out of range. Linear time for bounded degrees.
 */
 inline Textured_triangle_mesh with_wedges(const Textured_triangle_mesh& mesh)
 {
   Textured_triangle_mesh result;
+  if(!internal::has_its_own_indices(mesh))
+    return result;
   result.points = mesh.points;
   result.triangles = mesh.triangles;
   result.wedges.assign(mesh.triangles.size(), {no_vertex, no_vertex, no_vertex});
@@ -281,10 +291,12 @@ inline Textured_triangle_mesh with_wedges(const Textured_triangle_mesh& mesh)
 
 Returns for each entry of `mesh.uv` its vertex. One that no triangle has is taken for that of the
 vertex with its number, so that isolated vertices of a mesh with one for each vertex are kept; or of
-vertex 0, if there are fewer. Linear time.
+vertex 0, if there are fewer. Returns nothing if an index is out of range. Linear time.
 */
 inline std::vector<Vertex_index> vertices_of_wedges(const Textured_triangle_mesh& mesh)
 {
+  if(!internal::has_its_own_indices(mesh))
+    return {};
   std::vector<Vertex_index> vertex(mesh.uv.size(), 0);
   for(std::size_t w = 0; w < (std::min)(mesh.uv.size(), mesh.points.size()); ++w)
     vertex[w] = Vertex_index(w);

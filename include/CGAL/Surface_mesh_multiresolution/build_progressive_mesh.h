@@ -42,10 +42,11 @@ Progressive_surface copy_surface_of(const TriangleMesh& mesh, const NamedParamet
 inline Progressive_surface copy_surface(const Indexed_triangle_mesh& mesh)
 {
   Progressive_surface result;
+  if(result.fail(Mesh_status::BAD_MESH, mesh_error(mesh)))
+    return result;
   result.points = mesh.points;
   result.progressive_mesh.number_of_vertices = mesh.points.size();
   result.progressive_mesh.triangles = mesh.triangles;
-  result.fail(Mesh_status::BAD_MESH, mesh_error(mesh));
   return result;
 }
 

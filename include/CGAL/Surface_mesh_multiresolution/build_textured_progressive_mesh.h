@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_BUILD_TEXTURED_PROGRESSIVE_MESH_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_BUILD_TEXTURED_PROGRESSIVE_MESH_H
 
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Indexed_mesh/prepare_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
@@ -57,6 +58,16 @@ struct Wedge_collapses
   std::vector<std::size_t> batch_ends;
 };
 
+// What the public functions do.
+CGAL_HLSCM_INLINE Textured_progressive_mesh_result
+levels_of_mesh(const Textured_triangle_mesh& mesh,
+               const Textured_progressive_mesh_options& options);
+CGAL_HLSCM_INLINE Textured_progressive_mesh_result
+levels_of_collapses(const Progressive_mesh& pm,
+                    std::vector<Textured_triangle_mesh::Point_3> points,
+                    std::vector<Textured_triangle_mesh::Point_2> uv,
+                    const Textured_progressive_mesh_options& options);
+
 #ifdef CGAL_HLSCM_DEFINITIONS
 
 // Decimates a mesh that has its wedges from `with_wedges()`.
@@ -97,12 +108,16 @@ inline Mesh_outcome chart_error(const Progressive_mesh& pm,
                                 const std::vector<Textured_triangle_mesh::Point_2>& uv)
 {
   const std::size_t n = pm.number_of_vertices;
+  struct Arrays
+  {
+    const std::vector<Triangle_indices>& triangles;
+    const std::vector<Textured_triangle_mesh::Point_3>& points;
+  };
   Mesh_outcome result;
   if(points.size() != n || uv.size() != n)
     result.fail(Mesh_status::BAD_MESH,
                 "there is not a point and a texture coordinate for each vertex");
-  if(!result.fail(Mesh_status::BAD_MESH, index_error(pm.triangles, n))
-     && !result.fail(Mesh_status::BAD_MESH, point_error(points)))
+  if(!result.fail(Mesh_status::BAD_MESH, mesh_error(Arrays{pm.triangles, points})))
     result.fail(Mesh_status::BAD_MESH, uv_error(uv));
   for(const Halfedge_collapse& c : pm.collapses)
     if(c.removed >= n || c.kept >= n)
@@ -110,45 +125,17 @@ inline Mesh_outcome chart_error(const Progressive_mesh& pm,
   return result;
 }
 
-#endif // CGAL_HLSCM_DEFINITIONS
-
-} // namespace internal
-
-/*!
-\ingroup PkgHLSCMLevelsOfDetail
-
-Returns a progressive mesh of `mesh` all levels of which share its texture coordinates.
-
-Vertices on seams and borders leave only along them, on both sides of a seam at once, and those
-where seams meet or end stay: every level has the topology of the input, and each chart stays what
-it is, a disk if it was one. No triangle turns over in the texture, and no border of a chart comes
-to cross a border (`keep_chart_borders_simple`). What the collapses cost is the default of
-`build_progressive_mesh()`, at seams together with the square root of the area that the texture of a
-chart loses or gains.
-
-`mesh` may have any size and place, several components and borders. Bad data (vertices without a
-face or with several fans of faces, coordinates that are not finite, `is_locked` of another mesh) give
-a result with an error.
-
-Expected linear time; see `Flat_collapse_engine`.
-*/
 CGAL_HLSCM_INLINE Textured_progressive_mesh_result
-build_textured_progressive_mesh(const Textured_triangle_mesh& mesh,
-                                const Textured_progressive_mesh_options& options
-                                = Textured_progressive_mesh_options());
-
-#ifdef CGAL_HLSCM_DEFINITIONS
-CGAL_HLSCM_INLINE Textured_progressive_mesh_result
-build_textured_progressive_mesh(const Textured_triangle_mesh& mesh,
-                                const Textured_progressive_mesh_options& options)
+levels_of_mesh(const Textured_triangle_mesh& mesh,
+               const Textured_progressive_mesh_options& options)
 {
   Textured_progressive_mesh_result result;
-  if(result.fail(Mesh_status::BAD_MESH, texture_error(mesh))
-     || result.fail(Mesh_status::BAD_MESH, point_error(mesh.points))
-     || result.fail(internal::lock_error(options, mesh.points.size())))
+  if(result.fail(Mesh_status::BAD_MESH, mesh_error(mesh))
+     || result.fail(Mesh_status::BAD_MESH, texture_error(mesh))
+     || result.fail(lock_error(options, mesh.points.size())))
     return result;
   const Textured_triangle_mesh wedged = with_wedges(mesh);
-  internal::Wedge_collapses wedges = internal::decimate_textured(wedged, options);
+  Wedge_collapses wedges = decimate_textured(wedged, options);
   if(result.fail(wedges) && result.status != Mesh_status::CANCELLED)
     return result;
   Textured_progressive_mesh fine;
@@ -165,35 +152,12 @@ build_textured_progressive_mesh(const Textured_triangle_mesh& mesh,
   result.mesh = coarse_first(fine);
   return result;
 }
-#endif
 
-/*!
-\ingroup PkgHLSCMLevelsOfDetail
-
-Returns the progressive mesh of one chart from the collapses with which it was parameterized, which
-spares the decimation: `pm` is what `HLSCM_parameterizer_3::progressive_mesh()` returns, `points`
-and `uv` belong to its vertices, of which those that are near in space should be near in memory.
-
-Collapses that turn triangles over in the texture or take its border over one of its corners are
-left out, and those that are no longer possible without them. Then decimation goes on to the
-coarsest level that `options` ask for, of which `order` and `angular_defect_bound` count for this
-part only.
-
-Bad data: as above, and arrays of another length. Linear time.
-*/
 CGAL_HLSCM_INLINE Textured_progressive_mesh_result
-build_textured_progressive_mesh(const Progressive_mesh& pm,
-                                std::vector<Textured_triangle_mesh::Point_3> points,
-                                std::vector<Textured_triangle_mesh::Point_2> uv,
-                                const Textured_progressive_mesh_options& options
-                                = Textured_progressive_mesh_options());
-
-#ifdef CGAL_HLSCM_DEFINITIONS
-CGAL_HLSCM_INLINE Textured_progressive_mesh_result
-build_textured_progressive_mesh(const Progressive_mesh& pm,
-                                std::vector<Textured_triangle_mesh::Point_3> points,
-                                std::vector<Textured_triangle_mesh::Point_2> uv,
-                                const Textured_progressive_mesh_options& options)
+levels_of_collapses(const Progressive_mesh& pm,
+                    std::vector<Textured_triangle_mesh::Point_3> points,
+                    std::vector<Textured_triangle_mesh::Point_2> uv,
+                    const Textured_progressive_mesh_options& options)
 {
   Textured_progressive_mesh_result result;
   Textured_progressive_mesh fine;
@@ -201,9 +165,9 @@ build_textured_progressive_mesh(const Progressive_mesh& pm,
   fine.progressive_mesh.triangles = pm.triangles;
   fine.vertex.resize(points.size());
   std::iota(fine.vertex.begin(), fine.vertex.end(), Vertex_index(0));
-  internal::Replay replay;
-  if(result.fail(internal::chart_error(pm, points, uv))
-     || result.fail(internal::lock_error(options, points.size()))
+  Replay replay;
+  if(result.fail(chart_error(pm, points, uv))
+     || result.fail(lock_error(options, points.size()))
      || result.fail(Mesh_status::BAD_MESH,
                     replay.run(pm, points, uv, options.target_vertices, options.is_locked,
                                options.keep_chart_borders_simple)))
@@ -224,9 +188,9 @@ build_textured_progressive_mesh(const Progressive_mesh& pm,
     }
     rest.is_locked.resize(options.is_locked.empty() ? 0 : coarse.points.size());
     coarse.triangles = coarse.wedges = replay.triangles;
-    const internal::Wedge_collapses more = internal::decimate_textured(coarse, rest);
-    if(more.status == Mesh_status::CANCELLED)
-      result.cancel();
+    const Wedge_collapses more = decimate_textured(coarse, rest);
+    if(result.fail(more) && result.status != Mesh_status::CANCELLED)
+      return result;
     const std::size_t first = fine.progressive_mesh.collapses.size();
     for(const Halfedge_collapse& c : more.collapses)
       fine.progressive_mesh.collapses.push_back(
@@ -239,7 +203,66 @@ build_textured_progressive_mesh(const Progressive_mesh& pm,
   result.mesh = coarse_first(fine);
   return result;
 }
-#endif
+
+#endif // CGAL_HLSCM_DEFINITIONS
+
+} // namespace internal
+
+/*!
+\ingroup PkgHLSCMLevelsOfDetail
+
+Returns a progressive mesh of `mesh` all levels of which share its texture coordinates.
+
+Vertices on seams and borders leave only along them, on both sides of a seam at once, and those
+where seams meet or end stay: every level has the topology of the input, and each chart stays what
+it is, a disk if it was one. No triangle turns over in the texture, and no border of a chart comes
+to cross a border (`keep_chart_borders_simple`). What the collapses cost is the default of
+`build_progressive_mesh()`, at seams together with the square root of the area that the texture of a
+chart loses or gains.
+
+`mesh` may have any size and place, several components and borders. Bad data (no triangles, indices
+out of range, vertices without a face or with several fans of faces, coordinates that are not finite,
+`is_locked` of another mesh) give a result with an error.
+
+Expected linear time; see `Flat_collapse_engine`.
+
+\tparam ConcurrencyTag as for `build_progressive_mesh()`
+*/
+template <class ConcurrencyTag = Default>
+Textured_progressive_mesh_result
+build_textured_progressive_mesh(const Textured_triangle_mesh& mesh,
+                                const Textured_progressive_mesh_options& options
+                                = Textured_progressive_mesh_options())
+{
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
+  return internal::levels_of_mesh(mesh, options);
+}
+
+/*!
+\ingroup PkgHLSCMLevelsOfDetail
+
+Returns the progressive mesh of one chart from the collapses with which it was parameterized, which
+spares the decimation: `pm` is what `HLSCM_parameterizer_3::progressive_mesh()` returns, `points`
+and `uv` belong to its vertices, of which those that are near in space should be near in memory.
+
+Collapses that turn triangles over in the texture or take its border over one of its corners are
+left out, and those that are no longer possible without them. Then decimation goes on to the
+coarsest level that `options` ask for, of which `order` and `angular_defect_bound` count for this
+part only.
+
+Bad data: as above, and arrays of another length. Linear time.
+*/
+template <class ConcurrencyTag = Default>
+Textured_progressive_mesh_result
+build_textured_progressive_mesh(const Progressive_mesh& pm,
+                                std::vector<Textured_triangle_mesh::Point_3> points,
+                                std::vector<Textured_triangle_mesh::Point_2> uv,
+                                const Textured_progressive_mesh_options& options
+                                = Textured_progressive_mesh_options())
+{
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
+  return internal::levels_of_collapses(pm, std::move(points), std::move(uv), options);
+}
 
 } // namespace Surface_mesh_multiresolution
 } // namespace CGAL

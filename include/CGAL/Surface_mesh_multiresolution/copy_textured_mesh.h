@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_COPY_TEXTURED_MESH_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_COPY_TEXTURED_MESH_H
 
+#include <CGAL/Indexed_mesh/prepare_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/Textured_progressive_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/build_textured_progressive_mesh.h>
@@ -13,6 +14,7 @@
 #include <CGAL/boost/graph/named_params_helper.h>
 
 #include <array>
+#include <numeric>
 #include <vector>
 
 namespace CGAL {
@@ -20,11 +22,29 @@ namespace Surface_mesh_multiresolution {
 
 namespace internal {
 
+// What keeps triangles of wedges from being a surface.
+inline Mesh_outcome level_error(const Textured_progressive_mesh& mesh,
+                                const std::vector<Triangle_indices>& triangles)
+{
+  Mesh_outcome result;
+  if(result.fail(Mesh_status::BAD_OPTIONS, index_error(triangles, mesh.number_of_wedges())))
+    return result;
+  Indexed_triangle_mesh level = {mesh.points, {}};
+  std::vector<Vertex_index> source(mesh.points.size());
+  std::iota(source.begin(), source.end(), Vertex_index(0));
+  for(const Triangle_indices& t : triangles)
+    level.triangles.push_back(replaced(t, mesh.vertex));
+  drop_unused_vertices(level, source);
+  if(!result.fail(Mesh_status::BAD_OPTIONS, repeated_vertex_error(level.triangles)))
+    result.fail(Mesh_status::BAD_OPTIONS, ring_error(Vertex_rings(level), source));
+  return result;
+}
+
 // Appends triangles to a mesh; `use(h, w)` is called for each halfedge with its wedge.
 template <class TriangleMesh, class NamedParameters, class Use>
-void append_level(const Textured_progressive_mesh& mesh,
-                  const std::vector<Triangle_indices>& triangles, TriangleMesh& result,
-                  const NamedParameters& np, const Use& use)
+Mesh_outcome append_level(const Textured_progressive_mesh& mesh,
+                          const std::vector<Triangle_indices>& triangles, TriangleMesh& result,
+                          const NamedParameters& np, const Use& use)
 {
   using parameters::choose_parameter;
   using parameters::get_parameter;
@@ -32,6 +52,9 @@ void append_level(const Textured_progressive_mesh& mesh,
   typedef typename Graph_traits::vertex_descriptor vertex_descriptor;
   typedef typename GetVertexPointMap<TriangleMesh, NamedParameters>::type Vertex_point_map;
   typedef typename boost::property_traits<Vertex_point_map>::value_type Point_3;
+  const Mesh_outcome outcome = level_error(mesh, triangles);
+  if(!outcome.is_ok())
+    return outcome;
   Vertex_point_map vpm = choose_parameter(get_parameter(np, internal_np::vertex_point),
                                           get_property_map(vertex_point, result));
   std::vector<vertex_descriptor> copies(mesh.points.size(), Graph_traits::null_vertex());
@@ -54,6 +77,7 @@ void append_level(const Textured_progressive_mesh& mesh,
       h = next(h, result);
     }
   }
+  return outcome;
 }
 
 } // namespace internal
@@ -64,13 +88,14 @@ void append_level(const Textured_progressive_mesh& mesh,
 Returns a progressive mesh of `mesh` all levels of which share its texture coordinates; see
 `build_textured_progressive_mesh()` of a `Textured_triangle_mesh`.
 
+\tparam ConcurrencyTag as for `build_progressive_mesh()`
 \tparam TriangleMesh a model of `FaceListGraph`
 \param mesh a triangle mesh; faces that are no triangles are an error, too
 \param corner_uv as for `textured_triangle_mesh()`
 \param options where to stop, and what must stay
 \param np `vertex_point_map` and `geom_traits`; see `Indexed_mesh::copy_points()`
 */
-template <class TriangleMesh, class CornerUv,
+template <class ConcurrencyTag = Default, class TriangleMesh, class CornerUv,
           class NamedParameters = parameters::Default_named_parameters>
 Textured_progressive_mesh_result
 build_textured_progressive_mesh(const TriangleMesh& mesh, const CornerUv& corner_uv,
@@ -78,11 +103,10 @@ build_textured_progressive_mesh(const TriangleMesh& mesh, const CornerUv& corner
                                 const NamedParameters& np = parameters::default_values())
 {
   Textured_progressive_mesh_result result;
-  if(!is_triangle_mesh(mesh)) {
-    result.fail(Mesh_status::BAD_MESH, "not all faces are triangles; triangulate the mesh first");
+  if(result.fail(Mesh_status::BAD_MESH, Indexed_mesh::polygon_error(mesh)))
     return result;
-  }
-  return build_textured_progressive_mesh(textured_triangle_mesh(mesh, corner_uv, np), options);
+  return build_textured_progressive_mesh<ConcurrencyTag>(
+    textured_triangle_mesh(mesh, corner_uv, np), options);
 }
 
 /*!
@@ -102,17 +126,20 @@ Appends a level to a mesh.
 \param np `vertex_point_map`: where the points go, `get(vertex_point, result)` by default;
        `geom_traits`: what makes them, see `Indexed_mesh::converted_point()`
 
+\return what is wrong, and nothing is appended: a triangle has a wedge that does not exist, or the
+        triangles are no manifold, as those of a level that is not whole
+
 Linear time in the number of triangles and of vertices of the fine mesh.
 */
 template <class TriangleMesh, class HalfedgeUVMap,
           class NamedParameters = parameters::Default_named_parameters>
-void copy_level(const Textured_progressive_mesh& mesh,
-                const std::vector<Triangle_indices>& triangles, TriangleMesh& result,
-                HalfedgeUVMap corner_uvmap,
-                const NamedParameters& np = parameters::default_values())
+Indexed_mesh::Mesh_outcome
+copy_level(const Textured_progressive_mesh& mesh, const std::vector<Triangle_indices>& triangles,
+           TriangleMesh& result, HalfedgeUVMap corner_uvmap,
+           const NamedParameters& np = parameters::default_values())
 {
   typedef typename boost::property_traits<HalfedgeUVMap>::value_type Point_2;
-  internal::append_level(mesh, triangles, result, np, [&](const auto h, Vertex_index w) {
+  return internal::append_level(mesh, triangles, result, np, [&](const auto h, Vertex_index w) {
     if(mesh.has_texture())
       put(corner_uvmap, h, Point_2(mesh.uv[w].x(), mesh.uv[w].y()));
   });
@@ -121,11 +148,12 @@ void copy_level(const Textured_progressive_mesh& mesh,
 /// \ingroup PkgHLSCMLevelsOfDetail
 /// Appends a level to a mesh that gets no texture coordinates, at `get(vertex_point, result)`.
 template <class TriangleMesh>
-void copy_level(const Textured_progressive_mesh& mesh,
-                const std::vector<Triangle_indices>& triangles, TriangleMesh& result)
+Indexed_mesh::Mesh_outcome
+copy_level(const Textured_progressive_mesh& mesh, const std::vector<Triangle_indices>& triangles,
+           TriangleMesh& result)
 {
-  internal::append_level(mesh, triangles, result, parameters::default_values(),
-                         [](const auto, Vertex_index) {});
+  return internal::append_level(mesh, triangles, result, parameters::default_values(),
+                                [](const auto, Vertex_index) {});
 }
 
 } // namespace Surface_mesh_multiresolution

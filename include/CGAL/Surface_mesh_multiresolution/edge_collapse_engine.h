@@ -87,7 +87,7 @@ Returns the progressive mesh that CGAL's `edge_collapse()` makes of `mesh` with 
 
 Edges without length are collapsed first, whatever the target.
 
-\param mesh a manifold
+\param mesh a manifold. Precondition: it has no `Indexed_mesh::manifold_error()`
 \param options where to stop, what must stay and what is a feature; `order` and `pass_fraction` do
        not count
 

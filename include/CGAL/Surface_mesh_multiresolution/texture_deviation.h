@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_TEXTURE_DEVIATION_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_TEXTURE_DEVIATION_H
 
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_multiresolution/Level_extractor.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/deviation/Deviation_meter.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/deviation/Uv_walk.h>
@@ -173,14 +174,19 @@ nothing is asked of the map: where it covers the texture twice, the walk is on t
 nearest points are found by two descents on the surface, from the ancestor and from the point of
 equal uv. They end in local minima; the nearer one is no farther than either start.
 
-Expected linear time; loops use the threads of a `Blocked_execution::Thread_scope`, with the same
-result to the bit.
+Expected linear time. The result is the same to the bit for any number of threads.
+
+\tparam ConcurrencyTag `Sequential_tag`, `Parallel_tag` (`threads`, 0: as many as there are
+        processors) or `Default` for the threads of the caller's `Blocked_execution::Thread_scope`; so
+        for the functions that follow
 
 \pre every wedge of the level has a triangle.
 */
-inline Texture_deviation measure_texture_deviation(const Textured_progressive_mesh& mesh,
-                                                   std::size_t k)
+template <class ConcurrencyTag = Default>
+Texture_deviation measure_texture_deviation(const Textured_progressive_mesh& mesh, std::size_t k,
+                                            unsigned int threads = 0)
 {
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> scope(threads);
   Texture_deviation result;
   if(result.fail(internal::deviation_error(mesh, k)))
     return result;
@@ -207,9 +213,11 @@ indices out of range or coordinates that are not finite.
 
 Time \f$ O(n \log n) \f$ as a rule.
 */
-inline Texture_deviation measure_texture_deviation(const Wedge_mesh& fine,
-                                                   const Wedge_mesh& coarse)
+template <class ConcurrencyTag = Default>
+Texture_deviation measure_texture_deviation(const Wedge_mesh& fine, const Wedge_mesh& coarse,
+                                            unsigned int threads = 0)
 {
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> scope(threads);
   Texture_deviation result;
   if(result.fail(internal::deviation_error(fine, "the fine mesh"))
      || result.fail(internal::deviation_error(coarse, "the coarse mesh")))
@@ -230,9 +238,11 @@ inline Texture_deviation measure_texture_deviation(const Wedge_mesh& fine,
 /// \ingroup PkgHLSCMLevelsOfDetail
 /// Returns whether `measure_texture_deviation(mesh, k).deviation.maximum <= bound`; faster, above
 /// all if it is not. False if that has an error.
-inline bool is_within_texture_deviation(const Textured_progressive_mesh& mesh, std::size_t k,
-                                        double bound)
+template <class ConcurrencyTag = Default>
+bool is_within_texture_deviation(const Textured_progressive_mesh& mesh, std::size_t k,
+                                 double bound, unsigned int threads = 0)
 {
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> scope(threads);
   if(!internal::deviation_error(mesh, k).is_ok())
     return false;
   const internal::Textured_view view = internal::fine_view(mesh);
@@ -243,8 +253,11 @@ inline bool is_within_texture_deviation(const Textured_progressive_mesh& mesh, s
 /// \ingroup PkgHLSCMLevelsOfDetail
 /// Returns whether `measure_texture_deviation(mesh, k).distance.maximum <= bound`; faster, above
 /// all if it is not. False if that has an error.
-inline bool is_within_distance(const Textured_progressive_mesh& mesh, std::size_t k, double bound)
+template <class ConcurrencyTag = Default>
+bool is_within_distance(const Textured_progressive_mesh& mesh, std::size_t k, double bound,
+                        unsigned int threads = 0)
 {
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> scope(threads);
   if(!internal::deviation_error(mesh, k).is_ok())
     return false;
   const internal::Textured_view view = internal::fine_view(mesh);
@@ -266,12 +279,15 @@ the only one of a mesh without texture.
        `measure_texture_deviation()`
 \param kind which error
 \param bound its greatest value, a length in space, not negative
+\param threads with a parallel tag; 0: as many as there are processors
 
 Time of about ten calls of the predicate `is_within_texture_deviation()` or `is_within_distance()`.
 */
-inline std::size_t coarsest_level_within(const Textured_progressive_mesh& mesh, Level_error kind,
-                                         double bound)
+template <class ConcurrencyTag = Default>
+std::size_t coarsest_level_within(const Textured_progressive_mesh& mesh, Level_error kind,
+                                  double bound, unsigned int threads = 0)
 {
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> scope(threads);
   CGAL_precondition(bound >= 0.);
   constexpr double precision = 1.01; // of the number of triangles
   const std::vector<std::uint32_t> numbers = internal::triangle_numbers(mesh);

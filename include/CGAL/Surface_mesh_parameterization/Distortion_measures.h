@@ -18,6 +18,7 @@
 #include <complex>
 #include <cstddef>
 #include <numeric>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -169,8 +170,8 @@ Measures the map `uvmap` over all faces of `mesh`.
 \param uvmap the map
 \param np optional named parameters: `vertex_point_map`
 
-Faces that are no triangles are an error. Linear time: two passes over the faces, and 8 bytes a
-face.
+Errors: no faces, faces that are no triangles, points with coordinates that are not finite. Linear
+time: two passes over the faces, and 8 bytes a face.
 */
 template <class TriangleMesh, class VertexUVMap,
           class NamedParameters = parameters::Default_named_parameters>
@@ -183,6 +184,17 @@ Distortion_measures measure_distortion(const TriangleMesh& mesh, VertexUVMap uvm
   const auto vpm
     = parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
                                    get_const_property_map(CGAL::vertex_point, mesh));
+  if(faces(mesh).begin() == faces(mesh).end())
+    error.fail(Indexed_mesh::Mesh_status::BAD_MESH, Indexed_mesh::no_triangles_error());
+  std::size_t position = 0;
+  for(const auto v : vertices(mesh)) {
+    if(!Indexed_mesh::is_finite(Indexed_mesh::double_point(get(vpm, v), np)))
+      error.fail(Indexed_mesh::Mesh_status::BAD_MESH,
+                 Indexed_mesh::not_finite_error("vertex " + std::to_string(position)));
+    ++position;
+  }
+  if(!error.is_ok())
+    return error;
   const Uv_view<TriangleMesh, VertexUVMap> view(mesh, uvmap);
   const double mean_edge = internal::mean_edge_length(mesh, vpm);
   Distortion_summary summary;

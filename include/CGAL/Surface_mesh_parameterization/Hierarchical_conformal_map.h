@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_HIERARCHICAL_CONFORMAL_MAP_H
 
 #include <CGAL/Indexed_mesh/Triangle_adjacency.h>
+#include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_options.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
 #include <CGAL/Surface_mesh_parameterization/Solver_traits_cholesky.h>
@@ -238,9 +239,10 @@ Error_code Hierarchical_conformal_map<TM, ST, CT>::update_positions()
     const auto& p = get(vpm, v);
     auto& q = points[index_of(v)];
     q = {to_double(p[0]), to_double(p[1]), to_double(p[2])};
-    if(!std::isfinite(q.x()) || !std::isfinite(q.y()) || !std::isfinite(q.z()))
-      return m_map->fail("vertex " + std::to_string(m_map->source()[index_of(v)])
-                         + " has a coordinate that is not a finite number; the old positions stay");
+    if(!Indexed_mesh::is_finite(q))
+      return m_map->fail(
+        Indexed_mesh::not_finite_error("vertex " + std::to_string(m_map->source()[index_of(v)]))
+        + "; the old positions stay");
   }
   return m_map->set_points(std::move(points));
 }

@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_MAP_CERTIFICATE_H
 
 #include <CGAL/Indexed_mesh/Triangle_adjacency.h>
+#include <CGAL/Indexed_mesh/mesh_arrays.h>
 #include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Surface_mesh_parameterization/Distortion_measures.h>
 #include <CGAL/Surface_mesh_parameterization/self_overlap.h>
@@ -113,14 +114,16 @@ runs counterclockwise, with the surface on its inner side: again no winding numb
 the cycles, is greater than 1. Where the borders meet, or the mesh has several components, the faces
 are compared in pairs, by `has_global_overlap()`.
 
-Points in space are not looked at. Linear time for the faces, and \f$ O(b \log^2 b) \f$ for
+Points in space are not looked at. Faces that are no triangles are an error. Linear time for the faces, and \f$ O(b \log^2 b) \f$ for
 \f$ b \f$ border edges; more if the images of the borders meet.
 */
 template <class TriangleMesh, class VertexUVMap>
 Map_certificate certify_map(const TriangleMesh& mesh, VertexUVMap uvmap)
 {
-  const Uv_view<TriangleMesh, VertexUVMap> view(mesh, uvmap);
   Map_certificate certificate;
+  if(certificate.fail(Indexed_mesh::Mesh_status::BAD_MESH, Indexed_mesh::polygon_error(mesh)))
+    return certificate;
+  const Uv_view<TriangleMesh, VertexUVMap> view(mesh, uvmap);
   for(const auto f : faces(mesh)) {
     const Orientation sign = orientation_of(view.triangle(f));
     certificate.flipped_faces += sign == RIGHT_TURN ? 1 : 0;

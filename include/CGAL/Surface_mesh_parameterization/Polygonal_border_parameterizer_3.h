@@ -36,7 +36,7 @@ convex combinations, as `Mean_value_coordinates_parameterizer_3`, need a convex 
 
 Linear time, besides \f$ O(k \log k) \f$ to look at the \f$ k \f$ corners of the polygon.
 
-\tparam TriangleMesh a model of `FaceGraph`
+\tparam TriangleMesh a model of `FaceGraph` and `HalfedgeListGraph`
 
 \cgalModels{Parameterizer_3 of CGAL's Triangulated Surface Mesh Parameterization}
 
@@ -80,8 +80,8 @@ public:
          value; set to `true` for these
 
   \return `OK`; `ERROR_WRONG_PARAMETER` if the corners are no simple polygon, with a coordinate that is not
-  finite for instance; `ERROR_BORDER_TOO_SHORT` if `bhd` is on no border, or if that has fewer vertices
-  than the polygon has corners, or no length
+  finite for instance; `ERROR_BORDER_TOO_SHORT` if `bhd` is on no border of `mesh`, or if that has fewer
+  vertices than the polygon has corners, or no length that is a finite number
   */
   template <class VertexUVMap, class VertexIndexMap, class VertexParameterizedMap>
   Error_code parameterize(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvmap,
@@ -149,7 +149,8 @@ parameterize(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvma
 {
   if(!is_polygon())
     return ERROR_WRONG_PARAMETER;
-  if(bhd == boost::graph_traits<TriangleMesh>::null_halfedge() || !is_border(bhd, mesh))
+  const auto all = halfedges(mesh); // what is none of them must not be asked for anything
+  if(std::find(all.begin(), all.end(), bhd) == all.end() || !is_border(bhd, mesh))
     return ERROR_BORDER_TOO_SHORT;
   const auto point = get(boost::vertex_point, mesh);
   std::vector<vertex_descriptor> along;
@@ -160,7 +161,7 @@ parameterize(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvma
                     + std::sqrt(to_double(squared_distance(get(point, source(h, mesh)),
                                                            get(point, target(h, mesh))))));
   }
-  if(along.size() < m_corners.size() || !(up_to.back() > 0.))
+  if(along.size() < m_corners.size() || !(up_to.back() > 0.) || !std::isfinite(up_to.back()))
     return ERROR_BORDER_TOO_SHORT;
   const std::vector<std::size_t> first = vertices_of_corners(up_to);
   for(std::size_t side = 0; side < m_corners.size(); ++side) {

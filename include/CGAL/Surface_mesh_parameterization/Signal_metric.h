@@ -125,8 +125,9 @@ inline Face_tensors vertex_signal(const Indexed_mesh::Indexed_triangle_mesh& mes
                 + " values of the signal instead of " + std::to_string(wanted));
   for(std::size_t i = 0; i < values.size() && result.is_ok(); ++i)
     if(!std::isfinite(values[i]))
-      result.fail(Mesh_status::BAD_OPTIONS, "vertex " + std::to_string(i / channels)
-                  + " has a value of the signal that is not a finite number");
+      result.fail(Mesh_status::BAD_OPTIONS,
+                  Indexed_mesh::not_finite_error("vertex " + std::to_string(i / channels),
+                                                 "a value of the signal"));
   if(!result.is_ok())
     return result;
   result.tensors.resize(mesh.triangles.size());

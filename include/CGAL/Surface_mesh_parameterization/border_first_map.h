@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_BORDER_FIRST_MAP_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_BORDER_FIRST_MAP_H
 
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Indexed_mesh/mesh_error.h>
 
@@ -29,6 +30,38 @@ struct Border_first_map
   std::vector<Simple_cartesian<double>::Point_2> uv;
 };
 
+namespace internal {
+
+// As the public function.
+CGAL_HLSCM_INLINE Border_first_map flatten_border_first(Indexed_mesh::Indexed_triangle_mesh mesh);
+
+#ifdef CGAL_HLSCM_DEFINITIONS
+CGAL_HLSCM_INLINE Border_first_map flatten_border_first(Indexed_mesh::Indexed_triangle_mesh mesh)
+{
+  Border_first_map result;
+  const std::size_t n = mesh.points.size();
+  const Prepared_chart prepared = chart_of_arrays(std::move(mesh));
+  const Chart& chart = prepared.chart;
+  if(prepared.status.is_ok() && chart.borders.size() != 1)
+    result.fail(Mesh_status::BAD_MESH, "the surface has several borders; cut it to a disk first");
+  if(result.fail(Mesh_status::BAD_MESH, prepared.status.message))
+    return result;
+  const auto z = Border_first_flattening(chart).run();
+  const bool is_finite = std::all_of(z.begin(), z.end(), [](const std::complex<double>& value) {
+    return std::isfinite(value.real()) && std::isfinite(value.imag());
+  });
+  if(z.empty())
+    result.fail(Mesh_status::FAILED, "the matrix cannot be factorized");
+  else if(!is_finite)
+    result.fail(Mesh_status::FAILED, "the map has parameters that are not finite numbers");
+  else
+    result.uv = points_of_values(chart.source, z, n);
+  return result;
+}
+#endif
+
+} // namespace internal
+
 /*!
 \ingroup PkgHLSCMParameterizer
 
@@ -48,33 +81,16 @@ keeps its turning angles instead of its lengths (mixed conditions: section 4 of 
 
 The map may have flipped triangles, and its border may meet itself still. Bad data (indices out of
 range, coordinates that are not finite, no disk) give a result with `error` set.
-*/
-CGAL_HLSCM_INLINE Border_first_map border_first_map(Indexed_mesh::Indexed_triangle_mesh mesh);
 
-#ifdef CGAL_HLSCM_DEFINITIONS
-CGAL_HLSCM_INLINE Border_first_map border_first_map(Indexed_mesh::Indexed_triangle_mesh mesh)
+\tparam ConcurrencyTag as for `conformal_map()`; `threads` count with a parallel tag, 0: as many as
+        there are processors
+*/
+template <class ConcurrencyTag = Default>
+Border_first_map border_first_map(Indexed_mesh::Indexed_triangle_mesh mesh, unsigned int threads = 0)
 {
-  Border_first_map result;
-  const std::size_t n = mesh.points.size();
-  const internal::Prepared_chart prepared = internal::chart_of_arrays(std::move(mesh));
-  const internal::Chart& chart = prepared.chart;
-  if(prepared.status.is_ok() && chart.borders.size() != 1)
-    result.fail(Mesh_status::BAD_MESH, "the surface has several borders; cut it to a disk first");
-  if(result.fail(Mesh_status::BAD_MESH, prepared.status.message))
-    return result;
-  const auto z = internal::Border_first_flattening(chart).run();
-  const bool is_finite = std::all_of(z.begin(), z.end(), [](const std::complex<double>& value) {
-    return std::isfinite(value.real()) && std::isfinite(value.imag());
-  });
-  if(z.empty())
-    result.fail(Mesh_status::FAILED, "the matrix cannot be factorized");
-  else if(!is_finite)
-    result.fail(Mesh_status::FAILED, "the map has parameters that are not finite numbers");
-  else
-    result.uv = internal::points_of_values(chart.source, z, n);
-  return result;
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> scope(threads);
+  return internal::flatten_border_first(std::move(mesh));
 }
-#endif
 
 } // namespace Surface_mesh_parameterization
 } // namespace CGAL

@@ -4,12 +4,15 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_MAP_VERY_LARGE_CHART_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_MAP_VERY_LARGE_CHART_H
 
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Surface_mesh_parameterization/Very_large_chart_options.h>
 
 #ifdef CGAL_HLSCM_DEFINITIONS
 #include <CGAL/Surface_mesh_parameterization/internal/streamed/Streamed_run.h>
 #endif
+
+#include <CGAL/tags.h>
 
 #include <functional>
 #include <new>
@@ -19,6 +22,49 @@
 namespace CGAL {
 namespace Surface_mesh_parameterization {
 
+namespace internal {
+
+// As the public function.
+CGAL_HLSCM_INLINE Very_large_chart_report
+map_streamed_chart(const std::string& input, const std::function<void(std::string_view)>& put,
+                   const Very_large_chart_options& options);
+
+#ifdef CGAL_HLSCM_DEFINITIONS
+
+CGAL_HLSCM_INLINE Very_large_chart_report
+map_streamed_chart(const std::string& input, const std::function<void(std::string_view)>& put,
+                   const Very_large_chart_options& options)
+{
+  Very_large_chart_report report;
+  try {
+    check_options(options.solver);
+    Streamed_run run(input, options, report);
+    try {
+      run.map();
+      run.write(put);
+    } catch(const Streaming_failure& failure) {
+      if(failure.kind == Streaming_failure::BAD_INPUT)
+        run.discard();
+      throw;
+    }
+  } catch(const Streaming_failure& failure) {
+    report.error = failure.error;
+    report.message = report.solver.message = failure.what();
+    report.solver.converged = false;
+    report.solver.cancelled = failure.kind == Streaming_failure::CANCELLED;
+  } catch(const std::bad_alloc&) {
+    report.error = ERROR_CANNOT_SOLVE_LINEAR_SYSTEM;
+    report.message = report.solver.message = "there is not enough memory for this run, begin anew and "
+                                             "let it use less";
+    report.solver.converged = false;
+  }
+  return report;
+}
+
+#endif // CGAL_HLSCM_DEFINITIONS
+
+} // namespace internal
+
 /*!
 \ingroup PkgHLSCMParameterizer
 
@@ -27,6 +73,9 @@ Computes the least squares conformal map of a chart that is too large for the me
 `Conformal_method::SPECTRAL`, to the same tolerance, by the same hierarchy. It is
 cut along a space-filling curve into blocks that are decimated one after the other, level by level,
 until a level fits; the others are in files, over which each iteration makes five passes.
+
+\tparam ConcurrencyTag `Sequential_tag`, or `Parallel_tag` for `options.solver.threads` threads; by
+        default that, in programs that are linked with TBB
 
 \param input a binary PLY file of triangles, little or big endian, without lists but the vertices of
        the faces: a connected surface of genus 0 with one or more borders
@@ -44,44 +93,14 @@ The input must not change until the function returns; that it did is an error if
 Linear time but for the iterations; for POSIX systems. On a file system that copies on write the
 promise of room on a full disk may be broken by it, and with it the process.
 */
-CGAL_HLSCM_INLINE Very_large_chart_report
-map_very_large_chart(const std::string& input, const std::function<void(std::string_view)>& put,
-                     const Very_large_chart_options& options);
-
-#ifdef CGAL_HLSCM_DEFINITIONS
-
-CGAL_HLSCM_INLINE Very_large_chart_report
+template <class ConcurrencyTag = Parallel_if_available_tag>
+Very_large_chart_report
 map_very_large_chart(const std::string& input, const std::function<void(std::string_view)>& put,
                      const Very_large_chart_options& options)
 {
-  const Blocked_execution::Thread_scope threads(options.solver.threads);
-  Very_large_chart_report report;
-  try {
-    internal::check_options(options.solver);
-    internal::Streamed_run run(input, options, report);
-    try {
-      run.map();
-      run.write(put);
-    } catch(const internal::Streaming_failure& failure) {
-      if(failure.kind == internal::Streaming_failure::BAD_INPUT)
-        run.discard();
-      throw;
-    }
-  } catch(const internal::Streaming_failure& failure) {
-    report.error = failure.error;
-    report.message = report.solver.message = failure.what();
-    report.solver.converged = false;
-    report.solver.cancelled = failure.kind == internal::Streaming_failure::CANCELLED;
-  } catch(const std::bad_alloc&) {
-    report.error = ERROR_CANNOT_SOLVE_LINEAR_SYSTEM;
-    report.message = report.solver.message = "there is not enough memory for this run, begin anew and "
-                                             "let it use less";
-    report.solver.converged = false;
-  }
-  return report;
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.solver.threads);
+  return internal::map_streamed_chart(input, put, options);
 }
-
-#endif // CGAL_HLSCM_DEFINITIONS
 
 } // namespace Surface_mesh_parameterization
 } // namespace CGAL

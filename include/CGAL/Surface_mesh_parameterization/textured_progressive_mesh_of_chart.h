@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_TEXTURED_PROGRESSIVE_MESH_OF_CHART_H
 
 #include <CGAL/Indexed_mesh/mesh_arrays.h>
+#include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Surface_mesh_multiresolution/build_textured_progressive_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
 
@@ -42,6 +43,7 @@ inline std::string chart_error(const Chart_progressive_mesh& chart, std::size_t 
 Returns the progressive mesh of a chart and its map, all levels of which share the map as their
 texture coordinates, from the collapses with which it was parameterized.
 
+\tparam ConcurrencyTag as for `build_progressive_mesh()`
 \param mesh the mesh that was parameterized
 \param uvmap a model of `ReadablePropertyMap` with the vertex descriptor as key and the parameter as
        value
@@ -52,7 +54,7 @@ texture coordinates, from the collapses with which it was parameterized.
 A chart of another mesh, or one without collapses, and coordinates that are not finite give a result
 with `error` set. Linear time.
 */
-template <class TriangleMesh, class VertexUVMap,
+template <class ConcurrencyTag = Default, class TriangleMesh, class VertexUVMap,
           class NamedParameters = parameters::Default_named_parameters>
 Surface_mesh_multiresolution::Textured_progressive_mesh_result
 build_textured_progressive_mesh(
@@ -82,10 +84,15 @@ build_textured_progressive_mesh(
       continue;
     const auto& q = get(uvmap, v);
     points[r] = Indexed_mesh::double_point(get(vpm, v), np);
+    if(!Indexed_mesh::is_finite(points[r]))
+      result.fail(Indexed_mesh::Mesh_status::BAD_MESH,
+                  Indexed_mesh::not_finite_error("vertex " + std::to_string(position - 1)));
     uv[r] = SMM::Textured_triangle_mesh::Point_2(to_double(q[0]), to_double(q[1]));
   }
-  result = SMM::build_textured_progressive_mesh(chart.progressive_mesh, std::move(points),
-                                                std::move(uv), options);
+  if(!result.is_ok())
+    return result;
+  result = SMM::build_textured_progressive_mesh<ConcurrencyTag>(
+    chart.progressive_mesh, std::move(points), std::move(uv), options);
   for(CGAL::Indexed_mesh::Vertex_index& v : result.mesh.source_vertex)
     v = chart.vertices[v];
   return result;

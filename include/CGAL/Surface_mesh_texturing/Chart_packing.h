@@ -75,6 +75,8 @@ struct Packing_options
   /// the result is the same on any machine. More is never worse. They are not used for a single
   /// chart, nor with a given density.
   double time_budget = 0.;
+  /// Threads of `pack_charts()` with `Parallel_tag`; 0 for all that the machine has.
+  unsigned int threads = 0;
   /// Is asked from time to time; once it returns `true` the packing ends with the best there is, or
   /// with the first one found from then on. Then the result may not be the same again.
   std::function<bool()> is_enough;

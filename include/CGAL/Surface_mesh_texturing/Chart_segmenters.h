@@ -94,7 +94,7 @@ public:
                                  const Texture_atlas_options&) const
   {
     Segmentation_result result;
-    if(!result.fail(internal::foreign_seams_error(mesh, m_charts.seams)))
+    if(!result.fail(internal::foreign_seams_error(mesh.triangles.size(), m_charts.seams)))
       result.charts = m_charts;
     return result;
   }

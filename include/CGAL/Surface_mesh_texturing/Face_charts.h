@@ -124,23 +124,21 @@ Face_charts label_charts(const Adjacency& adjacency, std::vector<std::uint8_t> s
   return result;
 }
 
-// What is wrong with seams that somebody else found.
-inline Mesh_outcome foreign_seams_error(const Indexed_triangle_mesh& mesh,
-                                        const std::vector<std::uint8_t>& seams)
+// What is wrong with seams that somebody else found on a mesh of n triangles.
+inline Mesh_outcome foreign_seams_error(std::size_t n, const std::vector<std::uint8_t>& seams)
 {
-  const std::size_t n = mesh.triangles.size();
   if(seams.size() == n)
     return {};
   return {Mesh_status::BAD_OPTIONS, "the charts have seams for " + std::to_string(seams.size())
                                       + " triangles, but the mesh has " + std::to_string(n)};
 }
 
-// What keeps charts from being those of a mesh with `surface_error()` none and this adjacency.
-inline Mesh_outcome adjacency_error(const Indexed_triangle_mesh& mesh,
-                                    const Triangle_adjacency& adjacency, const Face_charts& charts)
+// What keeps charts from being those of a mesh of n triangles with `surface_error()` none and this
+// adjacency.
+inline Mesh_outcome adjacency_error(std::size_t n, const Triangle_adjacency& adjacency,
+                                    const Face_charts& charts)
 {
-  Mesh_outcome result = foreign_seams_error(mesh, charts.seams);
-  const std::size_t n = mesh.triangles.size();
+  Mesh_outcome result = foreign_seams_error(n, charts.seams);
   if(charts.chart.size() != n || adjacency.number_of_halfedges() != 3 * n)
     result.fail(Mesh_status::BAD_OPTIONS, "there is not a chart for each triangle of the mesh");
   for(Halfedge h = 0; h < 3 * n && result.is_ok(); ++h) {
@@ -176,7 +174,7 @@ inline Indexed_mesh::Mesh_outcome charts_error(const Indexed_triangle_mesh& mesh
 {
   Mesh_outcome result;
   if(!result.fail(Mesh_status::BAD_MESH, surface_error(mesh)))
-    result = internal::adjacency_error(mesh, Triangle_adjacency(mesh.triangles), charts);
+    result = internal::adjacency_error(mesh.triangles.size(), Triangle_adjacency(mesh.triangles), charts);
   return result;
 }
 
@@ -346,7 +344,7 @@ inline std::vector<Chart_mesh> chart_meshes(const Indexed_triangle_mesh& mesh,
                                             const Indexed_mesh::Triangle_adjacency& adjacency,
                                             const Face_charts& charts)
 {
-  if(!surface_error(mesh).empty() || !internal::adjacency_error(mesh, adjacency, charts).is_ok())
+  if(!surface_error(mesh).empty() || !internal::adjacency_error(mesh.triangles.size(), adjacency, charts).is_ok())
     return {};
   return internal::cut_out_charts(mesh, adjacency, charts);
 }

@@ -41,18 +41,24 @@ the cosine of their angle to its normal, those in which a ray meets the surface.
 1 in narrow clefts; 0 for all vertices if the ray caster has an error.
 
 \tparam RayCaster_ a model of `RayCaster`
+\tparam ConcurrencyTag as for `bake_normal_map()`
 
-\param mesh with a `surface_error()` of none
+\param mesh the surface; nothing is returned if it has a `mesh_error()`
 \param directions their number around each vertex; half of them lie in front of it
+\param threads with a parallel tag; 0: as many as there are processors
 
 Time of as many rays for each vertex as half the `directions`, divided among the threads.
 */
-template <class RayCaster_>
-std::vector<float> ambient_occlusion(const Indexed_triangle_mesh& mesh, std::size_t directions = 64)
+template <class RayCaster_, class ConcurrencyTag = Default>
+std::vector<float> ambient_occlusion(const Indexed_triangle_mesh& mesh, std::size_t directions = 64,
+                                     unsigned int threads = 0)
 {
   constexpr double lift = 1e-4;        // off the surface, to the radius of the mesh
   constexpr double least_cosine = 0.1; // flatter rays meet the triangles around the vertex
   constexpr std::size_t block = 64;
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> scope(threads);
+  if(!mesh_error(mesh).empty())
+    return {};
   std::vector<float> result(mesh.points.size(), 0.f);
   const RayCaster_ caster(mesh.points, mesh.triangles);
   if(!caster.error().empty())

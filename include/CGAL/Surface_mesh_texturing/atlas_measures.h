@@ -146,7 +146,8 @@ inline Seam_measures measure_seams(const Indexed_triangle_mesh& mesh,
 {
   constexpr double crease = 30., concavity = 10.; // degrees
   Seam_measures result;
-  if(!internal::adjacency_error(mesh, adjacency, charts).is_ok())
+  if(!surface_error(mesh).empty()
+     || !internal::adjacency_error(mesh.triangles.size(), adjacency, charts).is_ok())
     return result;
   double& length = result.length;
   double on_creases = 0., in_concavities = 0., area = 0.;
@@ -191,7 +192,9 @@ inline Texel_measures measure_texels(const Textured_triangle_mesh& mesh, const F
 {
   Texel_measures result;
   if(!mesh_error(mesh).empty() || !texture_error(mesh).empty()
-     || charts.chart.size() != mesh.triangles.size() || charts.seams.size() != charts.chart.size())
+     || charts.chart.size() != mesh.triangles.size() || charts.seams.size() != charts.chart.size()
+     || std::any_of(charts.chart.begin(), charts.chart.end(),
+                    [&charts](std::size_t chart) { return chart >= charts.number_of_charts; }))
     return result;
   struct Sums
   {

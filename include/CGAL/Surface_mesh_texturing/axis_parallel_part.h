@@ -16,6 +16,7 @@ namespace Surface_mesh_texturing {
 /// \ingroup PkgHLSCMTexturing
 /// Returns which part of the length of the borders of an atlas's charts, in texels, runs along the
 /// rows or the columns of its pages, up to a degree. Linear time.
+/// \pre the invariants of `Texture_atlas`
 inline double axis_parallel_part(const Texture_atlas& atlas)
 {
   const double off = std::sin(CGAL_PI / 180.);

@@ -302,17 +302,19 @@ Bakes an image of a fine surface in the texture of the light model `light`: of e
 image that lies in a triangle of `light` (in the first one, if several overlap), `correspondence`
 says which point of the fine surface it shows, and `shader` what is to be seen there.
 
+\tparam ConcurrencyTag as for `bake_normal_map()`
 \tparam Correspondence a model of `SurfaceCorrespondence`
 \tparam Shader a model of `BakingShader`
 
 The result does not depend on the number of threads. Linear time beside that of `correspondence`.
 Errors are those of `bake_normal_map()` for `light` and `options`.
 */
-template <class Correspondence, class Shader>
+template <class ConcurrencyTag = Default, class Correspondence, class Shader>
 Baked_map bake(const Textured_triangle_mesh& light, const Correspondence& correspondence,
                const Shader& shader, const Baking_options& options)
 {
   typedef internal::Band_baker<Correspondence, Shader> Baker;
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   const std::size_t texel_rows = 8, bands_between_progress = 16;
   Baked_map map;
   if(map.fail(internal::light_error(light, options)))

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_BAKE_BY_RAYS_H
 #define CGAL_SURFACE_MESH_TEXTURING_BAKE_BY_RAYS_H
 
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_texturing/Along_rays.h>
 #include <CGAL/Surface_mesh_texturing/bake_normal_map.h>
 #include <CGAL/Surface_mesh_texturing/Surface_point.h>
@@ -33,17 +34,19 @@ the point that `Along_rays` finds, relative to the interpolated `frames` of `lig
 find none count for nothing; `Baked_map::number_of_samples_without` tells how many.
 
 \tparam RayCaster_ a model of `RayCaster`
+\tparam ConcurrencyTag as for `bake_normal_map()`
 
 There is a normal for each vertex of the fine surface, and `frames` are those of `light`. Errors are
 those of `bake_normal_map()` and of the ray caster. Linear time beside that of the rays.
 */
-template <class RayCaster_>
+template <class RayCaster_, class ConcurrencyTag = Default>
 Baked_map bake_normal_map_by_rays(const Indexed_triangle_mesh& fine,
                                   const std::vector<Vector_3>& fine_normals,
                                   const Textured_triangle_mesh& light,
                                   const Tangent_frames& frames,
                                   const Baking_by_rays_options& options = Baking_by_rays_options())
 {
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   Baked_map result;
   if(result.fail(internal::ray_baking_error(fine, light, options))
      || result.fail(internal::size_error(fine_normals.size(), fine.points.size(),
@@ -68,11 +71,12 @@ Baked_map bake_normal_map_by_rays(const Indexed_triangle_mesh& fine,
 /// \ingroup PkgHLSCMTexturing
 /// Bakes the normals of the fine surface with the `vertex_normals()` of both and the
 /// `tangent_frames()` of `light`; see the other overload.
-template <class RayCaster_>
+template <class RayCaster_, class ConcurrencyTag = Default>
 Baked_map bake_normal_map_by_rays(const Indexed_triangle_mesh& fine,
                                   const Textured_triangle_mesh& light,
                                   const Baking_by_rays_options& options = Baking_by_rays_options())
 {
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   Baked_map result;
   if(result.fail(internal::ray_baking_error(fine, light, options)))
     return result;

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_BAKE_COLORS_H
 #define CGAL_SURFACE_MESH_TEXTURING_BAKE_COLORS_H
 
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_texturing/Equal_uv.h>
 #include <CGAL/Surface_mesh_texturing/bake.h>
 #include <CGAL/Surface_mesh_texturing/internal/mesh_of_graph.h>
@@ -90,11 +91,12 @@ Bakes values of the vertices of `fine`, their colours for example, into a textur
 shares its atlas. Means are those of the numbers: colours in sRGB stay in sRGB. `values` has
 `channels` numbers for each vertex of `fine`. Errors and time are those of `bake_normal_map()`.
 */
-inline Baked_map bake_vertex_colors(const Textured_triangle_mesh& fine,
-                                    const std::vector<float>& values, std::size_t channels,
-                                    const Textured_triangle_mesh& light,
-                                    const Baking_options& options = Baking_options())
+template <class ConcurrencyTag = Default>
+Baked_map bake_vertex_colors(const Textured_triangle_mesh& fine, const std::vector<float>& values,
+                             std::size_t channels, const Textured_triangle_mesh& light,
+                             const Baking_options& options = Baking_options())
 {
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   Baked_map result;
   if(result.fail(internal::baking_error(fine, light, options))
      || result.fail(Mesh_status::BAD_OPTIONS, channels == 0 ? "the vertices have no values" : "")
@@ -112,11 +114,12 @@ Bakes an image that `fine` has had before its atlas into a texture of `light`, w
 atlas: `former` has the triangles of `fine` in the same order, with their coordinates in `image`.
 Errors and time are those of `bake_normal_map()`.
 */
-inline Baked_map bake_image(const Textured_triangle_mesh& fine,
-                            const Textured_triangle_mesh& former, const Texture_image& image,
-                            const Textured_triangle_mesh& light,
-                            const Baking_options& options = Baking_options())
+template <class ConcurrencyTag = Default>
+Baked_map bake_image(const Textured_triangle_mesh& fine, const Textured_triangle_mesh& former,
+                     const Texture_image& image, const Textured_triangle_mesh& light,
+                     const Baking_options& options = Baking_options())
 {
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   Baked_map result;
   if(result.fail(internal::baking_error(fine, light, options))
      || result.fail(internal::image_error(image, "the former image"))

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_BAKE_DISPLACEMENT_H
 #define CGAL_SURFACE_MESH_TEXTURING_BAKE_DISPLACEMENT_H
 
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_texturing/Equal_uv.h>
 #include <CGAL/Surface_mesh_texturing/bake.h>
 #include <CGAL/Surface_mesh_texturing/internal/mesh_of_graph.h>
@@ -74,11 +75,13 @@ Bakes how far `fine` lies above `light`, which shares its atlas, at equal textur
 `Displacement_shader`. `normals` has a vector for each vertex of `light`. Errors and time are those of
 `bake_normal_map()`.
 */
-inline Baked_displacement bake_displacement(const Textured_triangle_mesh& fine,
-                                            const Textured_triangle_mesh& light,
-                                            const std::vector<Vector_3>& normals,
-                                            const Baking_options& options = Baking_options())
+template <class ConcurrencyTag = Default>
+Baked_displacement bake_displacement(const Textured_triangle_mesh& fine,
+                                     const Textured_triangle_mesh& light,
+                                     const std::vector<Vector_3>& normals,
+                                     const Baking_options& options = Baking_options())
 {
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   Baked_displacement result;
   if(result.map.fail(internal::baking_error(fine, light, options))
      || result.map.fail(internal::size_error(normals.size(), light.points.size(),
@@ -100,10 +103,12 @@ inline Baked_displacement bake_displacement(const Textured_triangle_mesh& fine,
 /// \ingroup PkgHLSCMTexturing
 /// Bakes how far `fine` lies above `light` along the `vertex_normals()` of `light`; see the other
 /// overload.
-inline Baked_displacement bake_displacement(const Textured_triangle_mesh& fine,
-                                            const Textured_triangle_mesh& light,
-                                            const Baking_options& options = Baking_options())
+template <class ConcurrencyTag = Default>
+Baked_displacement bake_displacement(const Textured_triangle_mesh& fine,
+                                     const Textured_triangle_mesh& light,
+                                     const Baking_options& options = Baking_options())
 {
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   Baked_displacement result;
   if(result.map.fail(internal::baking_error(fine, light, options)))
     return result;

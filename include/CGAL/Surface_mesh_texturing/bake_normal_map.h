@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_BAKE_NORMAL_MAP_H
 #define CGAL_SURFACE_MESH_TEXTURING_BAKE_NORMAL_MAP_H
 
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_texturing/Equal_uv.h>
 #include <CGAL/Surface_mesh_texturing/bake.h>
 #include <CGAL/Surface_mesh_texturing/internal/mesh_of_graph.h>
@@ -120,12 +121,17 @@ of `light`, which a renderer must use in the same way. The texels are unit vecto
 `normals` has a vector for each vertex of `fine`, `frames` are those of `light`. Bad data (no
 triangles, indices out of range, coordinates that are not finite, arrays of another length, an image
 without texels) give a result with an error. Linear time.
+
+\tparam ConcurrencyTag `Sequential_tag`, or `Parallel_tag` for `options.threads` threads, or
+        `Default` for the threads of the caller's `Blocked_execution::Thread_scope`; so for all
+        functions that bake
 */
-inline Baked_map bake_normal_map(const Textured_triangle_mesh& fine,
-                                 const std::vector<Vector_3>& normals,
-                                 const Textured_triangle_mesh& light, const Tangent_frames& frames,
-                                 const Baking_options& options = Baking_options())
+template <class ConcurrencyTag = Default>
+Baked_map bake_normal_map(const Textured_triangle_mesh& fine, const std::vector<Vector_3>& normals,
+                          const Textured_triangle_mesh& light, const Tangent_frames& frames,
+                          const Baking_options& options = Baking_options())
 {
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   Baked_map result;
   if(result.fail(internal::baking_error(fine, light, options))
      || result.fail(internal::size_error(normals.size(), fine.points.size(),
@@ -143,10 +149,11 @@ inline Baked_map bake_normal_map(const Textured_triangle_mesh& fine,
 Bakes the normals of `fine` into a texture of `light`, both with their `vertex_normals()` and
 `light` with its `tangent_frames()`; see the other overload.
 */
-inline Baked_map bake_normal_map(const Textured_triangle_mesh& fine,
-                                 const Textured_triangle_mesh& light,
-                                 const Baking_options& options = Baking_options())
+template <class ConcurrencyTag = Default>
+Baked_map bake_normal_map(const Textured_triangle_mesh& fine, const Textured_triangle_mesh& light,
+                          const Baking_options& options = Baking_options())
 {
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   Baked_map result;
   if(result.fail(internal::baking_error(fine, light, options)))
     return result;
@@ -160,8 +167,6 @@ inline Baked_map bake_normal_map(const Textured_triangle_mesh& fine,
 Bakes the normals of `fine` into a texture of `light`, which shares its atlas, with meshes of any
 types: see the other overloads. What is said here holds for all functions that bake.
 
-\tparam ConcurrencyTag `Sequential_tag`, or `Parallel_tag` for `options.threads` threads, or
-        `Default` for the threads of the caller's `Blocked_execution::Thread_scope`
 \tparam FineMesh a model of `FaceListGraph`
 \tparam LightMesh a model of `FaceListGraph`
 \param fine_uv a model of `ReadablePropertyMap` with a point with two coordinates as value, and with

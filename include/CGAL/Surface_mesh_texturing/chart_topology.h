@@ -71,6 +71,15 @@ inline std::vector<std::uint8_t> without_lonely_seams(const Triangle_adjacency& 
   return seams;
 }
 
+// What keeps charts from being those of a mesh with these triangles.
+inline std::string triangles_error(const std::vector<Triangle_indices>& triangles,
+                                   const Face_charts& charts)
+{
+  const std::string error = index_error(triangles, Indexed_mesh::no_vertex);
+  return error.empty()
+           ? adjacency_error(triangles.size(), Triangle_adjacency(triangles), charts).error : error;
+}
+
 } // namespace internal
 
 /*!
@@ -117,10 +126,12 @@ chart_topologies(const Indexed_mesh::Triangle_adjacency& adjacency, const Face_c
 }
 
 /// \ingroup PkgHLSCMTexturing
-/// The same without an adjacency at hand.
+/// The same without an adjacency at hand; none if the charts are not those of these triangles.
 inline std::vector<Chart_topology> chart_topologies(const std::vector<Triangle_indices>& triangles,
                                                     const Face_charts& charts)
 {
+  if(!internal::triangles_error(triangles, charts).empty())
+    return {};
   return chart_topologies(Indexed_mesh::Triangle_adjacency(triangles), charts);
 }
 
@@ -147,11 +158,13 @@ inline std::string error_of_charts(const std::vector<Chart_topology>& topologies
 }
 
 /// \ingroup PkgHLSCMTexturing
-/// Returns the same for the charts of a mesh with these triangles. Linear time.
+/// Returns the same for the charts of a mesh with these triangles, or what keeps them from being that.
+/// Linear time.
 inline std::string error_of_charts(const std::vector<Triangle_indices>& triangles,
                                    const Face_charts& charts)
 {
-  return error_of_charts(chart_topologies(triangles, charts));
+  const std::string error = internal::triangles_error(triangles, charts);
+  return error.empty() ? error_of_charts(chart_topologies(triangles, charts)) : error;
 }
 
 } // namespace Surface_mesh_texturing

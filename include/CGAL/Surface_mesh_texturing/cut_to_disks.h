@@ -302,7 +302,7 @@ inline Face_charts checked_disks(const Indexed_triangle_mesh& mesh,
                                  const Triangle_adjacency& adjacency, Face_charts charts,
                                  const Disk_cut_options& options)
 {
-  if(!adjacency_error(mesh, adjacency, charts).is_ok())
+  if(!adjacency_error(mesh.triangles.size(), adjacency, charts).is_ok())
     return {};
   return cut_to_disks(mesh, adjacency, std::move(charts), options, {});
 }

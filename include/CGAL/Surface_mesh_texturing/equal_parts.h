@@ -239,6 +239,33 @@ inline Equal_parts find_equal_parts(const Indexed_triangle_mesh& mesh, double to
   return result;
 }
 
+namespace internal {
+
+// What keeps an atlas of the representatives of some parts from being stacked for a surface.
+inline Mesh_outcome stacking_error(const Indexed_triangle_mesh& mesh, const Equal_parts& parts,
+                                   const Texture_atlas_result& result)
+{
+  const Texture_atlas& atlas = result.atlas;
+  const std::size_t n = mesh.triangles.size(), models = parts.triangle.size();
+  Mesh_outcome outcome;
+  if(outcome.fail(Mesh_status::BAD_MESH, surface_error(mesh)))
+    return outcome;
+  bool fits = parts.part.size() == n && parts.stand_in.size() == n && parts.corner.size() == n;
+  for(std::size_t t = 0; t < n && fits; ++t)
+    fits = parts.part[t] < parts.number_of_parts && parts.stand_in[t] < models
+        && *std::max_element(parts.corner[t].begin(), parts.corner[t].end()) < 3;
+  if(!fits)
+    outcome.fail(Mesh_status::BAD_OPTIONS, "the parts are not those of this mesh");
+  const std::size_t charts = atlas.charts.number_of_charts;
+  if(atlas.mesh.triangles.size() != models || atlas.page.size() != charts
+     || result.report.charts.size() != charts || !texture_error(atlas.mesh).empty()
+     || !charts_error({atlas.mesh.points, atlas.mesh.triangles}, atlas.charts).is_ok())
+    outcome.fail(Mesh_status::BAD_OPTIONS, "the atlas is not one of the representatives");
+  return outcome;
+}
+
+} // namespace internal
+
 /*!
 \ingroup PkgHLSCMTexturing
 
@@ -251,6 +278,9 @@ Returns the atlas of a surface some of whose components share their place with o
 The invariants of `Texture_atlas` hold but for the last one: triangles overlap if, and only if, they
 have the same stand-in; those of mirrored copies are mirrored. The report has each chart as often as
 it is there, and all seams; its distortion, texels and utilisation are those of `atlas`. Linear time.
+
+Errors: that of `atlas`, indices out of range, coordinates that are not finite, a triangle that has a
+vertex twice, parts of another mesh, an atlas of another one.
 */
 inline Texture_atlas_result stacked_atlas(const Indexed_triangle_mesh& mesh,
                                           const Equal_parts& parts, Texture_atlas_result atlas)
@@ -258,6 +288,8 @@ inline Texture_atlas_result stacked_atlas(const Indexed_triangle_mesh& mesh,
   if(parts.copies == 0 || !atlas.is_ok())
     return atlas;
   Texture_atlas_result result;
+  if(result.fail(internal::stacking_error(mesh, parts, atlas)))
+    return result;
   result.report = atlas.report;
   result.atlas.number_of_pages = atlas.atlas.number_of_pages;
   result.atlas.width = atlas.atlas.width;

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_GROW_CHARTS_H
 #define CGAL_SURFACE_MESH_TEXTURING_GROW_CHARTS_H
 
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Surface_mesh_texturing/Chart_distortion.h>
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
@@ -56,6 +57,7 @@ struct Chart_growth_options
   /// more than need be, and some of them may be beyond the bound. Then the result may not be the
   /// same again.
   std::function<bool()> is_enough;
+  unsigned int threads = 0; ///< with a parallel tag; 0: as many as there are processors
   /// Told the part done in [0, 1] from time to time; returning `false` cancels.
   std::function<bool(double)> progress;
 };
@@ -139,10 +141,15 @@ Errors: a mesh that is no manifold or has no extent, a bound not larger than 1 o
 Meant for coarse meshes of 1K to 10K triangles. Time about linear, in proportion to
 `Chart_growth_options::effort`. Trial maps are computed in parallel; the result does not depend on
 the number of threads.
+
+\tparam ConcurrencyTag `Sequential_tag`, or `Parallel_tag` for `options.threads` threads, or
+        `Default` for the threads of the caller's `Blocked_execution::Thread_scope`
 */
-inline Chart_growth_result grow_charts(const Indexed_triangle_mesh& mesh,
-                                       const Chart_growth_options& options = Chart_growth_options())
+template <class ConcurrencyTag = Default>
+Chart_growth_result grow_charts(const Indexed_triangle_mesh& mesh,
+                                const Chart_growth_options& options = Chart_growth_options())
 {
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   Chart_growth_result result;
   if(result.fail(internal::growth_error(mesh, options)))
     return result;

@@ -35,12 +35,13 @@ inline std::size_t number_of_seams_on(const Indexed_mesh::Triangle_adjacency& ad
 }
 
 /// \ingroup PkgHLSCMTexturing
-/// The same without an adjacency at hand.
+/// The same without an adjacency at hand; see `charts_between()`.
 inline std::size_t number_of_seams_on(const std::vector<Triangle_indices>& triangles,
                                       const Face_charts& charts,
                                       const std::vector<std::uint8_t>& sides)
 {
-  if(sides.size() != triangles.size() || charts.seams.size() != triangles.size())
+  if(sides.size() != triangles.size() || charts.seams.size() != triangles.size()
+     || !index_error(triangles, Indexed_mesh::no_vertex).empty())
     return 0;
   return number_of_seams_on(Indexed_mesh::Triangle_adjacency(triangles), charts, sides);
 }
@@ -97,7 +98,7 @@ inline Face_charts keep_seams_off(const Indexed_triangle_mesh& mesh,
                                   const Straightening_options& straightening,
                                   const Disk_cut_options& cut)
 {
-  if(!adjacency_error(mesh, adjacency, charts).is_ok())
+  if(!adjacency_error(mesh.triangles.size(), adjacency, charts).is_ok())
     return {};
   if(number_of_seams_on(adjacency, charts, sides) == 0)
     return charts;

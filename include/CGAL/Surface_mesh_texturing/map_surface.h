@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_MAP_SURFACE_H
 #define CGAL_SURFACE_MESH_TEXTURING_MAP_SURFACE_H
 
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Indexed_mesh/surface_of_soup.h>
 #include <CGAL/Surface_mesh_parameterization/conformal_map.h>
 #include <CGAL/Surface_mesh_texturing/cut_to_disks.h>
@@ -12,7 +13,6 @@
 #include <CGAL/Surface_mesh_texturing/segment_coarse_to_fine.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -129,7 +129,7 @@ private:
     if(!metric.empty() && metric.size() != m_mesh.triangles.size())
       return Indexed_mesh::metric_size_error(metric.size(), m_mesh.triangles.size());
     const std::vector<std::uint8_t>& no_seams = m_options.no_seams;
-    return no_seams.empty() ? std::string() : foreign_seams_error(m_mesh, no_seams).error;
+    return no_seams.empty() ? std::string() : foreign_seams_error(m_mesh.triangles.size(), no_seams).error;
   }
 
   // Cuts what cannot be laid out in the plane.
@@ -302,9 +302,7 @@ private:
   void write()
   {
     Textured_triangle_mesh& mesh = m_result.mesh;
-    mesh.points = m_mesh.points;
-    mesh.triangles = m_mesh.triangles;
-    mesh.wedges.resize(m_mesh.triangles.size());
+    mesh = {m_mesh.points, m_mesh.triangles, {}, m_mesh.triangles};
     for(std::size_t c = 0; c < m_parts.size(); ++c) {
       const Vertex_index first = Vertex_index(mesh.uv.size());
       mesh.uv.insert(mesh.uv.end(), m_uv[c].begin(), m_uv[c].end());
@@ -339,11 +337,13 @@ Of several components those that cannot be mapped, such as one whose vertices al
 place, get one point. Errors: a `manifold_error()`, pins of vertices that do not exist, a single or
 pinned component that cannot be mapped, and cancelling.
 
-Time of the maps, and expected linear time for the cuts.
+Time of the maps, and expected linear time for the cuts. The tag is that of `conformal_map()`.
 */
-inline Surface_map map_surface(const Indexed_triangle_mesh& mesh,
-                               const Surface_map_options& options = Surface_map_options())
+template <class ConcurrencyTag = Default>
+Surface_map map_surface(const Indexed_triangle_mesh& mesh,
+                        const Surface_map_options& options = Surface_map_options())
 {
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.solver.threads);
   return internal::Surface_mapper(mesh, options).run();
 }
 
@@ -354,8 +354,7 @@ Maps a mesh of any type, whose faces may have any number of corners: they are cu
 the computation (see `Indexed_mesh::surface_of_soup()`), and no seam runs along such a cut unless
 there is no other way.
 
-\tparam FaceGraph a model of `FaceListGraph`
-\param mesh a mesh; it is not changed
+\param mesh a model of `FaceListGraph`; it is not changed
 \param uvmap a model of `WritablePropertyMap` with the halfedge descriptor as key and a point with
        two coordinates as value: gets for each halfedge of a face the texture coordinate of the
        corner at its target. If there is an error, it is left as it is.
@@ -363,7 +362,7 @@ there is no other way.
 \param np optional named parameters: `vertex_point_map` and `geom_traits`; see
        `Indexed_mesh::copy_points()`
 */
-template <class FaceGraph, class HalfedgeUVMap,
+template <class ConcurrencyTag = Default, class FaceGraph, class HalfedgeUVMap,
           class NamedParameters = parameters::Default_named_parameters,
           class = typename boost::property_traits<HalfedgeUVMap>::key_type>
 Surface_map map_surface(const FaceGraph& mesh, HalfedgeUVMap uvmap,
@@ -379,7 +378,7 @@ Surface_map map_surface(const FaceGraph& mesh, HalfedgeUVMap uvmap,
   options.no_seams = surface.diagonals;
   for(auto& pin : options.pins)
     pin.vertex = Indexed_mesh::vertex_of_surface(surface, pin.vertex);
-  result = map_surface(surface.mesh, options);
+  result = map_surface<ConcurrencyTag>(surface.mesh, options);
   if(!result.is_ok())
     return result;
   const std::vector<std::uint32_t> uv

@@ -138,15 +138,18 @@ an option makes no sense, a packer of the user returns no such result, a chart i
 at the density asked for, the charts need more pages than allowed, or `Packing_options::progress` says
 stop. Charts without area are placed, too; each takes one texel at least. Without charts the result is empty.
 
-The result does not depend on the number of threads of the `Blocked_execution::Thread_scope`.
+The result does not depend on the number of threads.
 
 \tparam Packer a model of `ChartPacker`
+\tparam ConcurrencyTag `Sequential_tag`, or `Parallel_tag` for `options.threads` threads, or
+        `Default` for the threads of the caller's `Blocked_execution::Thread_scope`
 */
-template <class Packer = Raster_packer>
+template <class Packer = Raster_packer, class ConcurrencyTag = Default>
 Packing_result pack_charts(const std::vector<Chart_shape>& charts,
                            const Packing_options& options = Packing_options(),
                            const Packer& packer = Packer())
 {
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   Packing_result result;
   if(result.fail(internal::packing_error(charts, options)) || charts.empty())
     return result;

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_RENDERING_ERROR_H
 #define CGAL_SURFACE_MESH_TEXTURING_RENDERING_ERROR_H
 
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_texturing/Surface_point.h>
 #include <CGAL/Surface_mesh_texturing/Texture_image.h>
 #include <CGAL/Surface_mesh_texturing/bake_normal_map.h>
@@ -191,12 +192,17 @@ numbers of triangles and of pixels.
 
 Bad data (no triangles, indices out of range, coordinates that are not finite, frames of another mesh,
 a map that has not three channels, pictures without pixels) give a result with an error.
+
+\tparam ConcurrencyTag as for `bake_normal_map()`; `threads` count with a parallel tag, 0: as many as
+        there are processors
 */
-inline Rendering_error rendering_error(const Textured_triangle_mesh& original,
-                                       const Textured_triangle_mesh& light,
-                                       const Tangent_frames& frames, const Texture_image& map,
-                                       Normal_space space, std::size_t size = 512)
+template <class ConcurrencyTag = Default>
+Rendering_error rendering_error(const Textured_triangle_mesh& original,
+                                const Textured_triangle_mesh& light, const Tangent_frames& frames,
+                                const Texture_image& map, Normal_space space,
+                                std::size_t size = 512, unsigned int threads = 0)
 {
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> scope(threads);
   Rendering_error result;
   if(result.fail(internal::rendering_input_error(original, light, frames, map, size)))
     return result;

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_SEGMENT_COARSE_TO_FINE_H
 #define CGAL_SURFACE_MESH_TEXTURING_SEGMENT_COARSE_TO_FINE_H
 
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Indexed_mesh/prepare_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
 #include <CGAL/Surface_mesh_multiresolution/build_progressive_mesh.h>
@@ -176,7 +177,7 @@ public:
     if(m_result.fail(Mesh_status::BAD_MESH, surface_error(m_original)))
       return m_result;
     const std::vector<std::uint8_t>& no_seams = m_options.no_seams;
-    if(!no_seams.empty() && m_result.fail(foreign_seams_error(m_original, no_seams)))
+    if(!no_seams.empty() && m_result.fail(foreign_seams_error(m_original.triangles.size(), no_seams)))
       return m_result;
     Prepared_mesh prepared = prepare_mesh(along_principal_axes(m_original));
     const Indexed_triangle_mesh& mesh = prepared.mesh;
@@ -263,6 +264,9 @@ Returns charts of `mesh` that are disks: a coarse mesh is made by halfedge colla
 found there, and their seams are carried back and made straight. The charts do not depend on how the
 mesh is turned, moved or scaled, up to rounding.
 
+\tparam ConcurrencyTag `Sequential_tag`, or `Parallel_tag` for `options.threads` threads, or
+        `Default` for the threads of the caller's `Blocked_execution::Thread_scope`
+
 \param mesh any number of components, closed or not, of any genus, size and place
 \param options see there
 \param segment_coarse finds the charts of the coarse mesh, an `Indexed_triangle_mesh`: a function
@@ -277,11 +281,12 @@ mesh.
 
 Expected linear time beside that of `segment_coarse`.
 */
-template <class SegmentCoarse>
+template <class ConcurrencyTag = Default, class SegmentCoarse>
 Segmentation_result segment_coarse_to_fine(const Indexed_triangle_mesh& mesh,
-                                        const Segmentation_options& options,
-                                        const SegmentCoarse& segment_coarse)
+                                           const Segmentation_options& options,
+                                           const SegmentCoarse& segment_coarse)
 {
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   return internal::Chart_segmentation<SegmentCoarse>(mesh, options, segment_coarse).run();
 }
 

@@ -44,13 +44,29 @@ Segmentation_result segment_between(const Indexed_triangle_mesh& mesh,
 {
   Segmentation_result result;
   if(result.fail(Mesh_status::BAD_MESH, manifold_error(mesh))
-     || result.fail(foreign_seams_error(mesh, seams)))
+     || result.fail(foreign_seams_error(mesh.triangles.size(), seams)))
     return result;
   result = segment(cut_along(mesh, charts_between(mesh.triangles, std::move(seams))));
-  if(result.is_ok() && !result.fail(foreign_seams_error(mesh, result.charts.seams)))
+  if(result.is_ok() && !result.fail(foreign_seams_error(mesh.triangles.size(), result.charts.seams)))
     result.charts = charts_between(mesh.triangles, std::move(result.charts.seams));
   return result;
 }
+
+// As the public function.
+CGAL_HLSCM_INLINE Segmentation_result segment_arrays(const Indexed_triangle_mesh& mesh,
+                                                     const Segmentation_options& options,
+                                                     const Chart_growth_options& growth);
+
+#ifdef CGAL_HLSCM_DEFINITIONS
+CGAL_HLSCM_INLINE Segmentation_result segment_arrays(const Indexed_triangle_mesh& mesh,
+                                                     const Segmentation_options& options,
+                                                     const Chart_growth_options& growth)
+{
+  return segment_coarse_to_fine(mesh, options, [&growth](const Indexed_triangle_mesh& coarse) {
+    return grow_charts(coarse, growth);
+  });
+}
+#endif
 
 } // namespace internal
 
@@ -59,22 +75,18 @@ Segmentation_result segment_between(const Indexed_triangle_mesh& mesh,
 
 Returns charts of `mesh`, which are disks with straight seams, within a bound on their distortion:
 `segment_coarse_to_fine()` with `grow_charts()` on the coarse mesh. Errors: those of both.
-*/
-CGAL_HLSCM_INLINE Segmentation_result
-segment_into_charts(const Indexed_triangle_mesh& mesh,
-                    const Segmentation_options& options = Segmentation_options(),
-                    const Chart_growth_options& growth = Chart_growth_options());
 
-#ifdef CGAL_HLSCM_DEFINITIONS
-CGAL_HLSCM_INLINE Segmentation_result
-segment_into_charts(const Indexed_triangle_mesh& mesh, const Segmentation_options& options,
-                    const Chart_growth_options& growth)
+\tparam ConcurrencyTag as for `segment_coarse_to_fine()`
+*/
+template <class ConcurrencyTag = Default>
+Segmentation_result segment_into_charts(const Indexed_triangle_mesh& mesh,
+                                        const Segmentation_options& options
+                                        = Segmentation_options(),
+                                        const Chart_growth_options& growth = Chart_growth_options())
 {
-  return segment_coarse_to_fine(mesh, options, [&growth](const Indexed_triangle_mesh& coarse) {
-    return grow_charts(coarse, growth);
-  });
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
+  return internal::segment_arrays(mesh, options, growth);
 }
-#endif
 
 /*!
 \ingroup PkgHLSCMTexturing

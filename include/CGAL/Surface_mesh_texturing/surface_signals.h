@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_SURFACE_SIGNALS_H
 #define CGAL_SURFACE_MESH_TEXTURING_SURFACE_SIGNALS_H
 
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_parameterization/Signal_metric.h>
 #include <CGAL/Surface_mesh_texturing/Texture_image.h>
 #include <CGAL/Surface_mesh_texturing/internal/baking/texels_of_triangles.h>
@@ -23,11 +24,12 @@ using Surface_mesh_parameterization::Face_tensors;
 
 /// \ingroup PkgHLSCMSignal
 /// Returns the tensors of the signal that a normal map bakes: the interpolated `vertex_normals()` of
-/// the surface. Errors are those of `vertex_signal()`.
-inline Face_tensors normal_signal(const Indexed_triangle_mesh& mesh)
+/// the surface, found with the threads of these. Errors are those of `vertex_signal()`.
+template <class ConcurrencyTag = Default>
+Face_tensors normal_signal(const Indexed_triangle_mesh& mesh, unsigned int threads = 0)
 {
   std::vector<double> values;
-  for(const Vector_3& n : vertex_normals(mesh.points, mesh.triangles))
+  for(const Vector_3& n : vertex_normals<ConcurrencyTag>(mesh.points, mesh.triangles, threads))
     values.insert(values.end(), {n.x(), n.y(), n.z()});
   return Surface_mesh_parameterization::vertex_signal(mesh, values, 3);
 }

@@ -48,11 +48,16 @@ Returns the unit normal of each vertex: the mean of the normals of its triangles
 angles that they have there (Thuermer, Wuethrich 1998). Vertices have one normal, also where the
 texture has a seam. A vertex without triangles that have an area has the normal (0, 0, 1). If an
 index is out of range, there are no normals. Linear time.
+
+\tparam ConcurrencyTag as for `bake_normal_map()`; `threads` count with a parallel tag, 0: as many as
+        there are processors
 */
-inline std::vector<Vector_3>
-vertex_normals(const std::vector<Indexed_triangle_mesh::Point_3>& points,
-               const std::vector<Triangle_indices>& triangles)
+template <class ConcurrencyTag = Default>
+std::vector<Vector_3> vertex_normals(const std::vector<Indexed_triangle_mesh::Point_3>& points,
+                                     const std::vector<Triangle_indices>& triangles,
+                                     unsigned int threads = 0)
 {
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> scope(threads);
   if(!internal::indices_are_below(triangles, points.size()))
     return {};
   std::vector<internal::Weighted_normal> weighted(triangles.size());
@@ -79,9 +84,10 @@ vertex_normals(const std::vector<Indexed_triangle_mesh::Point_3>& points,
 
 /// \ingroup PkgHLSCMTexturing
 /// Returns the unit normal of each vertex of `mesh`; see the other overload.
-inline std::vector<Vector_3> vertex_normals(const Textured_triangle_mesh& mesh)
+template <class ConcurrencyTag = Default>
+std::vector<Vector_3> vertex_normals(const Textured_triangle_mesh& mesh, unsigned int threads = 0)
 {
-  return vertex_normals(mesh.points, mesh.triangles);
+  return vertex_normals<ConcurrencyTag>(mesh.points, mesh.triangles, threads);
 }
 
 namespace internal {

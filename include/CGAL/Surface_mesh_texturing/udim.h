@@ -45,10 +45,14 @@ these, so that all pages lie side by side in one plane. Linear time.
 
 \param mesh a mesh whose triangles on different pages have no texture coordinate in common
 \param page for each triangle its page
+
+\return the mesh as it is if it has a `texture_error()`, or `page` has another length
 */
 inline Textured_triangle_mesh with_udim_coordinates(Textured_triangle_mesh mesh,
                                                     const std::vector<std::uint32_t>& page)
 {
+  if(page.size() != mesh.wedges.size() || !texture_error(mesh).empty())
+    return mesh;
   std::vector<std::uint8_t> is_done(mesh.uv.size(), 0);
   for(std::size_t t = 0; t < page.size(); ++t)
     for(const Vertex_index w : mesh.wedges[t])

@@ -55,7 +55,8 @@ mirrored copies are mirror images. So a surface that is its own mirror image get
        `atlas` has already
 \param packer what packs the charts of the whole surface
 
-All invariants of `Texture_atlas` hold. Time: that of `repack_texture_atlas()`.
+All invariants of `Texture_atlas` hold. Errors are those of `stacked_atlas()` and
+`repack_texture_atlas()`. Time: that of `repack_texture_atlas()`.
 */
 template <class ConcurrencyTag = Default, class Packer = Default>
 Texture_atlas_result unstacked_atlas(const Indexed_triangle_mesh& mesh, const Equal_parts& parts,
@@ -66,6 +67,8 @@ Texture_atlas_result unstacked_atlas(const Indexed_triangle_mesh& mesh, const Eq
     return atlas;
   const Texture_atlas_report first = atlas.report;
   const Texture_atlas_result stacked = stacked_atlas(mesh, parts, std::move(atlas));
+  if(!stacked.is_ok())
+    return stacked;
   options.density.clear();
   options.progress = [tell = std::move(options.progress)](double) { return !tell || tell(1.); };
   Repacking_options repacking;

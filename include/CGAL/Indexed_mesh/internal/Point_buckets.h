@@ -80,11 +80,6 @@ private:
     Vertex_index index; // `no_vertex` if the place is free
   };
 
-  static bool is_finite(const Point_3& p)
-  {
-    return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z());
-  }
-
   std::array<std::int64_t, 3> cell_of(const Point_3& p) const
   {
     return {std::int64_t(std::floor(p.x() / m_cell)), std::int64_t(std::floor(p.y() / m_cell)),

@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_MULTIGRID_INTERNAL_SURFACE_SYSTEM_H
 
 #include <CGAL/Blocked_execution/compile_once.h>
+#include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Multigrid/Multigrid_levels.h>
 #include <CGAL/Multigrid/Patch_corrections.h>
 #include <CGAL/Multigrid/Sparse_cholesky.h>
@@ -144,7 +145,7 @@ std::string Surface_system<Value>::rows_error(const Surface_hierarchy& surface, 
       size += double(Multigrid::Value_traits<Double>::squared_norm(rows.values(i)[k]));
     const auto vertex = [&] { return std::to_string(surface.source()[i]); };
     if(!std::isfinite(size))
-      return "the row of vertex " + vertex() + " has an entry that is not a finite number";
+      return Indexed_mesh::not_finite_error("the row of vertex " + vertex(), "an entry");
     if(!m_is_fixed[i] && !Diagonal_traits::is_positive(rows.diagonal()[i]))
       return "the diagonal entry of vertex " + vertex()
            + " is not positive: the matrix is not positive definite";

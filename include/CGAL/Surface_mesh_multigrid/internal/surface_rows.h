@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_MULTIGRID_INTERNAL_SURFACE_ROWS_H
 
 #include <CGAL/Indexed_mesh/Triangle_adjacency.h>
+#include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Multigrid/Sparse_rows.h>
 #include <CGAL/Surface_mesh_multigrid/Element_matrix.h>
 
@@ -108,7 +109,8 @@ std::string matrix_error(std::size_t vertices, const Matrix& matrix)
     double largest = 0.;
     for(typename Matrix::InnerIterator e(matrix, o); e; ++e) {
       if(!std::isfinite(std::abs(e.value())))
-        return "the matrix has an entry that is not a finite number: " + place(e.row(), e.col());
+        return Indexed_mesh::not_finite_error("the matrix", "an entry") + ": "
+             + place(e.row(), e.col());
       largest = (std::max)(largest, double(std::abs(e.value())));
     }
     typename Matrix::InnerIterator a(matrix, o);

@@ -108,9 +108,7 @@ inline bool can_be_written(const std::vector<Textured_triangle_mesh::Point_3>& p
 {
   return triangles.size() == wedges.size() && indices_are_below(triangles, points.size())
       && indices_are_below(wedges, uv.size())
-      && std::all_of(points.begin(), points.end(), [](const Textured_triangle_mesh::Point_3& p) {
-           return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z());
-         })
+      && point_error(points).empty()
       && std::all_of(uv.begin(), uv.end(), [](const Textured_triangle_mesh::Point_2& p) {
            return std::isfinite(p.x()) && std::isfinite(p.y());
          });

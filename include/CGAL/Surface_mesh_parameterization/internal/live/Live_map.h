@@ -149,7 +149,7 @@ CGAL_HLSCM_INLINE Error_code Live_map::set_pin(Vertex_index v, const Complex& va
   if(v == Indexed_mesh::no_vertex)
     return fail("a vertex that does not belong to the chart cannot be pinned");
   if(!std::isfinite(value.real()) || !std::isfinite(value.imag()))
-    return fail("a pin has a coordinate that is not a finite number");
+    return fail(Indexed_mesh::not_finite_error("a pin"));
   m_wanted[v] = value;
   return OK;
 }

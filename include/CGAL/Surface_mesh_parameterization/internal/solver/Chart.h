@@ -211,7 +211,7 @@ Status check_border(const TriangleMesh& mesh,
   typedef boost::graph_traits<TriangleMesh> Traits;
   Status status;
   if(faces(mesh).begin() == faces(mesh).end())
-    status.fail(ERROR_EMPTY_MESH, "the mesh has no triangles");
+    status.fail(ERROR_EMPTY_MESH, Indexed_mesh::no_triangles_error());
   const auto all = halfedges(mesh);
   const bool is_null = bhd == Traits::null_halfedge() || !status.is_ok();
   if(!is_null && std::find(all.begin(), all.end(), bhd) == all.end())

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_SOLVER_PINS_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_SOLVER_PINS_H
 
+#include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
 #include <CGAL/Surface_mesh_parameterization/internal/solver/Chart.h>
 
@@ -102,8 +103,8 @@ inline void check_each_pin(const std::vector<std::uint32_t>& source, const Pins&
   std::vector<bool> is_pinned(source.size(), false);
   for(const Pin& pin : pins) {
     if(!std::isfinite(pin.value.real()) || !std::isfinite(pin.value.imag()))
-      return status.fail(ERROR_WRONG_PARAMETER, "the pin of " + name(pin)
-                         + " has a coordinate that is not a finite number");
+      return status.fail(ERROR_WRONG_PARAMETER,
+                         Indexed_mesh::not_finite_error("the pin of " + name(pin)));
     if(is_pinned[pin.vertex])
       return status.fail(ERROR_WRONG_PARAMETER, name(pin) + " is pinned twice; pin it once");
     is_pinned[pin.vertex] = true;

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_STORED_PLY_RECORDS_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_STORED_PLY_RECORDS_H
 
+#include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Surface_mesh_parameterization/internal/stored/Mapped_array.h>
 
 #include <boost/predef/other/endian.h>
@@ -26,8 +27,7 @@ namespace internal {
 inline void check_point(std::size_t v, const std::array<double, 3>& p)
 {
   if(!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
-    refuse("vertex " + std::to_string(v)
-           + " has a coordinate that is not a finite number");
+    refuse(Indexed_mesh::not_finite_error("vertex " + std::to_string(v)));
 }
 
 // Refuses a face of a mesh of so many vertices that is no triangle. `remedy` is for wrong numbers.

@@ -28,7 +28,7 @@ inline Indexed_mesh::Mesh_outcome image_on_surface_error(const Textured_triangle
      || result.fail(image_error(image, "the image")))
     return result;
   if(!std::all_of(image.texels.begin(), image.texels.end(), [](float x) { return std::isfinite(x); }))
-    result.fail(Mesh_status::BAD_OPTIONS, "the image has a value that is not a finite number");
+    result.fail(Mesh_status::BAD_OPTIONS, Indexed_mesh::not_finite_error("the image", "a value"));
   return result;
 }
 

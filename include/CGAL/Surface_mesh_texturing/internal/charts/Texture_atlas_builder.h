@@ -172,7 +172,7 @@ inline bool Texture_atlas_builder::check()
                     + std::to_string(m_mesh.triangles.size()) + " triangles");
   m_result.fail(Mesh_status::BAD_OPTIONS, Indexed_mesh::metric_error(m_mesh, m_options.metric));
   if(!m_options.no_seams.empty())
-    m_result.fail(foreign_seams_error(m_mesh, m_options.no_seams));
+    m_result.fail(foreign_seams_error(m_mesh.triangles.size(), m_options.no_seams));
   if(!(m_options.seam_price >= 0.))
     m_result.fail(Mesh_status::BAD_OPTIONS, "the price of seams is not a number from 0 on");
   if(!(m_options.min_used >= 0. && m_options.min_used < 1.))
@@ -222,7 +222,7 @@ inline Segmentation_result Texture_atlas_builder::find_charts(const Indexed_tria
   if(m_models.is_own || !result.is_ok())
     return result;
   // Whatever the charts say beside their seams
-  if(!result.fail(foreign_seams_error(mesh, result.charts.seams)))
+  if(!result.fail(foreign_seams_error(mesh.triangles.size(), result.charts.seams)))
     result.charts = disks_between(mesh, std::move(result.charts.seams));
   return result;
 }
