@@ -266,10 +266,21 @@ TEST(Overlap_field_test, is_the_weighted_sum_of_overlaps)
   const int n = 60 - s.width;
   std::vector<int> row(std::size_t(n), 0);
   for(int y = 6; y + s.height <= 56; ++y) {
-    field.overlaps(s, 5, y, n, (std::numeric_limits<int>::max)(), row.data());
+    std::size_t runs = 0;
+    const int least
+      = field.overlaps(s, 5, y, n, (std::numeric_limits<int>::max)(), row.data(), runs);
+    EXPECT_EQ(runs, s.runs.size());
+    EXPECT_EQ(least, *std::min_element(row.begin(), row.end()));
     for(int k = 0; k < n; ++k)
       ASSERT_EQ(row[std::size_t(k)],
                 7 * overlap(s, t, 3 - 5 - k, 20 - y) + 11 * overlap(s, u, 30 - 5 - k, 1 - y));
+    for(const int most : {least - 1, least}) { // what is given up is not better
+      std::vector<int> bounded(row.size(), 0);
+      const int found = field.overlaps(s, 5, y, n, most, bounded.data(), runs);
+      ASSERT_EQ(found > most, most < least);
+      if(found <= most)
+        ASSERT_EQ(bounded, row);
+    }
   }
 }
 
