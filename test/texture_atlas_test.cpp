@@ -68,6 +68,30 @@ TEST(Texture_atlas, is_one_to_one_on_every_surface)
   }
 }
 
+// Noise of more than an edge's length: no chart of many triangles is within the bound, and the atlas is not
+// dust for that.
+TEST(Texture_atlas, has_few_charts_where_the_surface_is_rough)
+{
+  constexpr int n = 70;
+  Indexed_triangle_mesh mesh = grid(n, n);
+  EXPECT_EQ(SMT::build_texture_atlas(mesh, small_texture()).report.rough_charts, 0u);
+  const double edge = std::sqrt(squared_distance(mesh.points[0], mesh.points[1]));
+  Random random(seed);
+  for(Point_3& p : mesh.points)
+    p = Point_3(p.x(), p.y(), uniform(random, -2. * edge, 2. * edge));
+  const SMT::Texture_atlas_result result = SMT::build_texture_atlas(mesh, small_texture());
+  ASSERT_EQ(result.error, "");
+  EXPECT_EQ(error_in_atlas(mesh, result.atlas), "") << seed_text;
+  EXPECT_LT(result.report.charts.size(), 20u) << seed_text;
+  EXPECT_GT(result.report.rough_charts, 0u);
+  std::size_t beyond = 0;
+  for(const SMT::Chart_report& chart : result.report.charts) {
+    EXPECT_TRUE(chart.is_one_to_one);
+    beyond += chart.faces > 1 && !chart.distortion.is_within(SMT::Distortion_bound()) ? 1 : 0;
+  }
+  EXPECT_EQ(beyond, result.report.rough_charts);
+}
+
 // 14,400 triangles that go through a level of 1,500
 TEST(Texture_atlas, is_one_to_one_by_least_squares_too)
 {

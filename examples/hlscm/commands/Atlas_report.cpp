@@ -66,6 +66,7 @@ Json to_json(const SMT::Texture_atlas_report& atlas)
           {"page_cuts", atlas.page_cuts},
           {"unwanted_seams", atlas.unwanted_seams},
           {"recut_charts", atlas.recut_charts},
+          {"rough_charts", atlas.rough_charts},
           {"stopped_early", atlas.stopped_early},
           {"flips", d.flipped_faces},
           {"degenerate_faces", d.degenerate_faces},
@@ -163,6 +164,11 @@ std::vector<std::string> Atlas_report::all_warnings() const
   all.insert(all.end(), layout.warnings.begin(), layout.warnings.end());
   if(atlas && atlas->stopped_early) {
     all.push_back("the time was up before the atlas was as good as it gets; see --time-limit");
+  }
+  if(atlas && atlas->rough_charts > 0) {
+    all.push_back("charts beyond the bounds on distortion, as the surface is so rough there that small "
+                  "ones would be, too: "
+                  + std::to_string(atlas->rough_charts) + " of " + std::to_string(atlas->charts.size()));
   }
   if(atlas && atlas->distortion.degenerate_faces > 0) {
     all.push_back("triangles without area in the texture: "

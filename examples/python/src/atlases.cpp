@@ -298,6 +298,7 @@ py::dict to_dict(const SMT::Texture_atlas_report& report)
   }
   d["charts"] = charts;
   d["recut_charts"] = report.recut_charts;
+  d["rough_charts"] = report.rough_charts;
   d["unwanted_seams"] = report.unwanted_seams;
   d["stopped_early"] = report.stopped_early;
   d["seam_length"] = report.seam_length;

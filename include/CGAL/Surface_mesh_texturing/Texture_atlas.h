@@ -29,7 +29,11 @@ using Surface_mesh_multiresolution::vertices_of_wedges;
 /// its models of `ChartSegmenter`, `ChartParameterizer` and `ChartPacker`.
 struct Texture_atlas_options
 {
-  /// How far charts may be distorted, if the segmenter wants them within a bound.
+  /// How far charts may be distorted, if the segmenter wants them within a bound. Where a surface is
+  /// rough, as that of a scan with noise of an edge's length is, even disks of 32 triangles are distorted,
+  /// and charts within a bound would be dust. So if these disks take up more than its root, and a chart
+  /// has 2000 triangles, the bound is meant relative to them there; `Texture_atlas_report::rough_charts`
+  /// tells of how many charts.
   Distortion_bound bound;
   /// Whether a chart whose conformal map is beyond the bound on areas may be mapped by
   /// `Surface_mesh_parameterization::low_stretch_map()` if that map is within both bounds: there are
@@ -145,6 +149,7 @@ struct Chart_report
   Chart_distortion distortion;   ///< of its map
   std::size_t repaired_flips = 0;///< triangles that were flipped before its map was repaired
   bool is_one_to_one = true;     ///< whether its map is one-to-one, by exact predicates
+  bool is_rough = false;         ///< whether it is beyond the bound, see `Texture_atlas_options::bound`
   std::size_t page = 0;          ///< its texture
   bool is_mirrored = false;      ///< as a whole, in a texture that was packed anew
 };
@@ -159,6 +164,7 @@ struct Texture_atlas_report
   std::vector<Chart_report> charts; ///< of each chart
   /// Charts of the first segmentation that failed on the fine mesh and were cut again.
   std::size_t recut_charts = 0;
+  std::size_t rough_charts = 0;   ///< their number, see `Chart_report::is_rough`
   std::size_t page_cuts = 0;      ///< cuts made to fill the pages; see `seam_price`
   std::size_t unwanted_seams = 0; ///< edges that are seams in spite of the option `no_seams`
   /// Why less than `Texture_atlas_options::min_used` of the pages is used, as a part of a sentence; empty

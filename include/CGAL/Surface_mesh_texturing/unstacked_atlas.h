@@ -77,6 +77,7 @@ Texture_atlas_result unstacked_atlas(const Indexed_triangle_mesh& mesh, const Eq
     internal::upright_texture(parts, stacked.atlas), options, repacking, packer);
   Texture_atlas_report& report = result.report;
   report.recut_charts = first.recut_charts;
+  report.rough_charts = first.rough_charts;
   report.page_cuts = first.page_cuts;
   report.stopped_early = report.stopped_early || first.stopped_early;
   report.seconds_segment += first.seconds_segment;

@@ -271,6 +271,7 @@ inline void Texture_atlas_builder::map_charts_within(const Distortion_bound& bou
                                                      double end)
 {
   Chart_mapping mapping = chart_mapping(bound);
+  mapping.least_rough_faces = 2000;
   mapping.no_seams = m_options.no_seams;
   m_maps = map_charts(chart_meshes(m_mesh, *m_adjacency, m_charts), mapping,
                       [&](double part) { return proceed(begin, end, part); },
@@ -365,6 +366,7 @@ inline void Texture_atlas_builder::fill()
     atlas.page.push_back(m_packing.placements[i].page);
     report.charts.push_back(map.report);
     report.charts.back().page = atlas.page.back();
+    report.rough_charts += map.report.is_rough ? 1 : 0;
   }
   report.texels_per_unit = m_packing.texels_per_unit;
   report.unwanted_seams = number_of_seams_on(*m_adjacency, atlas.charts, m_options.no_seams);

@@ -9,12 +9,14 @@
 #include <CGAL/Surface_mesh_parameterization/self_overlap.h>
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
 #include <CGAL/Surface_mesh_texturing/Texture_atlas.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/rough_bound.h>
 #include <CGAL/Surface_mesh_texturing/segment_into_charts.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -23,12 +25,10 @@ namespace CGAL {
 namespace Surface_mesh_texturing {
 namespace internal {
 
-typedef Simple_cartesian<double>::Point_2 Point_2;
-
 // How charts are mapped, and what becomes of those whose maps fail.
 struct Chart_mapping
 {
-  std::function<std::vector<Point_2>(const Indexed_triangle_mesh&)> parameterize;
+  Chart_map parameterize;
   Distortion_bound bound;
   bool is_bounded = true; // if not, charts beyond the bound are not cut for that
   bool may_stretch = false; // charts beyond the bound on areas
@@ -36,6 +36,8 @@ struct Chart_mapping
   std::size_t coarse_faces = 4000;
   std::vector<std::uint8_t> no_seams = {}; // of the whole mesh; see Texture_atlas_options
   std::function<bool()> is_over = {};      // whether the quickest way is to be taken from now on
+  // Of a chart that may have a higher bound where the surface is rough, see `rough_bound()`
+  std::size_t least_rough_faces = (std::numeric_limits<std::size_t>::max)();
 
   bool has_time() const { return !is_over || !is_over(); }
 };
@@ -46,6 +48,7 @@ struct Mapped_chart
   Chart_mesh chart;
   std::vector<Point_2> uv;
   Chart_report report;
+  Distortion_bound bound; // of itself and of its parts
   bool is_valid = false;
 };
 
@@ -143,10 +146,12 @@ inline std::pair<std::size_t, std::size_t> repair_flips(const Indexed_triangle_m
 }
 
 // Maps a chart and says whether the map is one-to-one and within the bound.
-inline Mapped_chart map_chart(Chart_mesh chart, const Chart_mapping& mapping)
+inline Mapped_chart map_chart(Chart_mesh chart, const Distortion_bound& bound,
+                              const Chart_mapping& mapping)
 {
   Mapped_chart result;
   result.chart = std::move(chart);
+  result.bound = bound;
   const Indexed_triangle_mesh& mesh = result.chart.mesh;
   result.report.faces = mesh.triangles.size();
   const std::vector<Border_edge> border = result.chart.border_edges();
@@ -162,15 +167,17 @@ inline Mapped_chart map_chart(Chart_mesh chart, const Chart_mapping& mapping)
   if(result.uv.size() != mesh.points.size())
     return result;
   result.report.distortion = measure_chart_distortion(mesh, result.uv);
-  const auto is_allowed = [&mapping](const Chart_distortion& distortion) {
-    return !mapping.is_bounded || distortion.is_within(mapping.bound) || !mapping.has_time();
+  const auto is_allowed = [&](const Chart_distortion& distortion) {
+    return !mapping.is_bounded || distortion.is_within(result.bound) || !mapping.has_time();
   };
+  if(mesh.triangles.size() >= mapping.least_rough_faces && !is_allowed(result.report.distortion))
+    result.bound = higher_bound(bound, rough_bound(mesh, mapping.parameterize, mapping.bound));
   if(mapping.may_stretch && mapping.has_time()
-     && is_worth_stretching(result.report.distortion, mapping.bound)) {
+     && is_worth_stretching(result.report.distortion, result.bound)) {
     const std::vector<Point_2> uv = stretch_map(mesh, [&mapping](double) { return mapping.has_time(); });
     const Chart_distortion distortion
       = uv.empty() ? result.report.distortion : measure_chart_distortion(mesh, uv);
-    if(distortion.is_within(mapping.bound)) {
+    if(distortion.is_within(result.bound)) {
       result.uv = uv;
       result.report.distortion = distortion;
     }
@@ -188,44 +195,25 @@ inline Mapped_chart map_chart(Chart_mesh chart, const Chart_mapping& mapping)
   result.report.is_one_to_one
     = left.first == 0 && Surface_mesh_parameterization::is_simple_border(border, result.uv);
   result.is_valid = result.report.is_one_to_one && is_allowed(result.report.distortion);
+  result.report.is_rough = mapping.is_bounded && !result.report.distortion.is_within(mapping.bound)
+                        && result.report.distortion.is_within(result.bound);
   return result;
 }
 
-// Cuts off a disk with half of the triangles, in the order of their distance across edges from the
-// first one; what is left may be in several pieces. The last resort: it always gives smaller
-// charts. Precondition: two triangles or more.
+// Cuts off a disk with half of the triangles; what is left may be in several pieces. The last resort: it
+// always gives smaller charts. Precondition: two triangles or more.
 inline Face_charts halve_chart(const Indexed_triangle_mesh& mesh)
 {
-  const std::size_t half = mesh.triangles.size() / 2;
   const Triangle_adjacency adjacency(mesh.triangles);
-  std::vector<std::uint32_t> label(mesh.triangles.size(), 0), disk = {0};
-  std::vector<bool> has_vertex(mesh.points.size(), false);
-  const auto add = [&](std::uint32_t t) {
+  std::vector<std::uint32_t> label(mesh.triangles.size(), 0);
+  for(const Triangle_index t : disk_around(mesh, adjacency, 0, mesh.triangles.size() / 2))
     label[t] = 1;
-    for(const Vertex_index v : mesh.triangles[t])
-      has_vertex[v] = true;
-  };
-  add(0);
-  for(std::size_t i = 0; i < disk.size() && disk.size() < half; ++i)
-    for(int c = 0; c < 3 && disk.size() < half; ++c) {
-      const Halfedge h = adjacency.opposite(disk[i], c);
-      if(h == no_halfedge || label[triangle_of(h)] == 1)
-        continue;
-      int shared = 0; // edges with the disk: with one of them the vertex across must be new
-      for(int d = 0; d < 3; ++d) {
-        const Halfedge g = adjacency.opposite(triangle_of(h), d);
-        shared += g != no_halfedge && label[triangle_of(g)] == 1 ? 1 : 0;
-      }
-      if(shared == 3 || (shared == 1 && has_vertex[vertex_of(mesh.triangles, previous_halfedge(h))]))
-        continue;
-      add(triangle_of(h));
-      disk.push_back(triangle_of(h));
-    }
   return charts_of_labels(adjacency, label);
 }
 
-// Maps charts side by side, the largest ones first.
+// Maps charts side by side, the largest ones first, within a bound for each.
 inline std::vector<Mapped_chart> map_each(std::vector<Chart_mesh> charts,
+                                          const std::vector<Distortion_bound>& bounds,
                                           const Chart_mapping& mapping)
 {
   std::vector<Mapped_chart> result(charts.size());
@@ -235,7 +223,7 @@ inline std::vector<Mapped_chart> map_each(std::vector<Chart_mesh> charts,
     return charts[i].mesh.triangles.size() > charts[j].mesh.triangles.size();
   });
   Blocked_execution::blocked_for(order.size(), 1, [&](std::size_t i, std::size_t) {
-    result[order[i]] = map_chart(std::move(charts[order[i]]), mapping);
+    result[order[i]] = map_chart(std::move(charts[order[i]]), bounds[order[i]], mapping);
   });
   return result;
 }
@@ -249,8 +237,8 @@ inline std::vector<Chart_mesh> cut_again(const Mapped_chart& mapped,
   constexpr std::size_t coarse_faces = 1500;
   const Chart_mesh& chart = mapped.chart;
   Chart_growth_options growth;
-  growth.bound = mapping.bound;
-  growth.bound.area_scale = (std::max)(1.1, margin * mapping.bound.area_scale);
+  growth.bound = mapped.bound;
+  growth.bound.area_scale = (std::max)(1.1, margin * mapped.bound.area_scale);
   growth.least_charts = 2;
   growth.least_fill = mapping.least_fill;
   growth.may_stretch = mapping.may_stretch;
@@ -282,10 +270,12 @@ inline std::vector<Mapped_chart> map_charts(std::vector<Chart_mesh> charts,
                                             std::size_t& recut)
 {
   std::vector<Mapped_chart> done;
+  std::vector<Distortion_bound> bounds(charts.size(), mapping.bound);
   recut = 0;
   for(int round = 0; !charts.empty(); ++round) {
-    std::vector<Mapped_chart> mapped = map_each(std::move(charts), mapping);
+    std::vector<Mapped_chart> mapped = map_each(std::move(charts), bounds, mapping);
     charts.clear();
+    bounds.clear();
     std::vector<std::vector<Chart_mesh>> parts(mapped.size());
     Blocked_execution::blocked_for(mapped.size(), 1, [&](std::size_t begin, std::size_t end) {
       for(std::size_t i = begin; i < end; ++i)
@@ -294,6 +284,7 @@ inline std::vector<Mapped_chart> map_charts(std::vector<Chart_mesh> charts,
     });
     for(std::size_t i = 0; i < mapped.size(); ++i) {
       recut += round == 0 && !mapped[i].is_valid ? 1 : 0;
+      bounds.insert(bounds.end(), parts[i].size(), mapped[i].bound);
       if(mapped[i].is_valid)
         done.push_back(std::move(mapped[i]));
       std::move(parts[i].begin(), parts[i].end(), std::back_inserter(charts));

@@ -338,6 +338,8 @@ inline std::vector<Mapped_chart> Page_filler::parts_of(const Chart_cut& cut,
     const bool is_allowed = !m_mapping.is_bounded || !before.is_within(m_mapping.bound)
                          || part.report.distortion.is_within(m_mapping.bound);
     if(is_allowed) {
+      part.report.is_rough
+        = whole.report.is_rough && !part.report.distortion.is_within(m_mapping.bound);
       result.push_back(std::move(part));
       continue;
     }
