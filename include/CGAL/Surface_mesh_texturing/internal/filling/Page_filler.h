@@ -335,11 +335,9 @@ inline std::vector<Mapped_chart> Page_filler::parts_of(const Chart_cut& cut,
     if(side.empty())
       return {};
     Mapped_chart part = part_of(whole, adjacency, side);
-    const bool is_allowed = !m_mapping.is_bounded || !before.is_within(m_mapping.bound)
-                         || part.report.distortion.is_within(m_mapping.bound);
-    if(is_allowed) {
-      part.report.is_rough
-        = whole.report.is_rough && !part.report.distortion.is_within(m_mapping.bound);
+    const bool is_within = part.report.distortion.is_within(m_mapping.bound);
+    part.report.is_rough = whole.report.is_rough && !is_within;
+    if(is_within || !m_mapping.is_bounded || !before.is_within(m_mapping.bound)) {
       result.push_back(std::move(part));
       continue;
     }
