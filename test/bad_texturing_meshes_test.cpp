@@ -26,6 +26,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace bad_texturing_meshes_test {
@@ -205,14 +206,25 @@ struct Repacking_door : Textured_door<Needs::TRIANGLES>
   }
 };
 
+struct Fine_and_light_door : Textured_door<Needs::ARRAYS>
+{
+  // A mesh as the one that is said, and a good one as the other.
+  static std::pair<Textured_triangle_mesh, Textured_triangle_mesh>
+  fine_and_light(Which bad, const Textured_triangle_mesh& mesh)
+  {
+    if(bad == Which::FINE)
+      return {mesh, good()};
+    return {good(), mesh};
+  }
+};
+
 // Bakes at equal texture coordinates.
 template <Which Bad>
-struct Baking_door : Textured_door<Needs::ARRAYS>
+struct Baking_door : Fine_and_light_door
 {
   static Mesh_outcome outcome_of(const Textured_triangle_mesh& mesh)
   {
-    const Textured_triangle_mesh& fine = Bad == Which::FINE ? mesh : good();
-    const Textured_triangle_mesh& light = Bad == Which::FINE ? good() : mesh;
+    const auto [fine, light] = fine_and_light(Bad, mesh);
     const Mesh_outcome result = SMT::bake_normal_map(fine, light, small_image());
     const std::vector<float> values(fine.points.size(), 1.f);
     for(const Mesh_outcome& other :
@@ -303,12 +315,11 @@ struct Occlusion_door : Door<Needs::ARRAYS>
 };
 
 template <Which Bad>
-struct Rendering_door : Textured_door<Needs::ARRAYS>
+struct Rendering_door : Fine_and_light_door
 {
   static Mesh_outcome outcome_of(const Textured_triangle_mesh& mesh)
   {
-    const Textured_triangle_mesh& fine = Bad == Which::FINE ? mesh : good();
-    const Textured_triangle_mesh& light = Bad == Which::FINE ? good() : mesh;
+    const auto [fine, light] = fine_and_light(Bad, mesh);
     const SMT::Tangent_frames frames
       = SMT::tangent_frames(light, SMT::vertex_normals(light)); // no signal
     return SMT::rendering_error(fine, light, frames, white, SMT::Normal_space::TANGENT, 8);

@@ -277,6 +277,16 @@ public:
   template <class IsOpen>
   Chart_mesh operator()(std::vector<Triangle_index> triangles, const IsOpen& is_open);
 
+  // The chart of the triangles, which are ascending and stay together wherever they meet.
+  Chart_mesh operator()(const std::vector<Triangle_index>& triangles)
+  {
+    return (*this)(triangles, [&](Halfedge h) {
+      const Halfedge o = m_adjacency.opposite(h);
+      return o != no_halfedge
+          && std::binary_search(triangles.begin(), triangles.end(), triangle_of(o));
+    });
+  }
+
 private:
   const Indexed_triangle_mesh& m_mesh;
   const Adjacency& m_adjacency;

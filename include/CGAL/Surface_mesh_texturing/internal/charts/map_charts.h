@@ -94,18 +94,6 @@ inline std::vector<Point_2> lay_out_triangle(const Indexed_triangle_mesh& mesh)
   return uv;
 }
 
-// Scales a map so that its area is that of the surface. False if it has no area.
-inline bool scale_to_surface(Chart_distortion& distortion, std::vector<Point_2>& uv)
-{
-  const double scale = std::sqrt(distortion.area / distortion.uv_area);
-  if(!(scale > 0.) || !std::isfinite(scale))
-    return false;
-  for(Point_2& p : uv)
-    p = Point_2(scale * p.x(), scale * p.y());
-  distortion.uv_area *= scale * scale;
-  return true;
-}
-
 inline double border_length(const Indexed_triangle_mesh& mesh,
                             const std::vector<Border_edge>& border)
 {

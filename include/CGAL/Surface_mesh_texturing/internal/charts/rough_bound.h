@@ -19,6 +19,18 @@ namespace internal {
 typedef Simple_cartesian<double>::Point_2 Point_2;
 typedef std::function<std::vector<Point_2>(const Indexed_triangle_mesh&)> Chart_map;
 
+// Scales a map so that its area is that of the surface. False if it has no area.
+inline bool scale_to_surface(Chart_distortion& distortion, std::vector<Point_2>& uv)
+{
+  const double scale = std::sqrt(distortion.area / distortion.uv_area);
+  if(!(scale > 0.) || !std::isfinite(scale))
+    return false;
+  for(Point_2& p : uv)
+    p = Point_2(scale * p.x(), scale * p.y());
+  distortion.uv_area *= scale * scale;
+  return true;
+}
+
 // Some triangles around the first one, ascending, that form a disk: those nearest to it across edges, of
 // which there are up to `size`.
 inline std::vector<Triangle_index> disk_around(const Indexed_triangle_mesh& mesh,
@@ -61,23 +73,17 @@ inline Chart_distortion distortion_of_disks(const Indexed_triangle_mesh& mesh, c
   Indexed_triangle_mesh all;
   std::vector<Point_2> all_uv;
   for(std::size_t i = 0; i < disks; ++i) {
-    const std::vector<Triangle_index> disk = disk_around(
-      mesh, adjacency, Triangle_index(i * mesh.triangles.size() / disks), size);
-    const Chart_mesh chart = cut_out(disk, [&](Halfedge h) {
-      const Halfedge o = adjacency.opposite(h);
-      return o != no_halfedge && std::binary_search(disk.begin(), disk.end(), triangle_of(o));
-    });
-    const std::vector<Point_2> uv = map(chart.mesh);
+    const Chart_mesh chart = cut_out(disk_around(
+      mesh, adjacency, Triangle_index(i * mesh.triangles.size() / disks), size));
+    std::vector<Point_2> uv = map(chart.mesh);
     if(uv.size() != chart.mesh.points.size())
       continue;
-    const Chart_distortion distortion = measure_chart_distortion(chart.mesh, uv);
-    const double scale = std::sqrt(distortion.area / distortion.uv_area);
-    if(!(scale > 0.) || !std::isfinite(scale))
+    Chart_distortion distortion = measure_chart_distortion(chart.mesh, uv);
+    if(!scale_to_surface(distortion, uv))
       continue;
     const Vertex_index offset = Vertex_index(all.points.size());
     all.points.insert(all.points.end(), chart.mesh.points.begin(), chart.mesh.points.end());
-    for(const Point_2& p : uv)
-      all_uv.emplace_back(scale * p.x(), scale * p.y());
+    all_uv.insert(all_uv.end(), uv.begin(), uv.end());
     for(const Triangle_indices& t : chart.mesh.triangles)
       all.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
   }

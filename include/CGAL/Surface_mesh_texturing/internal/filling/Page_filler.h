@@ -290,15 +290,8 @@ inline std::vector<Triangle_index> left_of(const std::vector<Vertex_index>& path
 inline Mapped_chart part_of(const Mapped_chart& whole, const Triangle_adjacency& adjacency,
                             const std::vector<Triangle_index>& triangles)
 {
-  std::vector<bool> is_in(whole.chart.mesh.triangles.size(), false);
-  for(const Triangle_index t : triangles)
-    is_in[t] = true;
-  Chart_cutter<Triangle_adjacency> cut_out(whole.chart.mesh, adjacency);
   Mapped_chart result;
-  result.chart = cut_out(triangles, [&](Halfedge h) {
-    const Halfedge opposite = adjacency.opposite(h);
-    return opposite != no_halfedge && is_in[triangle_of(h)] == is_in[triangle_of(opposite)];
-  });
+  result.chart = Chart_cutter<Triangle_adjacency>(whole.chart.mesh, adjacency)(triangles);
   for(Vertex_index& v : result.chart.vertices) {
     result.uv.push_back(whole.uv[v]);
     v = whole.chart.vertices[v];
