@@ -18,7 +18,8 @@ file(CONFIGURE OUTPUT ${source} @ONLY CONTENT "#define CGAL_HLSCM_SOURCE
 #include <CGAL/Surface_mesh_parameterization/map_very_large_chart.h>
 #endif
 #include <CGAL/Surface_mesh_parameterization/repair_flipped_faces.h>
-#include <CGAL/Surface_mesh_texturing/build_texture_atlas.h>
+#include <CGAL/Surface_mesh_texturing/equal_parts.h>
+#include <CGAL/Surface_mesh_texturing/repack_texture_atlas.h>
 ")
 add_library(HLSCM_compiled STATIC ${source})
 add_library(CGAL::HLSCM_compiled ALIAS HLSCM_compiled)

@@ -8,6 +8,7 @@
 #include <support/texture_atlas_properties.h>
 
 #include <CGAL/Surface_mesh_texturing/build_texture_atlas.h>
+#include <CGAL/Surface_mesh_texturing/internal/filling/Page_filler.h>
 
 #include <gtest/gtest.h>
 

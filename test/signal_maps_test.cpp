@@ -11,6 +11,7 @@
 #include <CGAL/Surface_mesh_parameterization/conformal_map.h>
 #include <CGAL/Surface_mesh_parameterization/parameterize.h>
 #include <CGAL/Surface_mesh_texturing/build_texture_atlas.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/adapt_chart.h>
 #include <CGAL/Surface_mesh_texturing/map_surface.h>
 
 #include <Eigen/SparseCholesky>

@@ -10,6 +10,7 @@
 #include <support/texturing_options.h>
 
 #include <CGAL/Surface_mesh_texturing/build_texture_atlas.h>
+#include <CGAL/Surface_mesh_texturing/internal/packing/whole_texels.h>
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,11 @@
 #define CGAL_SURFACE_MESH_TEXTURING_RASTER_PACKER_H
 
 #include <CGAL/Blocked_execution/compile_once.h>
+#include <CGAL/Surface_mesh_texturing/Chart_packing.h>
+#ifdef CGAL_HLSCM_DEFINITIONS
 #include <CGAL/Surface_mesh_texturing/internal/packing/Raster_packing_search.h>
 #include <CGAL/Surface_mesh_texturing/internal/packing/keep_axes.h>
+#endif
 
 #include <vector>
 

@@ -33,6 +33,15 @@ const Model& model_or_default(const Model& model)
   return model;
 }
 
+// `pack_charts()` by a packer, which must live as long.
+template <class Packer>
+Pack_function packing_by(const Packer& packer)
+{
+  return [&packer](const std::vector<Chart_shape>& charts, const Packing_options& options) {
+    return pack_charts(charts, options, packer);
+  };
+}
+
 } // namespace internal
 
 /*!
@@ -87,9 +96,7 @@ Texture_atlas_result build_texture_atlas(const Indexed_triangle_mesh& mesh,
   models.is_for_any_mesh = Used_segmenter::Is_for_any_mesh::value;
   models.is_own = std::is_same<Used_segmenter, Chart_growth_segmenter>::value;
   models.parameterize = [&](const Indexed_triangle_mesh& chart) { return used_parameterizer(chart); };
-  models.pack = [&](const std::vector<Chart_shape>& charts, const Packing_options& o) {
-    return pack_charts(charts, o, used_packer);
-  };
+  models.pack = internal::packing_by(used_packer);
   return internal::build_atlas(mesh, options, models);
 }
 

@@ -7,8 +7,10 @@
 #include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 #include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Surface_mesh_texturing/Texture_atlas.h>
+#ifdef CGAL_HLSCM_DEFINITIONS
 #include <CGAL/Surface_mesh_texturing/internal/mapped_charts/Mirror_finder.h>
 #include <CGAL/Surface_mesh_texturing/internal/mapped_charts/Part_matcher.h>
+#endif
 
 #include <algorithm>
 #include <array>
@@ -66,6 +68,7 @@ struct Equal_parts
   }
 };
 
+#ifdef CGAL_HLSCM_DEFINITIONS
 namespace internal {
 
 // The components of a surface, in the order of their first triangles; sets the component of each
@@ -156,6 +159,7 @@ inline void part_halves(const std::vector<Triangle_match>& half, std::vector<Tri
 }
 
 } // namespace internal
+#endif // CGAL_HLSCM_DEFINITIONS
 
 /*!
 \ingroup PkgHLSCMTexturing
@@ -176,8 +180,13 @@ several that do it, that with the shortest cut is taken.
 
 Expected time \f$ O(n \log n) \f$, for parts of few symmetries.
 */
-inline Equal_parts find_equal_parts(const Indexed_triangle_mesh& mesh, double tolerance = 1e-4,
-                                    Mirror_halves halves = Mirror_halves::TOGETHER)
+CGAL_HLSCM_INLINE Equal_parts find_equal_parts(const Indexed_triangle_mesh& mesh,
+                                               double tolerance = 1e-4,
+                                               Mirror_halves halves = Mirror_halves::TOGETHER);
+
+#ifdef CGAL_HLSCM_DEFINITIONS
+CGAL_HLSCM_INLINE Equal_parts find_equal_parts(const Indexed_triangle_mesh& mesh, double tolerance,
+                                               Mirror_halves halves)
 {
   constexpr std::size_t least_triangles = 32; // of what is worth a seam
   Equal_parts result;
@@ -238,6 +247,7 @@ inline Equal_parts find_equal_parts(const Indexed_triangle_mesh& mesh, double to
   internal::fill_representatives(mesh, result);
   return result;
 }
+#endif
 
 namespace internal {
 

@@ -8,7 +8,9 @@
 #include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Surface_mesh_texturing/Chart_distortion.h>
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
+#ifdef CGAL_HLSCM_DEFINITIONS
 #include <CGAL/Surface_mesh_texturing/internal/charts/Chart_search.h>
+#endif
 
 #include <algorithm>
 #include <cmath>
@@ -78,6 +80,12 @@ struct Chart_growth_result
 
 namespace internal {
 
+// `grow_charts()`
+CGAL_HLSCM_INLINE Chart_growth_result grow_charts_of(const Indexed_triangle_mesh& mesh,
+                                                     const Chart_growth_options& options);
+
+#ifdef CGAL_HLSCM_DEFINITIONS
+
 inline Mesh_outcome growth_error(const Indexed_triangle_mesh& mesh,
                                  const Chart_growth_options& options)
 {
@@ -121,6 +129,49 @@ inline Chart_growth_result growth_result(const Indexed_triangle_mesh& mesh,
   return result;
 }
 
+CGAL_HLSCM_INLINE Chart_growth_result grow_charts_of(const Indexed_triangle_mesh& mesh,
+                                                     const Chart_growth_options& options)
+{
+  Chart_growth_result result;
+  if(result.fail(growth_error(mesh, options)))
+    return result;
+  std::vector<float> occlusion;
+  if(options.occlusion)
+    occlusion = options.occlusion(mesh);
+  if(!occlusion.empty() && occlusion.size() != mesh.points.size()) {
+    result.fail(Mesh_status::BAD_OPTIONS, "there are ambient occlusions of "
+                                            + std::to_string(occlusion.size()) + " vertices for "
+                                            + std::to_string(mesh.points.size()));
+    return result;
+  }
+  const Growth_surface surface(mesh, occlusion);
+  if(!(surface.scale > 0.)) {
+    result.fail(Mesh_status::BAD_MESH, Indexed_mesh::no_extent_error);
+    return result;
+  }
+  Search_options search;
+  search.bound = part_of(options.bound, options.bound_part);
+  search.least_charts = (std::max)(options.least_charts, std::size_t(1));
+  search.max_charts = options.max_charts;
+  search.feature_angle = options.feature_angle * CGAL_PI / 180.;
+  search.least_fill = options.least_fill;
+  search.patch_size = (std::max)(options.patch_size, std::size_t(1));
+  search.may_stretch = options.may_stretch;
+  search.effort = options.effort;
+  search.is_enough = options.is_enough;
+  search.progress = options.progress;
+  Chart_search growth(surface, search);
+  if(!growth.run()) {
+    result.cancel();
+    return result;
+  }
+  result = growth_result(mesh, growth.best().graph, options.bound, options.may_stretch);
+  result.occlusion = std::move(occlusion);
+  return result;
+}
+
+#endif // CGAL_HLSCM_DEFINITIONS
+
 } // namespace internal
 
 /*!
@@ -150,42 +201,7 @@ Chart_growth_result grow_charts(const Indexed_triangle_mesh& mesh,
                                 const Chart_growth_options& options = Chart_growth_options())
 {
   const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
-  Chart_growth_result result;
-  if(result.fail(internal::growth_error(mesh, options)))
-    return result;
-  std::vector<float> occlusion;
-  if(options.occlusion)
-    occlusion = options.occlusion(mesh);
-  if(!occlusion.empty() && occlusion.size() != mesh.points.size()) {
-    result.fail(Mesh_status::BAD_OPTIONS, "there are ambient occlusions of "
-                                            + std::to_string(occlusion.size()) + " vertices for "
-                                            + std::to_string(mesh.points.size()));
-    return result;
-  }
-  const internal::Growth_surface surface(mesh, occlusion);
-  if(!(surface.scale > 0.)) {
-    result.fail(Mesh_status::BAD_MESH, Indexed_mesh::no_extent_error);
-    return result;
-  }
-  internal::Search_options search;
-  search.bound = internal::part_of(options.bound, options.bound_part);
-  search.least_charts = (std::max)(options.least_charts, std::size_t(1));
-  search.max_charts = options.max_charts;
-  search.feature_angle = options.feature_angle * CGAL_PI / 180.;
-  search.least_fill = options.least_fill;
-  search.patch_size = (std::max)(options.patch_size, std::size_t(1));
-  search.may_stretch = options.may_stretch;
-  search.effort = options.effort;
-  search.is_enough = options.is_enough;
-  search.progress = options.progress;
-  internal::Chart_search growth(surface, search);
-  if(!growth.run()) {
-    result.cancel();
-    return result;
-  }
-  result = internal::growth_result(mesh, growth.best().graph, options.bound, options.may_stretch);
-  result.occlusion = std::move(occlusion);
-  return result;
+  return internal::grow_charts_of(mesh, options);
 }
 
 } // namespace Surface_mesh_texturing

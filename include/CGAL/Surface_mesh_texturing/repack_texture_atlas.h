@@ -7,7 +7,9 @@
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_texturing/Texture_defect.h>
 #include <CGAL/Surface_mesh_texturing/build_texture_atlas.h>
+#ifdef CGAL_HLSCM_DEFINITIONS
 #include <CGAL/Surface_mesh_texturing/internal/mapped_charts/given_maps.h>
+#endif
 
 #include <cstdint>
 #include <optional>
@@ -32,6 +34,26 @@ struct Repacked_atlas_result
 
 namespace internal {
 
+// `repack_texture_atlas()` by this packer.
+CGAL_HLSCM_INLINE Repacked_atlas_result
+repack_atlas(const Textured_triangle_mesh& mesh, const Texture_atlas_options& options,
+             const Repacking_options& repacking, const Pack_function& pack);
+
+// The atlas with those charts turned over that are mirrored.
+inline Texture_atlas with_all_upright(Texture_atlas atlas, const std::vector<Chart_report>& charts)
+{
+  std::vector<std::uint8_t> is_done(atlas.mesh.uv.size(), 0);
+  for(std::size_t t = 0; t < atlas.mesh.wedges.size(); ++t)
+    for(const Vertex_index w : atlas.mesh.wedges[t])
+      if(charts[atlas.charts.chart[t]].is_mirrored && is_done[w] == 0) {
+        atlas.mesh.uv[w] = {1. - atlas.mesh.uv[w].x(), atlas.mesh.uv[w].y()};
+        is_done[w] = 1;
+      }
+  return atlas;
+}
+
+#ifdef CGAL_HLSCM_DEFINITIONS
+
 // Two triangles of one chart with different page sets: what is kept as it is cannot lie on the
 // pages of two. Nothing for sets of another number of triangles.
 inline std::optional<std::pair<std::size_t, std::size_t>>
@@ -51,18 +73,52 @@ chart_between_sets(const Textured_triangle_mesh& mesh, const std::vector<std::ui
   return std::nullopt;
 }
 
-// The atlas with those charts turned over that are mirrored.
-inline Texture_atlas with_all_upright(Texture_atlas atlas, const std::vector<Chart_report>& charts)
+CGAL_HLSCM_INLINE Repacked_atlas_result
+repack_atlas(const Textured_triangle_mesh& mesh, const Texture_atlas_options& options,
+             const Repacking_options& repacking, const Pack_function& pack)
 {
-  std::vector<std::uint8_t> is_done(atlas.mesh.uv.size(), 0);
-  for(std::size_t t = 0; t < atlas.mesh.wedges.size(); ++t)
-    for(const Vertex_index w : atlas.mesh.wedges[t])
-      if(charts[atlas.charts.chart[t]].is_mirrored && is_done[w] == 0) {
-        atlas.mesh.uv[w] = Point_2(1. - atlas.mesh.uv[w].x(), atlas.mesh.uv[w].y());
-        is_done[w] = 1;
-      }
-  return atlas;
+  Repacked_atlas_result result;
+  const Indexed_triangle_mesh surface = {mesh.points, mesh.triangles};
+  if(result.fail(Mesh_status::BAD_OPTIONS, packing_options_error(options.packing))
+     || result.fail(Mesh_status::BAD_MESH, surface_error(surface))
+     || result.fail(Mesh_status::BAD_MESH, texture_error(mesh)))
+    return result;
+  result.chart_between_sets = chart_between_sets(mesh, options.page_set);
+  if(result.chart_between_sets) {
+    const auto [first, second] = *result.chart_between_sets;
+    result.fail(Mesh_status::BAD_OPTIONS,
+                "triangle " + std::to_string(first) + " and triangle " + std::to_string(second)
+                + " are in one chart, but in different sets of pages");
+    return result;
+  }
+  Texture_atlas_options used = options;
+  used.metric.clear();
+  used.has_smooth_seams = false;
+  Atlas_models models;
+  models.is_own = models.is_bounded = false;
+  models.pack = pack;
+  models.take_maps = [&](const Indexed_triangle_mesh& m, const Triangle_adjacency& adjacency,
+                         Mesh_outcome& outcome) {
+    auto maps = given_maps(m, adjacency, mesh, repacking, result.defects);
+    if(maps.empty() && !result.defects.empty())
+      outcome.fail(Mesh_status::BAD_MESH, sentence_on(result.defects[0], [](std::uint32_t t) {
+                     return "triangle " + std::to_string(t);
+                   }));
+    return maps;
+  };
+  static_cast<Texture_atlas_result&>(result) = build_atlas(surface, used, models);
+  for(const Chart_report& chart : result.report.charts)
+    result.mirrored_charts += chart.is_mirrored ? 1 : 0;
+  if(result.mirrored_charts > 0) {
+    const Texture_atlas upright = with_all_upright(result.atlas, result.report.charts);
+    measure_atlas(upright, result.report);
+    result.report.texels
+      = measure_texels(upright.mesh, upright.charts, upright.width, upright.height);
+  }
+  return result;
 }
+
+#endif // CGAL_HLSCM_DEFINITIONS
 
 } // namespace internal
 
@@ -99,49 +155,8 @@ Repacked_atlas_result repack_texture_atlas(const Textured_triangle_mesh& mesh,
                                            const Packer& packer = Packer())
 {
   const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
-  const auto& used_packer = internal::model_or_default<Raster_packer>(packer);
-  Repacked_atlas_result result;
-  const Indexed_triangle_mesh surface = {mesh.points, mesh.triangles};
-  if(result.fail(Mesh_status::BAD_OPTIONS, internal::packing_options_error(options.packing))
-     || result.fail(Mesh_status::BAD_MESH, surface_error(surface))
-     || result.fail(Mesh_status::BAD_MESH, texture_error(mesh)))
-    return result;
-  result.chart_between_sets = internal::chart_between_sets(mesh, options.page_set);
-  if(result.chart_between_sets) {
-    const auto [first, second] = *result.chart_between_sets;
-    result.fail(Mesh_status::BAD_OPTIONS,
-                "triangle " + std::to_string(first) + " and triangle " + std::to_string(second)
-                + " are in one chart, but in different sets of pages");
-    return result;
-  }
-  Texture_atlas_options used = options;
-  used.metric.clear();
-  used.has_smooth_seams = false;
-  internal::Atlas_models models;
-  models.is_own = models.is_bounded = false;
-  models.pack = [&](const std::vector<Chart_shape>& charts, const Packing_options& o) {
-    return pack_charts(charts, o, used_packer);
-  };
-  models.take_maps = [&](const Indexed_triangle_mesh& m, const Triangle_adjacency& adjacency,
-                         Mesh_outcome& outcome) {
-    auto maps = internal::given_maps(m, adjacency, mesh, repacking, result.defects);
-    if(maps.empty() && !result.defects.empty())
-      outcome.fail(Mesh_status::BAD_MESH, sentence_on(result.defects[0], [](std::uint32_t t) {
-                     return "triangle " + std::to_string(t);
-                   }));
-    return maps;
-  };
-  static_cast<Texture_atlas_result&>(result) = internal::build_atlas(surface, used, models);
-  for(const Chart_report& chart : result.report.charts)
-    result.mirrored_charts += chart.is_mirrored ? 1 : 0;
-  if(result.mirrored_charts > 0) {
-    const Texture_atlas upright
-      = internal::with_all_upright(result.atlas, result.report.charts);
-    internal::measure_atlas(upright, result.report);
-    result.report.texels
-      = measure_texels(upright.mesh, upright.charts, upright.width, upright.height);
-  }
-  return result;
+  return internal::repack_atlas(mesh, options, repacking,
+                                internal::packing_by(internal::model_or_default<Raster_packer>(packer)));
 }
 
 } // namespace Surface_mesh_texturing

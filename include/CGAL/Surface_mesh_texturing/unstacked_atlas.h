@@ -29,9 +29,9 @@ inline Textured_triangle_mesh upright_texture(const Equal_parts& parts,
     const bool is_mirrored = (corner[0] + 1) % 3 != corner[1];
     for(const Vertex_index w : result.wedges[t])
       if(std::exchange(is_done[w], std::uint8_t(1)) == 0) {
-        const Point_2& p = result.uv[w];
-        result.uv[w] = Point_2((is_mirrored ? -1. - p.x() : p.x()) * double(stacked.width),
-                               p.y() * double(stacked.height));
+        const auto p = result.uv[w];
+        result.uv[w] = {(is_mirrored ? -1. - p.x() : p.x()) * double(stacked.width),
+                        p.y() * double(stacked.height)};
       }
   }
   return result;

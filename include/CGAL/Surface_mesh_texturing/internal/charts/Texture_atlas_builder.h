@@ -8,13 +8,15 @@
 #include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Surface_mesh_texturing/Chart_packing.h>
 #include <CGAL/Surface_mesh_texturing/Chart_segmenters.h>
+#ifdef CGAL_HLSCM_DEFINITIONS
 #include <CGAL/Surface_mesh_texturing/internal/charts/adapt_chart.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/map_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/filling/Filled_packing.h>
 #include <CGAL/Surface_mesh_texturing/internal/filling/page_sets.h>
-#include <CGAL/Surface_mesh_texturing/internal/packing/whole_texels.h>
 #include <CGAL/Surface_mesh_texturing/internal/mapped_charts/align_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/mapped_charts/straighten_borders.h>
+#include <CGAL/Surface_mesh_texturing/internal/packing/whole_texels.h>
+#endif
 
 #include <array>
 #include <atomic>
@@ -30,6 +32,11 @@ namespace CGAL {
 namespace Surface_mesh_texturing {
 namespace internal {
 
+struct Mapped_chart;
+
+typedef std::function<Packing_result(const std::vector<Chart_shape>&, const Packing_options&)>
+  Pack_function;
+
 // What finds, maps and packs the charts of an atlas. The types of the models end here: what follows
 // is compiled once.
 struct Atlas_models
@@ -39,13 +46,15 @@ struct Atlas_models
   bool is_bounded = true;      // ChartSegmenter::Is_bounded
   bool is_for_any_mesh = true; // ChartSegmenter::Is_for_any_mesh
   bool is_own = true;          // the default segmenter, which checks meshes and cuts charts to disks
-  std::function<std::vector<Point_2>(const Indexed_triangle_mesh&)> parameterize;
-  std::function<Packing_result(const std::vector<Chart_shape>&, const Packing_options&)> pack;
+  std::function<std::vector<Chart_shape::Point_2>(const Indexed_triangle_mesh&)> parameterize;
+  Pack_function pack;
   // Charts with maps that are there already, in the place of what segments and parameterizes.
   std::function<std::vector<Mapped_chart>(const Indexed_triangle_mesh&, const Triangle_adjacency&,
                                           Mesh_outcome&)>
     take_maps;
 };
+
+#ifdef CGAL_HLSCM_DEFINITIONS
 
 // Measures the whole atlas, in texels.
 inline void measure_atlas(const Texture_atlas& atlas, Texture_atlas_report& report)
@@ -72,8 +81,6 @@ inline void measure_atlas(const Texture_atlas& atlas, Texture_atlas_report& repo
   report.distortion = summary.result();
   report.utilisation = area / (width * height * double(atlas.number_of_pages));
 }
-
-#ifdef CGAL_HLSCM_DEFINITIONS
 
 // The steps of `build_texture_atlas()`.
 class Texture_atlas_builder

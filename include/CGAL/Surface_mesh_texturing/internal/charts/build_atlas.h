@@ -5,7 +5,9 @@
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_BUILD_ATLAS_H
 
 #include <CGAL/Surface_mesh_texturing/internal/charts/Texture_atlas_builder.h>
+#ifdef CGAL_HLSCM_DEFINITIONS
 #include <CGAL/Surface_mesh_texturing/smooth_seams.h>
+#endif
 
 #include <algorithm>
 #include <cmath>

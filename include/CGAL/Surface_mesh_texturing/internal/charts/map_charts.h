@@ -9,6 +9,7 @@
 #include <CGAL/Surface_mesh_parameterization/self_overlap.h>
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
 #include <CGAL/Surface_mesh_texturing/Texture_atlas.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/Chart_state.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/rough_bound.h>
 #include <CGAL/Surface_mesh_texturing/segment_into_charts.h>
 

@@ -4,11 +4,14 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_PRINCIPAL_AXES_H
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_PRINCIPAL_AXES_H
 
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
 
+#ifdef CGAL_HLSCM_DEFINITIONS
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#endif
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +20,14 @@
 namespace CGAL {
 namespace Surface_mesh_texturing {
 namespace internal {
+
+// The mesh about its centre, of an extent of about 1, turned such that its principal axes are those of
+// space: where vertices are sorted along a curve, what is found does not depend then on how a mesh was
+// turned. As it was if it has no extent.
+CGAL_HLSCM_INLINE Indexed_mesh::Indexed_triangle_mesh
+along_principal_axes(Indexed_mesh::Indexed_triangle_mesh mesh);
+
+#ifdef CGAL_HLSCM_DEFINITIONS
 
 // The area of a surface, its centre, and its second moments about that, to the area.
 struct Area_moments
@@ -143,10 +154,7 @@ private:
   Matrix m_axes;
 };
 
-// The mesh about its centre, of an extent of about 1, turned such that its principal axes are those of
-// space: where vertices are sorted along a curve, what is found does not depend then on how a mesh was
-// turned. As it was if it has no extent.
-inline Indexed_mesh::Indexed_triangle_mesh
+CGAL_HLSCM_INLINE Indexed_mesh::Indexed_triangle_mesh
 along_principal_axes(Indexed_mesh::Indexed_triangle_mesh mesh)
 {
   if(!(Indexed_mesh::normalize(mesh) > 0.))
@@ -158,6 +166,8 @@ along_principal_axes(Indexed_mesh::Indexed_triangle_mesh mesh)
   }
   return mesh;
 }
+
+#endif // CGAL_HLSCM_DEFINITIONS
 
 } // namespace internal
 } // namespace Surface_mesh_texturing
