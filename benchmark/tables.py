@@ -489,6 +489,7 @@ ATLAS_OPTIONS = {
     "--seam-price inf": "the fewest charts and shortest seams, to paint on",
     "--seam-price 0.005": "a fuller page for longer seams",
     "--min-used 88": "the fullest page, whatever the seams",
+    "--cutting-time 2": "fewer charts at the same bounds",
     "--packing-time 2": "a fuller page with the same charts",
     "--time-limit 0.3": "many small models, or a first look",
     "--smooth-seams": "straight seams; faces are cut",

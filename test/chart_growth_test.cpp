@@ -259,6 +259,27 @@ TEST(Chart_growth, maps_with_little_stretch_make_fewer_charts)
   }
 }
 
+// A thorough search begins as the other one, takes no step back, and goes on where that ends.
+TEST(Chart_growth, a_thorough_search_finds_no_more_charts)
+{
+  const std::uint64_t seed = 7;
+  Chart_growth_options options;
+  options.effort = 200.;
+  options.bound.area_scale = 2.;
+  for(const auto& [name, mesh] : surfaces(seed)) {
+    SCOPED_TRACE(name + ", seed " + std::to_string(seed));
+    const bool may_be_bad = name.find("zero-area") == 0 || name.find("duplicate") == 0;
+    options.is_thorough = false;
+    const std::size_t usual = grow_charts(mesh, options).charts.number_of_charts;
+    options.is_thorough = true;
+    const Chart_growth_result thorough = grow_charts(mesh, options);
+    EXPECT_EQ(error_of_charts(mesh, thorough, options, may_be_bad), "");
+    EXPECT_LE(thorough.charts.number_of_charts, usual);
+    if(test_support::is_sanitized)
+      break;
+  }
+}
+
 // What can be laid out without distortion is one chart; a sphere has two, by the stereographic
 // projection of hemispheres, whose area scale goes from 1 to 4.
 TEST(Chart_growth, there_are_few_charts)

@@ -322,6 +322,29 @@ TEST(Texture_atlas, is_the_same_for_every_type_of_mesh)
   EXPECT_EQ(atlas_of(polyhedron).second.size(), chart.size()); // of other first corners
 }
 
+TEST(Texture_atlas, has_no_more_charts_if_there_is_time_for_fewer)
+{
+  SMT::Texture_atlas_options options = small_texture();
+  options.bound.area_scale = 1.5;
+  std::size_t usual_charts = 0, charts = 0;
+  for(const Indexed_triangle_mesh& mesh : {sphere(4), with_noise(torus(60, 30), 0.02, seed)}) {
+    options.cutting_time = 0.;
+    const std::size_t usual = SMT::build_texture_atlas(mesh, options).report.charts.size();
+    options.cutting_time = 0.1;
+    const SMT::Texture_atlas_result result = SMT::build_texture_atlas(mesh, options);
+    EXPECT_EQ(error_in_atlas(mesh, result.atlas), "") << seed_text;
+    EXPECT_LE(result.report.charts.size(), usual) << seed_text;
+    usual_charts += usual;
+    charts += result.report.charts.size();
+  }
+  EXPECT_LT(charts, usual_charts) << seed_text;
+  for(const double bad : {-1., std::numeric_limits<double>::infinity(), std::nan("")}) {
+    options.cutting_time = bad;
+    EXPECT_NE(SMT::build_texture_atlas(grid(3, 3), options).error.find("time for cutting"),
+              std::string::npos);
+  }
+}
+
 TEST(Texture_atlas, max_charts_has_precedence_over_the_bound)
 {
   SMT::Texture_atlas_options options = small_texture();

@@ -100,6 +100,7 @@ Built_atlas build_atlas(const Input_surface& surface, const Program_options& opt
   const double share = options.command == Command::BAKE ? share_of_atlas : 1;
   library.seconds = share * options.atlas.time_limit;
   library.has_smooth_seams = options.atlas.has_smooth_seams;
+  library.cutting_time = options.atlas.cutting_time;
   library.packing.time_budget = options.atlas.packing_time;
   library.packing.width = library.packing.height = options.atlas.texture;
   library.largest_aspect = options.atlas.largest_aspect;

@@ -73,6 +73,8 @@ void add_atlas_options(CLI::App& app, Program_options& o)
   add_choice<Packer>(
       app, "--packer", {{"raster", Packer::RASTER}, {"horizon", Packer::HORIZON}}, atlas.packer,
       "raster: charts in any gap where they fit; horizon: from below, as in 2002 (default raster)");
+  add_number(app, "--cutting-time", 0, 1e6, atlas.cutting_time,
+             "seconds to look for fewer charts, on a usual machine (default none)");
   add_number(app, "--packing-time", 0, 1e6, atlas.packing_time,
              "seconds to look for a better packing, on a usual machine (default none)");
   add_choice<Chart_map>(

@@ -13,7 +13,8 @@ namespace {
 void check_layout(const CLI::App& app, const Layout_settings& layout)
 {
   for(const char* other : {"--max-area-scale", "--max-quasi-conformal", "--max-charts", "--charts",
-                           "--one-disk", "--method", "--signal", "--limits", "--seam-price", "--min-used"}) {
+                           "--one-disk", "--method", "--signal", "--limits", "--seam-price", "--min-used",
+                           "--cutting-time"}) {
     if(layout.is_repacked && app.count(other) > 0) {
       throw CLI::ValidationError("--repack", "it keeps the charts and maps of IN, leave "
                                                  + std::string(other) + " out");
@@ -25,9 +26,11 @@ void check_layout(const CLI::App& app, const Layout_settings& layout)
       throw CLI::ValidationError("--method", "low-stretch is for charts with bounds, leave it or "
                                                  + std::string(other) + " out");
     }
-    if(app.count("--min-used") > 0 && app.count(other) > 0) {
-      throw CLI::ValidationError("--min-used", "charts that are given are not cut, leave it or "
-                                                   + std::string(other) + " out");
+    for(const char* search : {"--min-used", "--cutting-time"}) {
+      if(app.count(search) > 0 && app.count(other) > 0) {
+        throw CLI::ValidationError(search, "charts that are given are not cut, leave it or "
+                                               + std::string(other) + " out");
+      }
     }
   }
   if(layout.is_symmetric) {
@@ -68,7 +71,7 @@ void check_target(const CLI::App& app)
   for(const char* other :
       {"--aspect", "--mip-levels", "--max-area-scale", "--max-quasi-conformal", "--max-charts",
        "--seam-price", "--min-used", "--smooth-seams", "--charts", "--one-disk", "--pages",
-       "--packing-time", "--method", "--repack", "--keep-scale", "--density", "--importance", "--hide-seams",
+       "--cutting-time", "--packing-time", "--method", "--repack", "--keep-scale", "--density", "--importance", "--hide-seams",
        "--limits", "--separate", "--align", "--udim", "--symmetric"}) {
     if(app.count(other) > 0) {
       throw CLI::ValidationError("--target", "its texture coordinates are taken as they are, leave "

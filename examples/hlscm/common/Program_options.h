@@ -91,6 +91,7 @@ struct Atlas_settings
   std::string charts;         ///< a file, or "uv"; empty: they are to be found
   bool is_one_disk = false;   ///< one chart for each connected component
   std::size_t pages = 1;      ///< at most
+  double cutting_time = 0;    ///< seconds for fewer charts
   double packing_time = 0;    ///< seconds for better packings
   double time_limit = 0;      ///< seconds for `atlas`, or for all of `bake`; 0: none
   Packer packer = Packer::RASTER;

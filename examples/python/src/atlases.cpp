@@ -125,6 +125,7 @@ Atlas_request to_request(const py::dict& options)
     library.occlusion = [](const Indexed_triangle_mesh& mesh) {
       return SMT::ambient_occlusion<SMT::AABB_tree_ray_caster>(mesh);
     };
+  take(options, "cutting_time", library.cutting_time);
   take(options, "time_limit", library.seconds);
   take_numbers(options, "density", library.density);
   take_numbers(options, "no_seams", library.no_seams);

@@ -23,7 +23,8 @@ namespace Surface_mesh_texturing {
 
 The class `Chart_growth_segmenter` finds few charts within the bound on distortion, the default of
 `build_texture_atlas()`: `segment_into_charts()` on a level of half the triangles of the mesh, at
-least 1000 and at most `Texture_atlas_options::coarse_faces`.
+least 1000 and at most `Texture_atlas_options::coarse_faces`. `Texture_atlas_options::cutting_time` is
+for it.
 
 \cgalModels{ChartSegmenter}
 */
@@ -53,7 +54,7 @@ struct Chart_growth_segmenter
     // The search maps each triangle many times: of fewer triangles, and as many patches, it makes
     // charts as good in less time
     constexpr std::size_t least_faces = 1000, patches = 160, smallest_patch = 8;
-    constexpr double effort = 75.;
+    constexpr double effort = 75., triangles_per_second = 6e5; // those that are mapped
     const std::size_t faces = mesh.triangles.size();
     Segmentation_options segmentation;
     segmentation.coarse_faces
@@ -61,7 +62,8 @@ struct Chart_growth_segmenter
     const std::size_t coarse_faces = (std::min)(faces, segmentation.coarse_faces);
     growth.patch_size
       = (std::min)(growth.patch_size, (std::max)(smallest_patch, coarse_faces / patches));
-    growth.effort = effort;
+    growth.effort = effort + triangles_per_second * options.cutting_time / double(coarse_faces);
+    growth.is_thorough = options.cutting_time > 0.;
     segmentation.no_seams = options.no_seams;
     segmentation.progress = options.progress;
     Segmentation_result result = segment_into_charts(mesh, segmentation, growth);

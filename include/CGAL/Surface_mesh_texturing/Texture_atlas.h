@@ -102,6 +102,11 @@ struct Texture_atlas_options
   /// How many times as wide as high pages may be: their height is that of `packing`, or a half of it, a
   /// quarter and so on, if clearly more of the pages is used then. 1 or less than 2 for no other shape.
   double largest_aspect = 1.;
+  /// Seconds more for the search of charts, for fewer of them within the bound: of one usual processor,
+  /// counted in what is done and not by the clock, so that the atlas is the same on any machine. It is
+  /// also built without them, and the one with fewer charts counts. For a better packing see
+  /// `Packing_options::time_budget`.
+  double cutting_time = 0.;
   /// The seconds after which the atlas is finished in the quickest way that makes it valid: no more
   /// charts are merged, charts beyond the bound stay, those whose maps are not one-to-one are cut in
   /// halves, and the first packing is taken. Half of it is for the search of charts at most. It may

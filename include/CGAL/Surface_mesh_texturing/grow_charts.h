@@ -52,6 +52,9 @@ struct Chart_growth_options
   /// How much is tried to get along with fewer charts: triangles that are mapped for each triangle
   /// of the mesh.
   double effort = 150.;
+  /// Whether the search uses all of this effort: where it finds nothing better any more, it takes more
+  /// charts apart at a time.
+  bool is_thorough = false;
   /// Finds the ambient occlusion of each vertex, in [0, 1], such as `ambient_occlusion()`: seams count
   /// less where the surface hides them; see `Crease_weights::hidden_length`. Nothing by default.
   std::function<std::vector<float>(const Indexed_triangle_mesh&)> occlusion;
@@ -158,6 +161,7 @@ CGAL_HLSCM_INLINE Chart_growth_result grow_charts_of(const Indexed_triangle_mesh
   search.patch_size = (std::max)(options.patch_size, std::size_t(1));
   search.may_stretch = options.may_stretch;
   search.effort = options.effort;
+  search.is_thorough = options.is_thorough;
   search.is_enough = options.is_enough;
   search.progress = options.progress;
   Chart_search growth(surface, search);

@@ -532,7 +532,7 @@ def atlas(vertices: Any, faces: Any = None, /, *, max_charts: int = 0, seam_pric
           least_fill: float = 0.75, method: str = "border-first",
           resolution: Union[int, Tuple[int, int]] = 1024, largest_aspect: float = 1., padding: int = 2,
           mip_levels: int = 0, pages: int = 1, texels_per_unit: float = 0., packer: str = "raster",
-          packing_time: float = 0., density: Optional[ArrayLike] = None,
+          cutting_time: float = 0., packing_time: float = 0., density: Optional[ArrayLike] = None,
           metric: Optional[ArrayLike] = None, charts: Optional[ArrayLike] = None,
           limits: Optional[ArrayLike] = None, separate: Optional[ArrayLike] = None,
           align: bool = False, smooth_seams: bool = False, hide_seams: bool = False,
@@ -555,7 +555,8 @@ def atlas(vertices: Any, faces: Any = None, /, *, max_charts: int = 0, seam_pric
     mip_levels: the coarsest level of the texture that keeps the padding; 2 for a light map.
     pages: how many must do; 0 for as many as needed for texels_per_unit (0: the most that fit).
     packer: "raster", charts in any gap where they fit, or "horizon", from below.
-    packing_time: seconds for better packings, counted so that the result is the same anywhere.
+    cutting_time, packing_time: seconds for fewer charts and for better packings, counted so that the
+        result is the same anywhere.
     density: (m,), the texels that a face is to have along a unit of length, relative to others; see
         image_importance().
     metric: (m, 6), see signal_metric().
@@ -592,7 +593,8 @@ def atlas(vertices: Any, faces: Any = None, /, *, max_charts: int = 0, seam_pric
         "charts": _labels(charts, "charts", back), "limits": _labels(limits, "limits", back),
         "separate": _labels(separate, "separate", back), "align": align,
         "smooth_seams": smooth_seams, "hide_seams": hide_seams, "whole_texels": whole_texels,
-        "stack": stack, "symmetric": symmetric, "time_limit": time_limit}
+        "stack": stack, "symmetric": symmetric, "cutting_time": cutting_time,
+        "time_limit": time_limit}
     made = _hlscm.atlas(vertices, faces, options, threads, progress)
     return _atlas_of(made, vertices, faces, back, full)
 

@@ -91,6 +91,7 @@ struct Search_options
   std::size_t patch_size = 25;
   bool may_stretch = false;
   double effort = 150.;
+  bool is_thorough = false;
   std::function<bool()> is_enough;
   std::function<bool(double)> progress;
 };
@@ -100,7 +101,8 @@ struct Search_options
 class Chart_search
 {
   typedef Chart_state State;
-  static constexpr std::size_t most_neighbors = 4; // one more than are taken apart with a chart
+  static constexpr std::size_t few_neighbors = 4;   // one more than are taken apart with a chart
+  static constexpr std::size_t many_neighbors = 13; // the same when fewer have not helped any more
   static constexpr std::size_t small_size = 500;   // triangles; smaller meshes get more effort
   static constexpr std::size_t most_failures = 8;  // rounds without success in succession
   static constexpr double least_gain = 1e-9;       // of the length of the seams
@@ -137,6 +139,7 @@ private:
   const std::vector<std::uint8_t> m_is_feature;
   Chart_merger m_merger;
   double m_most_work;
+  std::size_t m_neighbors = few_neighbors;
   double m_seam_length = 0.; // of the best charts
   bool m_is_cancelled = false;
   std::optional<State> m_atoms, m_best;
@@ -210,7 +213,7 @@ inline bool Chart_search::improve_around(std::uint32_t c, std::size_t round)
   std::stable_sort(charts.begin(), charts.end(), [&state](std::uint32_t a, std::uint32_t b) {
     return state.pieces[a].area < state.pieces[b].area;
   });
-  charts.resize((std::min)(charts.size(), round % most_neighbors));
+  charts.resize((std::min)(charts.size(), round % m_neighbors));
   charts.push_back(c);
   const std::size_t number_before = state.number_of_charts;
   Chart_changes changes;
@@ -243,6 +246,10 @@ inline void Chart_search::improve()
         is_improved = improve_around(c, round) || is_improved;
     }
     failures = is_improved ? 0 : failures + 1;
+    if(failures == most_failures && m_options.is_thorough && m_neighbors < many_neighbors) {
+      failures = 0;
+      m_neighbors += 3;
+    }
   }
 }
 

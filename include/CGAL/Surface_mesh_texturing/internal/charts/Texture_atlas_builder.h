@@ -188,6 +188,8 @@ inline bool Texture_atlas_builder::check()
     m_result.fail(Mesh_status::BAD_OPTIONS, "the largest aspect of pages is not a number from 1 on");
   if(!std::isfinite(m_options.seconds) || m_options.seconds < 0.)
     m_result.fail(Mesh_status::BAD_OPTIONS, "the limit of time is not a finite number from 0 on");
+  if(!std::isfinite(m_options.cutting_time) || m_options.cutting_time < 0.)
+    m_result.fail(Mesh_status::BAD_OPTIONS, "the time for cutting is not a finite number from 0 on");
   if(m_result.is_ok() && !m_models.is_own)
     m_result.fail(Mesh_status::BAD_MESH, manifold_error(m_mesh));
   return m_result.is_ok();

@@ -41,6 +41,14 @@ inline Segmentation_result charts_of_pieces(const Smooth_seams_result& smooth, s
   return result;
 }
 
+inline void add_seconds(const Texture_atlas_report& before, Texture_atlas_report& report)
+{
+  report.seconds_segment += before.seconds_segment;
+  report.seconds_map += before.seconds_map;
+  report.seconds_pack += before.seconds_pack;
+  report.seconds_total += before.seconds_total;
+}
+
 // What the report of the charts before adds to that of the same ones with smooth seams.
 inline void add_report(const Texture_atlas_report& before, Texture_atlas_report& report)
 {
@@ -49,10 +57,19 @@ inline void add_report(const Texture_atlas_report& before, Texture_atlas_report&
   report.stopped_early = report.stopped_early || before.stopped_early;
   if(report.why_not_used.empty())
     report.why_not_used = before.why_not_used;
-  report.seconds_segment += before.seconds_segment;
-  report.seconds_map += before.seconds_map;
-  report.seconds_pack += before.seconds_pack;
-  report.seconds_total += before.seconds_total;
+  add_seconds(before, report);
+}
+
+// The options of what is done in a part of the time.
+inline Texture_atlas_options in_part(const Texture_atlas_options& options, double begin, double end)
+{
+  Texture_atlas_options part = options;
+  part.seconds *= end - begin;
+  if(options.progress)
+    part.progress = [&options, begin, end](double done) {
+      return options.progress(begin + done * (end - begin));
+    };
+  return part;
 }
 
 // Builds the atlas of the surface with seams through its triangles: first comes one with seams along
@@ -70,16 +87,7 @@ inline Texture_atlas_result build_with_smooth_seams(const Indexed_triangle_mesh&
                                           "have maps");
   if(!result.is_ok())
     return result;
-  const auto part_of = [&options](double begin, double end) {
-    Texture_atlas_options part = options;
-    part.seconds *= end - begin;
-    if(options.progress)
-      part.progress = [&options, begin, end](double done) {
-        return options.progress(begin + done * (end - begin));
-      };
-    return part;
-  };
-  const Texture_atlas_options of_first = part_of(0., first_part);
+  const Texture_atlas_options of_first = in_part(options, 0., first_part);
   Texture_atlas_builder first(mesh, of_first, models);
   Texture_atlas_result along_edges = first.run();
   if(!along_edges.is_ok())
@@ -93,7 +101,7 @@ inline Texture_atlas_result build_with_smooth_seams(const Indexed_triangle_mesh&
       pieces.push_back(values[smooth.triangle[t]]);
     values = std::move(pieces);
   };
-  Texture_atlas_options of_smooth = part_of(first_part, 1.);
+  Texture_atlas_options of_smooth = in_part(options, first_part, 1.);
   of_pieces(of_smooth.density);
   of_pieces(of_smooth.metric);
   of_smooth.seam_price = std::numeric_limits<double>::infinity(); // all cuts that are worth it are made
@@ -111,6 +119,39 @@ inline Texture_atlas_result build_with_smooth_seams(const Indexed_triangle_mesh&
     result.atlas.new_vertices = std::move(smooth.new_vertices);
   }
   return result;
+}
+
+inline Texture_atlas_result build_once(const Indexed_triangle_mesh& mesh,
+                                       const Texture_atlas_options& options,
+                                       const Atlas_models& models)
+{
+  return options.has_smooth_seams ? build_with_smooth_seams(mesh, options, models)
+                                  : Texture_atlas_builder(mesh, options, models).run();
+}
+
+// Builds the atlas without `cutting_time`, and with it: fewer charts on a coarse mesh may be more when
+// those that exceed the bound on the fine one, and those too long for the page, have been cut.
+inline Texture_atlas_result build_twice(const Indexed_triangle_mesh& mesh,
+                                        const Texture_atlas_options& options,
+                                        const Atlas_models& models)
+{
+  constexpr double usual_part = 0.4; // of the time
+  Texture_atlas_options usual = in_part(options, 0., usual_part);
+  usual.cutting_time = 0.;
+  Texture_atlas_result result = build_once(mesh, usual, models);
+  if(!result.is_ok())
+    return result;
+  Texture_atlas_result more = build_once(mesh, in_part(options, usual_part, 1.), models);
+  if(!more.is_ok())
+    return more;
+  const auto measure = [](const Texture_atlas_report& report) {
+    return std::make_pair(report.charts.size(), report.seam_length);
+  };
+  if(more.report.stopped_early || !(measure(more.report) < measure(result.report)))
+    std::swap(more, result);
+  add_seconds(result.report, more.report);
+  more.report.stopped_early = more.report.stopped_early || result.report.stopped_early;
+  return more;
 }
 
 // The power of two that is about the extent of the mesh if that is so small or large that squares of
@@ -143,8 +184,7 @@ CGAL_HLSCM_INLINE Texture_atlas_result build_atlas(const Indexed_triangle_mesh& 
                                                    const Atlas_models& models)
 {
   const auto build = [&models](const Indexed_triangle_mesh& m, const Texture_atlas_options& o) {
-    return o.has_smooth_seams ? build_with_smooth_seams(m, o, models)
-                              : Texture_atlas_builder(m, o, models).run();
+    return o.cutting_time > 0. && models.is_bounded ? build_twice(m, o, models) : build_once(m, o, models);
   };
   const double unit = unit_of_length(mesh);
   if(unit == 1.)
