@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -129,8 +130,9 @@ inline Texture_atlas_result build_once(const Indexed_triangle_mesh& mesh,
                                   : Texture_atlas_builder(mesh, options, models).run();
 }
 
-// Builds the atlas without `cutting_time`, and with it: fewer charts on a coarse mesh may be more when
-// those that exceed the bound on the fine one, and those too long for the page, have been cut.
+// Builds the atlas without `cutting_time`, and with it, and returns the one with fewer charts, if that
+// uses what it shall: fewer charts on a coarse mesh may be more when those that exceed the bound on the
+// fine one, and those too long for the page, have been cut.
 inline Texture_atlas_result build_twice(const Indexed_triangle_mesh& mesh,
                                         const Texture_atlas_options& options,
                                         const Atlas_models& models)
@@ -145,7 +147,7 @@ inline Texture_atlas_result build_twice(const Indexed_triangle_mesh& mesh,
   if(!more.is_ok())
     return more;
   const auto measure = [](const Texture_atlas_report& report) {
-    return std::make_pair(report.charts.size(), report.seam_length);
+    return std::make_tuple(!report.why_not_used.empty(), report.charts.size(), report.seam_length);
   };
   if(more.report.stopped_early || !(measure(more.report) < measure(result.report)))
     std::swap(more, result);
