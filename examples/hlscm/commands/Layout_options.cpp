@@ -71,8 +71,8 @@ void check_target(const CLI::App& app)
   for(const char* other :
       {"--aspect", "--mip-levels", "--max-area-scale", "--max-quasi-conformal", "--max-charts",
        "--seam-price", "--min-used", "--smooth-seams", "--charts", "--one-disk", "--pages",
-       "--cutting-time", "--packing-time", "--method", "--repack", "--keep-scale", "--density", "--importance", "--hide-seams",
-       "--limits", "--separate", "--align", "--udim", "--symmetric"}) {
+       "--cutting-time", "--packing-time", "--method", "--repack", "--keep-scale", "--density",
+       "--importance", "--hide-seams", "--limits", "--separate", "--align", "--udim", "--symmetric"}) {
     if(app.count(other) > 0) {
       throw CLI::ValidationError("--target", "its texture coordinates are taken as they are, leave "
                                                  + std::string(other) + " out");

@@ -80,10 +80,7 @@ Texture_atlas_result unstacked_atlas(const Indexed_triangle_mesh& mesh, const Eq
   report.rough_charts = first.rough_charts;
   report.page_cuts = first.page_cuts;
   report.stopped_early = report.stopped_early || first.stopped_early;
-  report.seconds_segment += first.seconds_segment;
-  report.seconds_map += first.seconds_map;
-  report.seconds_pack += first.seconds_pack;
-  report.seconds_total += first.seconds_total;
+  internal::add_seconds(first, report);
   report.unwanted_seams
     = number_of_seams_on(mesh.triangles, result.atlas.charts, options.no_seams);
   return result;

@@ -27,6 +27,15 @@ CGAL_HLSCM_INLINE Texture_atlas_result build_atlas(const Indexed_triangle_mesh& 
                                                    const Texture_atlas_options& options,
                                                    const Atlas_models& models);
 
+// Adds the time of what was done before.
+inline void add_seconds(const Texture_atlas_report& before, Texture_atlas_report& report)
+{
+  report.seconds_segment += before.seconds_segment;
+  report.seconds_map += before.seconds_map;
+  report.seconds_pack += before.seconds_pack;
+  report.seconds_total += before.seconds_total;
+}
+
 #ifdef CGAL_HLSCM_DEFINITIONS
 
 // The charts of an atlas for the triangles into which smooth seams have cut those of its mesh.
@@ -40,14 +49,6 @@ inline Segmentation_result charts_of_pieces(const Smooth_seams_result& smooth, s
         float((1. - v.part) * double(occlusion[v.from]) + v.part * double(occlusion[v.to])));
   result.occlusion = std::move(occlusion);
   return result;
-}
-
-inline void add_seconds(const Texture_atlas_report& before, Texture_atlas_report& report)
-{
-  report.seconds_segment += before.seconds_segment;
-  report.seconds_map += before.seconds_map;
-  report.seconds_pack += before.seconds_pack;
-  report.seconds_total += before.seconds_total;
 }
 
 // What the report of the charts before adds to that of the same ones with smooth seams.
