@@ -6,6 +6,7 @@
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_texturing/grow_charts.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/Chart_state.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/grow_patches.h>
 
 #include <gtest/gtest.h>
