@@ -225,4 +225,23 @@ TEST_F(Atlas, leaves_nothing_when_it_is_interrupted)
   }
 }
 
+TEST_F(Atlas, is_finished_at_once_when_that_is_asked_for)
+{
+  const std::string in = write("in.off", off(wavy_torus(20)));
+  Outcome outcome;
+  outcome.exit_code = -SIGUSR1;
+  for(useconds_t wait = 200000; outcome.exit_code == -SIGUSR1 && wait < 100000000; wait *= 2) {
+    const pid_t child = start({"atlas", in, "-o", path("out"), "--packing-time", "3600"});
+    usleep(wait); // until it listens
+    kill(child, SIGUSR1);
+    outcome = finish(child);
+  }
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("the time was up"), std::string::npos) << outcome.err;
+  const Json report = Json::parse(read_file(folder / "out/report.json"), nullptr, false);
+  EXPECT_EQ(report["stopped_early"], true);
+  EXPECT_EQ(report["flips"], 0);
+  EXPECT_EQ(error_in_texture(read_model(folder / "out/atlas.obj"), 1024), "");
+}
+
 } // namespace program_test

@@ -99,6 +99,7 @@ Built_atlas build_atlas(const Input_surface& surface, const Program_options& opt
   auto charts = given_charts(surface, options);
   const double share = options.command == Command::BAKE ? share_of_atlas : 1;
   library.seconds = share * options.atlas.time_limit;
+  library.is_enough = Interruption::is_enough;
   library.has_smooth_seams = options.atlas.has_smooth_seams;
   library.cutting_time = options.atlas.cutting_time;
   library.packing.time_budget = options.atlas.packing_time;

@@ -104,7 +104,7 @@ void add_atlas(CLI::App& app, Program_options& o)
   add_atlas_options(*run, o);
   add_number(*run, "--time-limit", 0, 1e9, o.atlas.time_limit,
              "after that many seconds finish the atlas in the quickest way: more charts, more "
-             "distortion, a looser packing");
+             "distortion, a looser packing; the signal USR1 does so at once");
   run->add_option("--pictures", o.pictures, "a folder for charts.png and checkerboard.png")
       ->type_name("DIR");
   add_report_and_quiet(*run, o);
@@ -145,8 +145,8 @@ void add_bake(CLI::App& app, Program_options& o)
       ->type_name("IMAGE");
   add_atlas_options(*run, o);
   add_number(*run, "--time-limit", 0, 1e9, o.atlas.time_limit,
-             "after half of that many seconds finish the atlas in the quickest way; when all are up, "
-             "take what was baked by then, with fewer samples");
+             "after half of that many seconds, or the signal USR1, finish the atlas in the quickest way; "
+             "when all are up, take what was baked by then, with fewer samples");
   run->add_option("--pictures", o.pictures,
                   "a folder for charts.png, checkerboard.png, bake.png and closeup.png")
       ->type_name("DIR");

@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::chrono::milliseconds time_to_stop_by_itself(500);
 
-std::atomic<bool> requested(false), is_finished(false), is_in_place(false), is_said(false);
+std::atomic<bool> requested(false), enough(false), is_finished(false), is_in_place(false), is_said(false);
 sem_t arrival;
 
 // Never destroyed: the waiting thread may outlive main().
@@ -54,6 +54,11 @@ void handle(int)
 {
   requested = true;
   sem_post(&arrival); // one of the few functions that a handler may call
+}
+
+void handle_enough(int)
+{
+  enough = true;
 }
 
 void say(const char* text)
@@ -149,11 +154,17 @@ void install()
       sigaction(signal, &action, nullptr);
     }
   }
+  if(!is_ignored(SIGUSR1)) {
+    action.sa_handler = handle_enough;
+    sigaction(SIGUSR1, &action, nullptr);
+  }
   std::signal(SIGXFSZ, SIG_IGN); // a limit on file sizes is an error of writing, not the end
   std::signal(SIGPIPE, SIG_IGN); // nor is a reader that has gone
 }
 
 bool is_requested() { return requested; }
+
+bool is_enough() { return enough; }
 
 void check()
 {

@@ -24,6 +24,9 @@ void install();
 /// Whether the user asked to stop.
 bool is_requested();
 
+/// Whether the user asked, by the signal SIGUSR1, for the best that there is by now.
+bool is_enough();
+
 /// Throws `Cancelled` if the user asked to stop.
 void check();
 

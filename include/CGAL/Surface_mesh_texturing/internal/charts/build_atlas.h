@@ -187,7 +187,9 @@ CGAL_HLSCM_INLINE Texture_atlas_result build_atlas(const Indexed_triangle_mesh& 
                                                    const Atlas_models& models)
 {
   const auto build = [&models](const Indexed_triangle_mesh& m, const Texture_atlas_options& o) {
-    return o.cutting_time > 0. && models.is_bounded ? build_twice(m, o, models) : build_once(m, o, models);
+    return o.cutting_time > 0. && std::isfinite(o.cutting_time) && models.is_bounded
+             ? build_twice(m, o, models)
+             : build_once(m, o, models);
   };
   const double unit = unit_of_length(mesh);
   if(unit == 1.)
