@@ -163,7 +163,8 @@ std::vector<std::string> Atlas_report::all_warnings() const
   std::vector<std::string> all = warnings;
   all.insert(all.end(), layout.warnings.begin(), layout.warnings.end());
   if(atlas && atlas->stopped_early) {
-    all.push_back("the time was up before the atlas was as good as it gets; see --time-limit, or USR1 was sent");
+    all.push_back("the time was up before the atlas was as good as it gets; see --time-limit, or USR1 "
+                  "was sent");
   }
   if(atlas && atlas->rough_charts > 0) {
     all.push_back("charts beyond the bounds on distortion, as the surface is so rough there that small "

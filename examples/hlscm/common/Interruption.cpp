@@ -27,7 +27,8 @@ namespace {
 
 constexpr std::chrono::milliseconds time_to_stop_by_itself(500);
 
-std::atomic<bool> requested(false), enough(false), is_finished(false), is_in_place(false), is_said(false);
+std::atomic<bool> requested(false), enough(false);
+std::atomic<bool> is_finished(false), is_in_place(false), is_said(false);
 sem_t arrival;
 
 // Never destroyed: the waiting thread may outlive main().
@@ -56,9 +57,17 @@ void handle(int)
   sem_post(&arrival); // one of the few functions that a handler may call
 }
 
-void handle_enough(int)
+void handle_enough(int) { enough = true; }
+
+void listen(int signal, void (*handler)(int))
 {
-  enough = true;
+  if(is_ignored(signal)) {
+    return;
+  }
+  struct sigaction action = {};
+  action.sa_handler = handler;
+  action.sa_flags = SA_RESTART;
+  sigaction(signal, &action, nullptr);
 }
 
 void say(const char* text)
@@ -146,18 +155,10 @@ void install()
   start_thread();
   std::atexit(give_up);
   std::set_terminate(give_up);
-  struct sigaction action = {};
-  action.sa_handler = handle;
-  action.sa_flags = SA_RESTART;
-  for(int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU}) {
-    if(!is_ignored(signal)) {
-      sigaction(signal, &action, nullptr);
-    }
+  for(const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU}) {
+    listen(signal, handle);
   }
-  if(!is_ignored(SIGUSR1)) {
-    action.sa_handler = handle_enough;
-    sigaction(SIGUSR1, &action, nullptr);
-  }
+  listen(SIGUSR1, handle_enough);
   std::signal(SIGXFSZ, SIG_IGN); // a limit on file sizes is an error of writing, not the end
   std::signal(SIGPIPE, SIG_IGN); // nor is a reader that has gone
 }
