@@ -158,6 +158,25 @@ TEST(Conjugate_gradient, stops_when_told)
   EXPECT_EQ(report.iterations, 3u);
 }
 
+// What one of the last two steps lowered the energy by, in the mean.
+TEST(Conjugate_gradient, tells_what_its_last_steps_gained)
+{
+  Random_numbers random(22);
+  const Pinned_system s = random_system(10, random);
+  const auto after = [&s](std::size_t iterations) {
+    Energy_stop stop;
+    stop.tolerance = 0.;
+    stop.maximal_iterations = iterations;
+    Dense_vector x;
+    return minimize(s, stop, Jacobi_preconditioner<double>(s.matrix), x);
+  };
+  for(std::size_t k = 2; k < 6; ++k) {
+    const double gain = after(k - 2).energy - after(k).energy;
+    EXPECT_GT(gain, 0.);
+    EXPECT_NEAR(after(k).decrease, 0.5 * gain, 1e-9 * after(0).energy);
+  }
+}
+
 TEST(Conjugate_gradient, stands_still_at_the_minimum)
 {
   Random_numbers random(21);

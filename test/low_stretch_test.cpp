@@ -181,6 +181,17 @@ TEST(Low_stretch_map, the_estimate_is_honest)
   EXPECT_GE(converged, 3 * charts.size() - 3);
 }
 
+// What the second order foretold of the only step tells that it was enough: by what it gained alone, the
+// default tolerance would take two.
+TEST(Low_stretch_map, easy_surfaces_take_one_step)
+{
+  for(std::uint64_t s = seed; s < seed + 4; ++s) {
+    const Low_stretch_map map = low_stretch_map(with_hills(irregular_grid(60, 50, s), 8., s));
+    EXPECT_TRUE(map.report.converged) << "seed " << s;
+    EXPECT_EQ(map.report.iterations, 1u) << "seed " << s;
+  }
+}
+
 // Steps learn from those before: without that this tube takes 71 of them.
 TEST(Low_stretch_map, limbs_that_bend_take_few_steps)
 {

@@ -278,8 +278,9 @@ TEST(Overlap_field_test, is_the_weighted_sum_of_overlaps)
       std::vector<int> bounded(row.size(), 0);
       const int found = field.overlaps(s, 5, y, n, most, bounded.data(), runs);
       ASSERT_EQ(found > most, most < least);
-      if(found <= most)
+      if(found <= most) {
         ASSERT_EQ(bounded, row);
+      }
     }
   }
 }

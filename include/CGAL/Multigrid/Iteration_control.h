@@ -58,6 +58,7 @@ struct Iteration_report
   bool cancelled = false;        ///< whether the observer stopped it
   double energy = 0.;            ///< \f$ E \f$ at the end
   double energy_gap = 0.;        ///< estimate of \f$ E - E_{\min} \f$
+  double decrease = 0.;          ///< of \f$ E \f$ in one of the last two steps, their mean
   double rate = 0.;              ///< `Energy_gap_estimator::rate()` at the end
 };
 
@@ -226,6 +227,8 @@ public:
   {
     ++m_report.iterations;
     m_report.energy = energy;
+    m_report.decrease = 0.5 * (m_last_decrease + decrease);
+    m_last_decrease = decrease;
     m_gap.add(decrease);
     m_report.energy_gap = m_gap.remaining();
     m_report.rate = m_gap.rate();
@@ -283,6 +286,7 @@ private:
   Energy_stop m_stop;
   Energy_gap_estimator m_gap, m_change;
   Iteration_report m_report;
+  double m_last_decrease = 0.;
   double m_first_residual = 0., m_residual = 0.;
   double m_first_gap = (std::numeric_limits<double>::infinity)();
   bool m_is_over = false;

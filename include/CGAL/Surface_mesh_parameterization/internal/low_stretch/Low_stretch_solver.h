@@ -83,7 +83,8 @@ private:
   typedef std::conditional_t<Has_barrier<Energy>::value, Energy, Barrier_energy<Energy>> Coarse_energy;
 
   static constexpr std::size_t iterations = 5;   // of conjugate gradients, a Newton step
-  static constexpr std::size_t many_iterations = 20; // where these were too few
+  static constexpr std::size_t many_iterations = 20; // where these were too few `hard` times in a row
+  static constexpr std::size_t hard = 1;
   static constexpr double residual = 1e-3;       // that ends them, of that before them
   // Steps on the finest level after which the matrices of coarser ones are no longer trusted: on long
   // tubes and steep noise triangles are stretched otherwise there.
@@ -122,7 +123,7 @@ private:
   void descend(Level& level, std::size_t l);
   std::size_t most_steps(std::size_t l) const;
   template <class Level>
-  bool is_enough(const Level& level, std::size_t l, double gain);
+  bool is_enough(const Level& level, std::size_t l, const Newton_steps& newton, double swept);
 
   const Low_stretch_options& m_options;
   const Energy& m_energy;
@@ -274,32 +275,32 @@ std::size_t Low_stretch_solver<Energy>::most_steps(std::size_t l) const
 
 // Whether the energy that a level has still to lose is small enough: by what its steps gained and, on
 // the finest one, what the last linear system left. Steps that triangles made short say nothing of it;
-// borders make all steps short in one-to-one maps.
-template <class Energy>
-template <class Level>
-bool Low_stretch_solver<Energy>::is_enough(const Level& level, std::size_t l, double gain)
+// borders make all steps short in one-to-one maps. A finer level loses what a coarser one left, too.
+template <class Energy> template <class Level>
+bool Low_stretch_solver<Energy>::is_enough(const Level& level, std::size_t l, const Newton_steps& newton,
+                                           double swept)
 {
-  constexpr double rounding = 1e-13, tolerance_of_coarse = 1e-5, tolerance_of_coarsest = 1e-7;
-  constexpr double most_unsolved = 20., doubt = 10.; // of what was solved; where that is hardly half
-  m_gains.add(gain);
+  constexpr double rounding = 1e-13, tolerance_of_coarsest = 1e-7;
+  const double tolerance_of_coarse = (std::max)(1e-5, 0.3 * m_options.tolerance);
+  constexpr double doubt = 10.; // where a few stiff triangles may hide all others
+  m_gains.add(newton.gain() + swept, newton.surprise(), newton.is_full());
   m_report.energy_gap = m_gains.value() / level.value();
   if(l == 0 || l + 1 < m_levels.number_of_levels())
     return m_report.energy_gap <= (l == 0 ? tolerance_of_coarsest : tolerance_of_coarse);
-  const double unsolved = (std::min)(m_newton.unsolved(), most_unsolved * m_newton.solved());
+  const bool is_doubtful = swept > newton.gain() || !(newton.is_solved() || m_gains.is_first());
   if(!m_levels.is_one_to_one())
-    m_report.energy_gap = (std::max)(m_report.energy_gap, unsolved / level.value())
-                        * (m_newton.is_believed() ? 1. : doubt);
+    m_report.energy_gap = (std::max)(m_report.energy_gap, newton.unsolved() / level.value())
+                        * (is_doubtful ? doubt : 1.);
   // Where all can be mapped with hardly any stretch, what there is counts more
   const double stretch = 1. - m_energy.value(2., 1.) / level.mean();
-  const bool tells = m_levels.is_one_to_one() || m_newton.is_full();
+  const bool tells = m_levels.is_one_to_one() || newton.is_full();
   return m_report.energy_gap
       <= (std::max)(rounding, tells ? m_options.tolerance * (std::min)(1., 10. * stretch) : 0.);
 }
 
 // Brings the pins of the coarsest level, which has all of them, to their places: by Tutte's map if they
 // are a border that allows it, or else from a map without pins.
-template <class Energy>
-template <class Level_energy>
+template <class Energy> template <class Level_energy>
 bool Low_stretch_solver<Energy>::hold_pins(const Level_energy& energy, std::vector<Plane_point>& z)
 {
   constexpr int steps = 100;
@@ -321,9 +322,11 @@ bool Low_stretch_solver<Energy>::hold_pins(const Level_energy& energy, std::vect
     level.scale();
     level.keep_apart(m_levels.borders_of(0));
     m_gains = Remaining_gain();
-    for(int i = 0; i < steps; ++i)
-      if(is_enough(level, 0, newton(level, iterations, residual) + level.sweep(0.)))
+    for(int i = 0; i < steps; ++i) {
+      newton(level, iterations, residual);
+      if(is_enough(level, 0, newton, level.sweep(0.)))
         break;
+    }
     z = level.places();
     align(held, z);
     if(border_map.empty() && !m_levels.is_one_to_one())
@@ -341,8 +344,7 @@ bool Low_stretch_solver<Energy>::hold_pins(const Level_energy& energy, std::vect
   return !m_misses_pins;
 }
 
-template <class Energy>
-template <class Level_energy>
+template <class Energy> template <class Level_energy>
 void Low_stretch_solver<Energy>::minimize(std::size_t l, const Level_energy& energy,
                                           std::vector<Plane_point>& places)
 {
@@ -363,8 +365,7 @@ void Low_stretch_solver<Energy>::minimize(std::size_t l, const Level_energy& ene
 }
 
 // Lowers the energy of a level as far as pays off.
-template <class Energy>
-template <class Level>
+template <class Energy> template <class Level>
 void Low_stretch_solver<Energy>::descend(Level& level, std::size_t l)
 {
   const bool is_finest = l + 1 == m_levels.number_of_levels();
@@ -379,8 +380,8 @@ void Low_stretch_solver<Energy>::descend(Level& level, std::size_t l)
       const bool is_hard = is_finest && !m_levels.is_one_to_one() && !m_newton.is_solved();
       if(is_hard || (is_finest && steps == patience))
         m_newton.use(Coarse_matrices::GALERKIN);
-      const double gain = m_newton(level, is_hard ? many_iterations : iterations, residual);
-      is_done = is_enough(level, l, gain + level.sweep(0.));
+      m_newton(level, is_hard ? many_iterations : iterations, residual);
+      is_done = is_enough(level, l, m_newton, level.sweep(0.));
       m_report.converged = is_done && is_finest;
     }
   }

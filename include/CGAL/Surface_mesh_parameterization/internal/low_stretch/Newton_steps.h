@@ -145,7 +145,7 @@ public:
     m_past.forget();
     m_rest = 0;
     m_next_rest = 1;
-    m_solved = m_unsolved = 0.;
+    m_is_solved = true;
     m_transfers.push_back(from_coarser);
     m_matrices.push_back(std::make_unique<Matrix>());
   }
@@ -157,14 +157,14 @@ public:
   void forget_past() { m_past.forget(); }
 
   // Makes one step on the finest level so far, by at most `iterations` iterations, fewer if the
-  // residual is below `residual` of that at first. Returns by how much the energy fell.
+  // residual is below `residual` of that at first.
   template <class Energy>
-  double operator()(Stretch_level<Energy>& level, std::size_t iterations, double residual)
+  void operator()(Stretch_level<Energy>& level, std::size_t iterations, double residual)
   {
     double slope = 0.;
-    m_was_solved = is_solved();
     const Vectors step = direction(level, Vectors(), iterations, residual, slope);
     const Descent descent = slope < 0. ? level.go(step, slope) : Descent();
+    m_gain = descent.gain;
     m_is_full = descent.length >= full;
     if(!m_is_full) {
       m_past.forget();
@@ -172,17 +172,17 @@ public:
       m_next_rest = (std::min)(2 * m_next_rest, longest_rest);
     } else if(m_rest > 0)
       --m_rest;
-    return descent.gain;
   }
 
-  // By how much the energy, up to the second order, fell in the linear system of the last step, and
-  // by how much it would have fallen beyond that, as far as can be estimated.
-  double solved() const { return m_solved; }
+  // By how much the energy fell in the last step, and by how much otherwise than the second order
+  // foretold, as a part of that.
+  double gain() const { return m_gain; }
+  double surprise() const { return m_solved > 0. ? std::abs(m_gain - m_solved) / m_solved : 1.; }
+  // By how much the energy, up to the second order, would have fallen beyond what the linear system of
+  // the step gained, as far as can be estimated.
   double unsolved() const { return m_unsolved; }
-  // Whether its solution got half the way.
-  bool is_solved() const { return m_unsolved <= m_solved; }
-  // Whether it did, or the one before did not either, so that nothing better can be had.
-  bool is_believed() const { return is_solved() || !m_was_solved; }
+  // Whether its solution surely got half the way.
+  bool is_solved() const { return m_is_solved; }
   // Whether no triangle that would have turned over made the step short.
   bool is_full() const { return m_is_full; }
 
@@ -202,6 +202,10 @@ private:
 
   // The coarsest matrix is made definite: translations and the rotation change no energy.
   static constexpr double shift = 1e-6;
+
+  // A few iterations say little of their rate: so many more as good as the last ones are the most that
+  // an energy has still to fall.
+  static constexpr double tail = 20.;
 
   // Where triangles are about to turn over steps are short, and the past says nothing of what comes:
   // it is left out for a while after each of them, for a longer one every time.
@@ -227,8 +231,8 @@ private:
   Multigrid::Self_adjoint_matrix<Eigen::Matrix2d> m_coarsest;
   Past_steps m_past;
   std::size_t m_rest = 0, m_next_rest = 1; // steps without the past
-  double m_solved = 0., m_unsolved = 0.;
-  bool m_was_solved = true, m_is_full = true;
+  double m_solved = 0., m_unsolved = 0., m_gain = 0.;
+  bool m_is_solved = true, m_is_full = true;
   std::size_t m_iterations = 0;
 };
 
@@ -243,6 +247,7 @@ Newton_steps::Vectors Newton_steps::direction(Stretch_level<Energy>& level, cons
     m_past.add(level.places(), gradient);
   const Vectors rest = m_past.rest_of(gradient);
   m_solved = m_unsolved = 0.;
+  m_is_solved = true;
   const auto matrix = stretch_matrix<Eigen::Matrix2d>(level);
   if(m_coarse != Coarse_matrices::GALERKIN && m_matrices.size() == 1)
     m_coarsest = stretch_matrix<Eigen::Matrix2d>(level, shift);
@@ -278,7 +283,9 @@ Newton_steps::Vectors Newton_steps::direction(Stretch_level<Energy>& level, cons
     = Multigrid::minimize_energy(matrix, f, x, cycle, stop, [](double) { return true; });
   m_iterations += report.iterations;
   m_solved = -report.energy * size * size;
-  m_unsolved = report.converged ? 0. : report.energy_gap * size * size;
+  m_is_solved = report.converged || report.energy_gap <= -report.energy;
+  m_unsolved = report.converged ? 0.
+             : (std::min)(report.energy_gap, tail * report.decrease) * size * size;
   Vectors direction(x.size());
   for(std::size_t v = 0; v < x.size(); ++v)
     direction[v] = Plane_point{x[v].x(), x[v].y()} * size;
