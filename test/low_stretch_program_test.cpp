@@ -1,9 +1,10 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Runs the program hlscm, whose path is HLSCM_PROGRAM, on generated files: maps with low stretch, and maps
-// adapted to a signal.
+// Runs the program hlscm, whose path is HLSCM_PROGRAM, on generated files and a real one: maps with low
+// stretch, and maps adapted to a signal.
 
+#include <support/real_meshes.h>
 #include <support/textured_soups.h>
 
 #include <gtest/gtest.h>
@@ -144,6 +145,18 @@ TEST_F(Program, maps_with_low_stretch_and_a_border)
             std::string::npos);
   for(const Texts& more : {Texts{"--border", "circle"}, Texts{"--one-to-one"}, Texts{"--from-uv"}})
     EXPECT_EQ(parameterize(in, "out.obj", more).exit_code, 2) << more[0];
+}
+
+// Five borders that are kept apart cost little energy; where coarse levels end too early they block each
+// other for good.
+TEST_F(Program, keeps_the_borders_of_a_lion_apart_for_little)
+{
+  const std::string in = test_support::debian_mesh("lion.off");
+  const double free = report(in, {"--method", "low-stretch"})["stretch"]["energy"];
+  const Json json = report(in, {"--method", "low-stretch", "--one-to-one"});
+  ASSERT_TRUE(json.is_object());
+  EXPECT_EQ(json["converged"], true);
+  EXPECT_LT(json["stretch"]["energy"].get<double>(), 1.25 * free);
 }
 
 // The border of the map lies on the polygon, which is scaled to the area of the surface and then fitted to

@@ -281,7 +281,8 @@ bool Low_stretch_solver<Energy>::is_enough(const Level& level, std::size_t l, co
                                            double swept)
 {
   constexpr double rounding = 1e-13, tolerance_of_coarsest = 1e-7;
-  const double tolerance_of_coarse = (std::max)(1e-5, 0.3 * m_options.tolerance);
+  const double tolerance_of_coarse
+    = m_levels.is_one_to_one() ? 1e-5 : (std::max)(1e-5, 0.3 * m_options.tolerance); // or borders get stuck
   constexpr double doubt = 10.; // where a few stiff triangles may hide all others
   m_gains.add(newton.gain() + swept, newton.surprise(), newton.is_full());
   m_report.energy_gap = m_gains.value() / level.value();
