@@ -83,8 +83,7 @@ private:
   typedef std::conditional_t<Has_barrier<Energy>::value, Energy, Barrier_energy<Energy>> Coarse_energy;
 
   static constexpr std::size_t iterations = 5;   // of conjugate gradients, a Newton step
-  static constexpr std::size_t many_iterations = 20; // where these were too few `hard` times in a row
-  static constexpr std::size_t hard = 1;
+  static constexpr std::size_t many_iterations = 20; // where these were too few
   static constexpr double residual = 1e-3;       // that ends them, of that before them
   // Steps on the finest level after which the matrices of coarser ones are no longer trusted: on long
   // tubes and steep noise triangles are stretched otherwise there.
@@ -281,8 +280,8 @@ bool Low_stretch_solver<Energy>::is_enough(const Level& level, std::size_t l, co
                                            double swept)
 {
   constexpr double rounding = 1e-13, tolerance_of_coarsest = 1e-7;
-  const double tolerance_of_coarse
-    = m_levels.is_one_to_one() ? 1e-5 : (std::max)(1e-5, 0.3 * m_options.tolerance); // or borders get stuck
+  const double tolerance_of_coarse = m_levels.is_one_to_one() ? 1e-5 // or borders get stuck
+                                   : (std::max)(1e-5, 0.3 * m_options.tolerance);
   constexpr double doubt = 10.; // where a few stiff triangles may hide all others
   m_gains.add(newton.gain() + swept, newton.surprise(), newton.is_full());
   m_report.energy_gap = m_gains.value() / level.value();
