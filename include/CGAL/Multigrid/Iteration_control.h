@@ -89,6 +89,14 @@ public:
       m_extrapolated.push_back(extrapolated());
   }
 
+  /// Returns by how much one of the last two steps lowered the energy, in the mean; one that was not made
+  /// by 0.
+  double decrease() const
+  {
+    const std::size_t n = m_decreases.size();
+    return 0.5 * ((n > 1 ? m_decreases[n - 2] : 0.) + (n > 0 ? m_decreases[n - 1] : 0.));
+  }
+
   /// Returns the slowest rate of the last steps: mean rates over one, two, four ... steps.
   double rate() const
   {
@@ -227,9 +235,8 @@ public:
   {
     ++m_report.iterations;
     m_report.energy = energy;
-    m_report.decrease = 0.5 * (m_last_decrease + decrease);
-    m_last_decrease = decrease;
     m_gap.add(decrease);
+    m_report.decrease = m_gap.decrease();
     m_report.energy_gap = m_gap.remaining();
     m_report.rate = m_gap.rate();
     m_change.add(change);
@@ -286,7 +293,6 @@ private:
   Energy_stop m_stop;
   Energy_gap_estimator m_gap, m_change;
   Iteration_report m_report;
-  double m_last_decrease = 0.;
   double m_first_residual = 0., m_residual = 0.;
   double m_first_gap = (std::numeric_limits<double>::infinity)();
   bool m_is_over = false;
