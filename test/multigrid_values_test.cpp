@@ -11,6 +11,7 @@
 #include <CGAL/Multigrid/Patch_corrections.h>
 #include <CGAL/Multigrid/Smoothers.h>
 #include <CGAL/Multigrid/Split_matrix.h>
+#include <CGAL/Surface_mesh_multigrid/galerkin_rows.h>
 
 #include <gtest/gtest.h>
 
@@ -284,6 +285,87 @@ TYPED_TEST(Real_values, are_split)
   EXPECT_LE((Test::to_numbers(y) - this->dense * x).norm(), Test::tolerance * x.norm());
   EXPECT_EQ(split.memory(), split.single().memory() - split.single().pattern().memory());
   static_assert(std::is_same_v<typename Value_traits<typename Single::Vector_value>::Real, float>);
+}
+
+// The same row by row, without the whole in double precision; what is taken from it is gone.
+TYPED_TEST(Real_values, are_split_row_by_row)
+{
+  typedef TestFixture Test;
+  typedef typename Test::Double Double;
+  const Split_matrix<TypeParam> expected(this->sparse());
+  Split_matrix<TypeParam> split(
+    std::vector<std::uint32_t>(Test::size, Test::size), [&](std::uint32_t i, auto& row) {
+      std::vector<std::uint32_t> columns;
+      std::vector<Double> values;
+      for(std::uint32_t j = 0; j < Test::size; ++j)
+        if(j != i && !Value_traits<Double>::is_zero(Test::block(this->dense, int(i), int(j)))) {
+          columns.push_back(j);
+          values.push_back(Test::block(this->dense, int(i), int(j)));
+        }
+      row.set(Test::block(this->dense, int(i), int(i)), columns.size(), columns.data(), values.data());
+    });
+  ASSERT_EQ(split.size(), expected.size());
+  EXPECT_EQ(Test::to_real_dense(split.single()), Test::to_real_dense(expected.single()));
+  const auto x = Test::to_values(this->random_numbers());
+  typename Test::Vector y(Test::size), z(Test::size);
+  split(x, y);
+  expected(x, z);
+  EXPECT_EQ(Test::to_numbers(y), Test::to_numbers(z));
+  std::size_t entries = 0;
+  for(std::uint32_t i = 0; i < Test::size; ++i) {
+    std::size_t in_row = 0;
+    split.for_each_entry(split.slot_of_row()[i], [&](std::uint32_t, const TypeParam&) { ++in_row; });
+    EXPECT_LE(in_row, split.width(split.slot_of_row(i)));
+    entries += in_row;
+  }
+  EXPECT_GT(entries, Test::size);
+  const auto single = split.take_single();
+  EXPECT_EQ(Test::to_real_dense(single), Test::to_real_dense(expected.single()));
+  EXPECT_EQ(split.size(), 0u);
+  EXPECT_EQ(split.memory(), 0u);
+}
+
+// The product P^T A P by the definition, from rows and from a matrix that was split; the pin takes no
+// part.
+TYPED_TEST(Real_values, have_products_with_a_prolongation)
+{
+  typedef TestFixture Test;
+  typedef typename Test::Double Double;
+  typedef CGAL::Surface_mesh_multiresolution::Prolongation Prolongation;
+  constexpr int rows = Test::rows, coarse = Test::size / 2;
+  std::vector<std::uint32_t> kept;
+  std::vector<Prolongation::Stencil> stencils;
+  Eigen::MatrixXd p = Eigen::MatrixXd::Zero(rows * Test::size, rows * coarse);
+  for(std::uint32_t j = 0; j < std::uint32_t(coarse); ++j) {
+    kept.push_back(2 * j);
+    const std::array<std::uint32_t, 3> source = {j, (j + 5) % coarse, (j + 9) % coarse};
+    const std::array<float, 3> weight = {0.5f, 0.375f, 0.125f};
+    stencils.push_back({2 * j + 1, {2 * source[0], 2 * source[1], 2 * source[2]}, weight});
+    for(int r = 0; r < rows; ++r) {
+      p(rows * 2 * j + r, rows * j + r) = 1.;
+      for(int c = 0; c < 3 && int(2 * j + 1) != Test::pin; ++c)
+        p(rows * (2 * j + 1) + r, rows * source[c] + r) = weight[c];
+    }
+  }
+  const Prolongation prolongation(kept, stencils);
+  const Eigen::MatrixXd expected = p.transpose() * this->dense * p;
+  const auto difference = [&](const Sparse_rows<Double>& product) {
+    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(expected.rows(), expected.cols());
+    const auto put = [&a](std::uint32_t i, std::uint32_t j, const Double& value) {
+      for(int k = 0; k < rows * rows; ++k)
+        a(rows * i + k / rows, rows * j + k % rows)
+          = Value_traits<Double>::coefficient(value, k / rows, k % rows);
+    };
+    for(std::uint32_t i = 0; i < product.size(); ++i) {
+      put(i, i, product.diagonal(i));
+      product.for_each_entry(i, [&](std::uint32_t j, const Double& value) { put(i, j, value); });
+    }
+    return (a - expected).norm() / expected.norm();
+  };
+  const Sparse_rows<Double> fine(this->sparse());
+  const Split_matrix<TypeParam> split(this->sparse());
+  EXPECT_LE(difference(CGAL::Surface_mesh_multigrid::galerkin_rows(fine, prolongation)), Test::tolerance);
+  EXPECT_LE(difference(CGAL::Surface_mesh_multigrid::galerkin_rows(split, prolongation)), Test::tolerance);
 }
 
 // One patch after the other, by the definition; patches overlap, and some have a pin.

@@ -89,19 +89,21 @@ Iteration_report minimize_energy(const Apply& apply, std::vector<V>& x, double e
 \ingroup PkgHLSCMMultigrid
 
 Minimizes \f$ E(x) = \frac12 x^H H x - \mathrm{Re}\, f^H x \f$ in the same way: solves \f$ H x = f
-\f$. Where rows are zero (pins), `f` must be, too.
+\f$. Where rows are zero (pins), `f` must be, too. It is not kept: who still wants it gives a copy.
 */
 template <class Apply, class V, class Precondition, class Observe>
-Iteration_report minimize_energy(const Apply& apply, const std::vector<V>& f, std::vector<V>& x,
+Iteration_report minimize_energy(const Apply& apply, std::vector<V> f, std::vector<V>& x,
                                  const Precondition& precondition, const Energy_stop& stop,
                                  const Observe& observe)
 {
-  std::vector<V> r;
-  Blocked_execution::resize_blocked(r, x.size());
-  apply(x, r);
-  for_each_index(r.size(), [&](std::size_t i) { r[i] = f[i] - r[i]; });
-  const double energy = -0.5 * std::real(inner_product(x, r) + inner_product(x, f));
-  return internal::conjugate_gradients<V>({apply, precondition, observe}, x, r, energy, stop);
+  const auto linear = inner_product(x, f);
+  std::vector<V> product;
+  Blocked_execution::resize_blocked(product, x.size());
+  apply(x, product);
+  for_each_index(f.size(), [&](std::size_t i) { f[i] -= product[i]; });
+  std::vector<V>().swap(product);
+  const double energy = -0.5 * std::real(inner_product(x, f) + linear);
+  return internal::conjugate_gradients<V>({apply, precondition, observe}, x, f, energy, stop);
 }
 
 } // namespace Multigrid

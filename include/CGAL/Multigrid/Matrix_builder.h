@@ -21,7 +21,8 @@ namespace Multigrid {
 \ingroup PkgHLSCMMultigrid
 
 The place of a row in a matrix that is being built, for a row without imaginary parts, of real
-numbers or blocks. Entries that are not set become padding.
+numbers or blocks. Entries that are not set become padding. What rounding takes off them may have
+places of its own.
 */
 template <class Stored>
 class Real_row
@@ -33,6 +34,13 @@ public:
   Real_row(std::uint32_t* column, Stored* re, Stored& diagonal)
     : m_column(column), m_re(re), m_diagonal(diagonal)
   {}
+
+  /// Gives what rounding takes off places as those of the entries.
+  void keep_rest(Stored* re, Stored& diagonal)
+  {
+    m_rest = re;
+    m_rest_diagonal = &diagonal;
+  }
 
   /// Sets the diagonal entry and the first `count` entries beside it.
   ///
@@ -46,15 +54,26 @@ public:
       m_re[k * Sliced_pattern::slice_rows] = Value_traits<Stored>::from(re[k]);
     }
     m_count = count;
+    if(m_rest == nullptr)
+      return;
+    *m_rest_diagonal = rest(diagonal, m_diagonal);
+    for(std::size_t k = 0; k < count; ++k)
+      m_rest[k * Sliced_pattern::slice_rows] = rest(re[k], m_re[k * Sliced_pattern::slice_rows]);
   }
 
   /// Returns the number of entries that have been set.
   std::size_t count() const { return m_count; }
 
 private:
+  static Stored rest(const Double& entry, const Stored& stored)
+  {
+    return Value_traits<Stored>::from(Double(entry - Value_traits<Double>::from(stored)));
+  }
+
   std::uint32_t* m_column;
   Stored* m_re;
   Stored& m_diagonal;
+  Stored *m_rest = nullptr, *m_rest_diagonal = nullptr;
   std::size_t m_count = 0;
 };
 
@@ -83,7 +102,10 @@ public:
   /// returns `true`, or returns `false`, and `fill(i, row)` is called.
   template <class Value, class Fill_real, class Fill>
   static Self_adjoint_matrix<Value> build_matrix(const std::vector<std::uint32_t>& row_lengths,
-                                                 const Fill_real& fill_real, const Fill& fill);
+                                                 const Fill_real& fill_real, const Fill& fill)
+  {
+    return build_with_rest<Value>(row_lengths, fill_real, fill, nullptr);
+  }
 
   /// Returns `build_matrix()` of complex numbers.
   template <class Real, class... Fills>
@@ -94,6 +116,22 @@ public:
   }
 
 private:
+  template <class Value> friend class Split_matrix;
+
+  // What rounding takes off the entries of a matrix without imaginary parts.
+  template <class Value>
+  struct Rest
+  {
+    std::vector<typename Value_traits<Value>::Diagonal> diagonal;
+    Blocked_execution::Uninitialized_vector<typename Value_traits<Value>::Stored> main;
+  };
+
+  // `build_matrix()`, with the rest if one is given.
+  template <class Value, class Fill_real, class Fill>
+  static Self_adjoint_matrix<Value> build_with_rest(const std::vector<std::uint32_t>& row_lengths,
+                                                    const Fill_real& fill_real, const Fill& fill,
+                                                    Rest<Value>* rest);
+
   static constexpr std::size_t rows = Sliced_pattern::slice_rows;
   static constexpr std::size_t block_slices = 512;
 
@@ -110,7 +148,7 @@ private:
                         Imaginary<Value>& imaginary_of_block);
   template <class Value>
   static void pad_row(std::size_t count, std::size_t slot, Sliced_pattern& pattern,
-                      Self_adjoint_matrix<Value>& matrix);
+                      Self_adjoint_matrix<Value>& matrix, Rest<Value>* rest);
   template <class Value>
   static void join_imaginary(std::vector<Imaginary<Value>>& blocks, Sliced_pattern& pattern,
                              Self_adjoint_matrix<Value>& matrix);
@@ -187,13 +225,15 @@ void Matrix_builder::store_row(const typename Self_adjoint_matrix<Value>::Row& r
 // cache.
 template <class Value>
 void Matrix_builder::pad_row(std::size_t count, std::size_t slot, Sliced_pattern& pattern,
-                             Self_adjoint_matrix<Value>& matrix)
+                             Self_adjoint_matrix<Value>& matrix, Rest<Value>* rest)
 {
+  const auto zero = Value_traits<typename Value_traits<Value>::Stored>::zero();
   const std::size_t s = slot / rows, end = pattern.slice_begin[s + 1];
   for(std::size_t k = pattern.slice_begin[s] + count; k < end; ++k) {
     pattern.column[k * rows + slot % rows] = pattern.row_of_slot[slot];
-    matrix.m_main[k * rows + slot % rows]
-      = Value_traits<typename Value_traits<Value>::Stored>::zero();
+    matrix.m_main[k * rows + slot % rows] = zero;
+    if(rest != nullptr)
+      rest->main[k * rows + slot % rows] = zero;
   }
 }
 
@@ -214,8 +254,8 @@ void Matrix_builder::join_imaginary(std::vector<Imaginary<Value>>& blocks,
 
 template <class Value, class Fill_real, class Fill>
 Self_adjoint_matrix<Value>
-Matrix_builder::build_matrix(const std::vector<std::uint32_t>& row_lengths,
-                             const Fill_real& fill_real, const Fill& fill)
+Matrix_builder::build_with_rest(const std::vector<std::uint32_t>& row_lengths,
+                                const Fill_real& fill_real, const Fill& fill, Rest<Value>* rest)
 {
   typedef Value_traits<Value> Traits;
   typedef Value_traits<typename Traits::Diagonal> Diagonal_traits;
@@ -227,11 +267,16 @@ Matrix_builder::build_matrix(const std::vector<std::uint32_t>& row_lengths,
   pattern->imaginary.assign(slices, Sliced_pattern::none);
   Blocked_execution::resize_blocked(pattern->column, size);
   Self_adjoint_matrix<Value> matrix;
-  matrix.m_main.resize(size);
-  if(slices > 0) // its last slots may have no row
-    std::fill(matrix.m_main.begin() + pattern->slice_begin[slices - 1] * rows,
-              matrix.m_main.end(), Value_traits<typename Traits::Stored>::zero());
-  matrix.m_diagonal.assign(pattern->rows, Diagonal_traits::zero());
+  const auto make = [&](auto& main, auto& diagonal) {
+    main.resize(size);
+    if(slices > 0) // its last slots may have no row
+      std::fill(main.begin() + pattern->slice_begin[slices - 1] * rows, main.end(),
+                Value_traits<typename Traits::Stored>::zero());
+    diagonal.assign(pattern->rows, Diagonal_traits::zero());
+  };
+  make(matrix.m_main, matrix.m_diagonal);
+  if(rest != nullptr)
+    make(rest->main, rest->diagonal);
   std::vector<Imaginary<Value>> imaginary(
     Blocked_execution::number_of_blocks(slices, block_slices));
   Blocked_execution::blocked_for(pattern->rows, block_slices * rows,
@@ -243,6 +288,9 @@ Matrix_builder::build_matrix(const std::vector<std::uint32_t>& row_lengths,
         = (std::min)(pattern->slice_begin[slot / rows] * rows + slot % rows, size);
       Real_row<typename Traits::Stored> place(pattern->column.data() + at,
                                               matrix.m_main.data() + at, matrix.m_diagonal[i]);
+      if constexpr(!Traits::is_complex)
+        if(rest != nullptr)
+          place.keep_rest(rest->main.data() + at, rest->diagonal[i]);
       std::size_t count = 0;
       if(fill_real(i, place))
         count = place.count();
@@ -253,7 +301,7 @@ Matrix_builder::build_matrix(const std::vector<std::uint32_t>& row_lengths,
         store_row<Value>(row, slot, *pattern, matrix, imaginary[begin / (block_slices * rows)]);
         count = row.entries.size();
       }
-      pad_row(count, slot, *pattern, matrix);
+      pad_row(count, slot, *pattern, matrix, rest);
     }
   });
   join_imaginary<Value>(imaginary, *pattern, matrix);

@@ -104,15 +104,15 @@ public:
     });
   }
 
-  /// Constructs the rows of a matrix. Linear time.
-  template <class Value>
-  explicit Sparse_rows(const Self_adjoint_matrix<Value>& matrix)
+  /// Constructs the rows of a matrix, a `Self_adjoint_matrix` or a `Split_matrix`. Linear time.
+  template <class Matrix, class Traits = typename Matrix::Traits>
+  explicit Sparse_rows(const Matrix& matrix)
   {
     const std::vector<std::uint32_t> slot = matrix.slot_of_row();
     *this = Sparse_rows(matrix.size(), [&matrix, &slot] {
       return [&matrix, &slot](std::uint32_t i, Row& row) {
-        row.diagonal = Value_traits<Diagonal>::from(matrix.diagonal()[i]);
-        matrix.for_each_entry(slot[i], [&row](std::uint32_t j, const Value& value) {
+        row.diagonal = Value_traits<Diagonal>::from(matrix.diagonal(i));
+        matrix.for_each_entry(slot[i], [&row](std::uint32_t j, const auto& value) {
           row.append(j, Value_traits<Double>::from(value));
         });
       };
@@ -123,6 +123,8 @@ public:
   std::size_t size() const { return m_diagonal.size(); }
   /// Returns the diagonal entries.
   const std::vector<Diagonal>& diagonal() const { return m_diagonal; }
+  /// Returns the diagonal entry of row `i`.
+  const Diagonal& diagonal(std::uint32_t i) const { return m_diagonal[i]; }
   /// Returns the number of entries beside the diagonal in row `i`.
   std::uint32_t length(std::uint32_t i) const { return m_length[i]; }
   /// Returns the columns of the entries of row `i`.
@@ -134,6 +136,16 @@ public:
   const Double* values(std::uint32_t i) const 
   {
     return m_blocks[i >> m_shift].values.data() + m_begin[i];
+  }
+
+  /// Calls `use(j, A_ij)` for the entries beside the diagonal of row `i`.
+  template <class Use>
+  void for_each_entry(std::uint32_t i, const Use& use) const
+  {
+    const std::uint32_t n = length(i), *column = columns(i);
+    const Double* value = values(i);
+    for(std::uint32_t k = 0; k < n; ++k)
+      use(column[k], value[k]);
   }
 
   /// Makes rows `i` for which `is_zero(i)` rows of zeros. Their columns are kept.

@@ -5,12 +5,12 @@
 #define CGAL_MULTIGRID_SPLIT_MATRIX_H
 
 #include <CGAL/Multigrid/Block_values.h>
-#include <CGAL/Multigrid/Hermitian_matrix.h>
+#include <CGAL/Multigrid/Matrix_builder.h>
 
 #include <complex>
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -58,19 +58,49 @@ public:
   explicit Split_matrix(const Self_adjoint_matrix<Value>& matrix)
   {
     m_first.assign(matrix);
-    subtract(matrix.m_diagonal, m_first.m_diagonal, m_rest_diagonal);
-    subtract(matrix.m_main, m_first.m_main, m_rest);
+    subtract(matrix.m_diagonal, m_first.m_diagonal, m_rest.diagonal);
+    subtract(matrix.m_main, m_first.m_main, m_rest.main);
     subtract(matrix.m_im, m_first.m_im, m_rest_im);
+  }
+
+  /// Constructs a matrix of real numbers or blocks row by row, without one in double precision beside
+  /// it: `fill(i, row)` sets the `Real_row` of row i, of at most that length.
+  template <class Fill>
+  Split_matrix(const std::vector<std::uint32_t>& row_lengths, const Fill& fill)
+  {
+    static_assert(!Traits::is_complex, "imaginary parts have no Real_row");
+    m_first = Matrix_builder::build_with_rest<typename Single_precision<Value>::type>(
+      row_lengths,
+      [&fill](std::uint32_t i, Real_row<Stored_single>& row) {
+        fill(i, row);
+        return true;
+      },
+      [](std::uint32_t, typename Single::Row&) {}, &m_rest);
   }
 
   /// Returns the number of rows.
   std::size_t size() const { return m_first.size(); }
   /// Returns the matrix rounded to single precision.
   const Single& single() const { return m_first; }
+  /// Returns the matrix rounded to single precision and leaves none.
+  Single take_single()
+  {
+    Single single = std::move(m_first);
+    *this = Split_matrix();
+    return single;
+  }
   /// Returns the diagonal entry of row `i`.
-  Diagonal diagonal(std::size_t i) const { return sum(m_first.m_diagonal[i], m_rest_diagonal[i]); }
+  Diagonal diagonal(std::size_t i) const { return sum(m_first.m_diagonal[i], m_rest.diagonal[i]); }
   /// Returns the slot of row `i`. Constant time.
   std::size_t slot_of_row(std::uint32_t i) const { return m_first.slot_of_row(i); }
+  /// Returns for each row its slot.
+  std::vector<std::uint32_t> slot_of_row() const { return m_first.slot_of_row(); }
+  /// Returns how many entries beside the diagonal the row in `slot` has at most.
+  std::uint32_t width(std::size_t slot) const
+  {
+    const std::size_t s = slot / internal::slice_rows;
+    return m_first.pattern().slice_begin[s + 1] - m_first.pattern().slice_begin[s];
+  }
 
   /// Sets `y`, of the same size, to the product with `x`.
   void multiply(const Vector& x, Vector& y) const
@@ -91,7 +121,7 @@ public:
     const std::size_t s = slot / internal::slice_rows, r = slot % internal::slice_rows;
     for(std::size_t k = p.slice_begin[s]; k < p.slice_begin[s + 1]; ++k) {
       const std::size_t at = k * internal::slice_rows + r;
-      Value value(sum(m_first.m_main[at], m_rest[at]));
+      Value value(sum(m_first.m_main[at], m_rest.main[at]));
       if constexpr(Traits::is_complex)
         if(p.imaginary[s] != Sliced_pattern::none) {
           const std::size_t im = (p.imaginary[s] + k - p.slice_begin[s]) * internal::slice_rows + r;
@@ -105,7 +135,8 @@ public:
   /// Returns the bytes that it takes beside `single()`.
   std::size_t memory() const
   {
-    return m_rest_diagonal.size() * sizeof(Diagonal_single) + m_rest.size() * sizeof(Stored_single)
+    return m_rest.diagonal.size() * sizeof(Diagonal_single)
+           + m_rest.main.size() * sizeof(Stored_single)
            + m_rest_im.size() * sizeof(float);
   }
 
@@ -148,7 +179,7 @@ private:
 
     const Stored* main(std::size_t begin, std::size_t count)
     {
-      return join(matrix.m_first.m_main, matrix.m_rest, begin, count, main_parts);
+      return join(matrix.m_first.m_main, matrix.m_rest.main, begin, count, main_parts);
     }
     const typename Traits::Real* imaginary(std::size_t begin, std::size_t count)
     {
@@ -170,8 +201,7 @@ private:
   };
 
   Single m_first;
-  std::vector<Diagonal_single> m_rest_diagonal;
-  Blocked_execution::Uninitialized_vector<Stored_single> m_rest;
+  Matrix_builder::Rest<typename Single_precision<Value>::type> m_rest;
   std::vector<float> m_rest_im;
 };
 

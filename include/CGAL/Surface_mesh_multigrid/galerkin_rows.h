@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_MULTIGRID_GALERKIN_ROWS_H
 
 #include <CGAL/Multigrid/Sparse_rows.h>
+#include <CGAL/Multigrid/Split_matrix.h>
 #include <CGAL/Surface_mesh_multiresolution/Prolongation.h>
 
 #include <array>
@@ -27,12 +28,11 @@ public:
   };
 
   // Rows of unknowns that are fixed, whose matrix row is zero, get no weights.
-  template <class Double>
-  Transfer_rows(const Surface_mesh_multiresolution::Prolongation& p,
-                const Multigrid::Sparse_rows<Double>& fine)
+  template <class Fine>
+  Transfer_rows(const Surface_mesh_multiresolution::Prolongation& p, const Fine& fine)
     : m_rows(fine.size(), Row{{0, 0, 0}, {0.f, 0.f, 0.f}})
   {
-    typedef Multigrid::Value_traits<typename Multigrid::Sparse_rows<Double>::Diagonal> Traits;
+    typedef Multigrid::Value_traits<typename Fine::Diagonal> Traits;
     const auto& kept = p.kept();
     std::vector<std::uint32_t> rank(fine.size());
     for(std::uint32_t j = 0; j < kept.size(); ++j) {
@@ -42,7 +42,7 @@ public:
     for(const auto& s : p.stencils())
       m_rows[s.vertex] = {{rank[s.source[0]], rank[s.source[1]], rank[s.source[2]]}, s.weight};
     for(std::uint32_t i = 0; i < m_rows.size(); ++i)
-      if(Traits::is_zero(fine.diagonal()[i]))
+      if(Traits::is_zero(fine.diagonal(i)))
         m_rows[i].weight = {0.f, 0.f, 0.f};
   }
 
@@ -57,34 +57,55 @@ private:
   std::vector<Row> m_rows;
 };
 
+// The rows of a matrix that stays as it is.
+template <class Matrix>
+class Rows_of_matrix
+{
+public:
+  typedef typename Matrix::Diagonal Diagonal;
+
+  explicit Rows_of_matrix(const Matrix& matrix) : m_matrix(matrix), m_slot(matrix.slot_of_row()) {}
+
+  std::size_t size() const { return m_matrix.size(); }
+  Diagonal diagonal(std::uint32_t i) const { return m_matrix.diagonal(i); }
+  std::uint32_t length(std::uint32_t i) const { return m_matrix.width(m_slot[i]); }
+  template <class Use>
+  void for_each_entry(std::uint32_t i, const Use& use) const
+  {
+    m_matrix.for_each_entry(m_slot[i], use);
+  }
+
+private:
+  const Matrix& m_matrix;
+  std::vector<std::uint32_t> m_slot;
+};
+
 // One row of P^H A P at a time, without branches that depend on the pattern: sums are formed in an
 // array of all columns, and a column is listed when it is met first.
-template <class Double>
+template <class Double, class Fine>
 class Galerkin_row
 {
 public:
-  typedef Multigrid::Sparse_rows<Double> Rows;
-
-  Galerkin_row(const Rows& fine, const Surface_mesh_multiresolution::Prolongation& p,
+  Galerkin_row(const Fine& fine, const Surface_mesh_multiresolution::Prolongation& p,
                const Transfer_rows& transfer)
     : m_fine(fine), m_prolongation(p), m_transfer(transfer)
     , m_sum(p.kept().size(), Multigrid::Value_traits<Double>::zero()), m_seen(m_sum.size(), none)
   {}
 
-  void operator()(std::uint32_t I, typename Rows::Row& row)
+  void operator()(std::uint32_t I, typename Multigrid::Sparse_rows<Double>::Row& row)
   {
     m_seen[I] = I; // the diagonal is not listed
     std::uint32_t count = 0;
     m_prolongation.for_each_fine_vertex(I, [&](std::uint32_t i, float w) {
       if(m_transfer.is_fixed(i))
         return;
-      const std::uint32_t length = m_fine.length(i), *columns = m_fine.columns(i);
-      const Double* values = m_fine.values(i);
-      if(m_column.size() < count + 3 * (length + 1))
-        m_column.resize(2 * (count + 3 * (length + 1)));
-      count = add(I, w, i, m_fine.diagonal()[i], count);
-      for(std::uint32_t k = 0; k < length; ++k)
-        count = add(I, w, columns[k], values[k], count);
+      const std::uint32_t most = count + 3 * (m_fine.length(i) + 1);
+      if(m_column.size() < most)
+        m_column.resize(2 * most);
+      count = add(I, w, i, m_fine.diagonal(i), count);
+      m_fine.for_each_entry(i, [&](std::uint32_t j, const Double& value) {
+        count = add(I, w, j, value, count);
+      });
     });
     if constexpr(Multigrid::Value_traits<Double>::is_complex)
       row.diagonal = std::real(m_sum[I]);
@@ -121,13 +142,23 @@ private:
     return count;
   }
 
-  const Rows& m_fine;
+  const Fine& m_fine;
   const Surface_mesh_multiresolution::Prolongation& m_prolongation;
   const Transfer_rows& m_transfer;
   std::vector<Double> m_sum;         // by column
   std::vector<std::uint32_t> m_seen; // by column, the row in which it was met last
   std::vector<std::uint32_t> m_column;
 };
+
+// The same as `galerkin_rows()`.
+template <class Double, class Fine>
+Multigrid::Sparse_rows<Double> products(const Fine& fine,
+                                        const Surface_mesh_multiresolution::Prolongation& p)
+{
+  const Transfer_rows transfer(p, fine);
+  return Multigrid::Sparse_rows<Double>(
+    p.kept().size(), [&] { return Galerkin_row<Double, Fine>(fine, p, transfer); });
+}
 
 } // namespace internal
 
@@ -148,9 +179,20 @@ template <class Double>
 Multigrid::Sparse_rows<Double> galerkin_rows(const Multigrid::Sparse_rows<Double>& fine,
                                              const Surface_mesh_multiresolution::Prolongation& p)
 {
-  const internal::Transfer_rows transfer(p, fine);
-  return Multigrid::Sparse_rows<Double>(
-    p.kept().size(), [&] { return internal::Galerkin_row<Double>(fine, p, transfer); });
+  return internal::products<Double>(fine, p);
+}
+
+/*!
+\ingroup PkgHLSCMSurfaceMultigrid
+
+Returns the same for a matrix, without a copy of its rows.
+*/
+template <class Value>
+auto galerkin_rows(const Multigrid::Split_matrix<Value>& fine,
+                   const Surface_mesh_multiresolution::Prolongation& p)
+{
+  typedef typename Multigrid::Value_traits<Value>::Double Double;
+  return internal::products<Double>(internal::Rows_of_matrix<Multigrid::Split_matrix<Value>>(fine), p);
 }
 
 } // namespace Surface_mesh_multigrid

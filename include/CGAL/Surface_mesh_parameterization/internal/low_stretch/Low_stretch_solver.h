@@ -170,7 +170,7 @@ std::vector<Plane_point> Low_stretch_solver<Energy>::insert_all()
       return {};
     collapsed = still;
     if(l == finest) // all are back
-      m_levels.forget_collapses();
+      m_levels.forget_way();
     m_newton.add_level(m_levels.from_coarser(l));
     l < finest ? minimize(l, m_coarse_energy, places) : minimize(l, m_energy, places);
     if(m_misses_pins)
@@ -196,7 +196,7 @@ std::vector<Plane_point> Low_stretch_solver<Energy>::finished(std::vector<Plane_
 template <class Energy>
 std::vector<Plane_point> Low_stretch_solver<Energy>::improve_start(std::vector<Plane_point> places)
 {
-  m_levels.forget_collapses();
+  m_levels.forget_way();
   if(m_levels.has_held() && are_there(m_levels.held(), places))
     return improve(std::move(places));
   Stretch_level<Energy> level(m_levels.finest().mesh.triangles,
@@ -348,10 +348,7 @@ template <class Energy> template <class Level_energy>
 void Low_stretch_solver<Energy>::minimize(std::size_t l, const Level_energy& energy,
                                           std::vector<Plane_point>& places)
 {
-  const std::vector<Vertex_index>& vertices = m_levels[l].vertices;
-  std::vector<Plane_point> z(vertices.size());
-  for(std::size_t v = 0; v < z.size(); ++v)
-    z[v] = places[vertices[v]];
+  std::vector<Plane_point> z = m_levels.take_places(l, places);
   if(l == 0 && m_levels.has_held() && !hold_pins(energy, z))
     return;
   Stretch_level<Level_energy> level(m_levels[l].mesh.triangles, m_levels.triangles_of(l), std::move(z),
@@ -360,8 +357,7 @@ void Low_stretch_solver<Energy>::minimize(std::size_t l, const Level_energy& ene
     level.scale();
   level.keep_apart(m_levels.borders_of(l));
   descend(level, l);
-  for(std::size_t v = 0; v < vertices.size(); ++v)
-    places[vertices[v]] = level.places()[v];
+  m_levels.put_places(l, level.take_places(), places);
 }
 
 // Lowers the energy of a level as far as pays off.

@@ -7,11 +7,11 @@
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Multigrid/Block_values.h>
 #include <CGAL/Multigrid/Conjugate_gradient.h>
-#include <CGAL/Multigrid/Matrix_builder.h>
 #include <CGAL/Multigrid/Multigrid_levels.h>
 #include <CGAL/Multigrid/Schedule.h>
 #include <CGAL/Multigrid/Sparse_cholesky.h>
 #include <CGAL/Multigrid/Sparse_rows.h>
+#include <CGAL/Multigrid/Split_matrix.h>
 #include <CGAL/Surface_mesh_multigrid/galerkin_rows.h>
 #include <CGAL/Surface_mesh_multiresolution/Prolongation.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Past_steps.h>
@@ -57,9 +57,8 @@ public:
   }
 
   template <class Row>
-  void write(double shift, Row& row)
+  void write(Row& row) const
   {
-    m_diagonal *= 1. + shift;
     row.set(m_diagonal, m_count, m_columns, m_values);
   }
 
@@ -81,10 +80,10 @@ private:
   std::size_t m_count = 0;
 };
 
-// The projected second derivative of a level after `linearize()`, without rows for fixed vertices; its
-// diagonal is longer by the part `shift`.
-template <class Value, class Energy>
-Multigrid::Self_adjoint_matrix<Value> stretch_matrix(const Stretch_level<Energy>& level, double shift = 0.)
+// The projected second derivative of a level after `linearize()`, without rows for fixed vertices: a
+// few very stiff triangles hide all others from single precision.
+template <class Energy>
+Multigrid::Split_matrix<Eigen::Matrix2d> stretch_matrix(const Stretch_level<Energy>& level)
 {
   constexpr std::size_t block_size = 16384;
   const Indexed_mesh::Triangles_at_vertices& corners = level.corners();
@@ -96,16 +95,17 @@ Multigrid::Self_adjoint_matrix<Value> stretch_matrix(const Stretch_level<Energy>
         level.for_each_contact_of(Vertex_index(v), [&](const auto&, int) { lengths[v] += 2; });
     }
   });
-  const auto fill = [&](std::uint32_t v, Multigrid::Real_row<Value>& result) {
+  const auto fill = [&](std::uint32_t v, auto& result) {
     Stretch_row row(lengths[v]);
     if(!level.is_fixed(v)) {
       for(const Halfedge* c = corners.begin(v); c != corners.end(v); ++c) {
         const std::size_t t = triangle_of(*c);
         const int corner = int(corner_of(*c));
-        row.add_diagonal(level.element(t).block(level.reference(t), corner, corner));
+        const Stretch_element<double> element = level.element(t);
+        row.add_diagonal(element.block(level.reference(t), corner, corner));
         for(int k = 1; k < 3; ++k) {
           const int other = (corner + k) % 3;
-          row.add(level.triangles()[t][other], level.element(t).block(level.reference(t), corner, other));
+          row.add(level.triangles()[t][other], element.block(level.reference(t), corner, other));
         }
       }
       level.for_each_contact_of(v, [&](const Border_barrier::Contact& contact, int corner) {
@@ -114,11 +114,9 @@ Multigrid::Self_adjoint_matrix<Value> stretch_matrix(const Stretch_level<Energy>
           row.add(contact.corner[(corner + k) % 3], contact.block(corner, (corner + k) % 3));
       });
     }
-    row.write(shift, result);
-    return true;
+    row.write(result);
   };
-  return Multigrid::Matrix_builder::build_matrix<Value>(
-    lengths, fill, [](std::uint32_t, typename Multigrid::Self_adjoint_matrix<Value>::Row&) {});
+  return Multigrid::Split_matrix<Eigen::Matrix2d>(lengths, fill);
 }
 
 // Where the cycles get the matrices of coarser levels from.
@@ -133,7 +131,6 @@ enum class Coarse_matrices
 class Newton_steps
 {
 public:
-  typedef Multigrid::Self_adjoint_matrix<Eigen::Matrix2f> Matrix;
   typedef std::vector<Plane_point> Vectors;
 
   explicit Newton_steps(Coarse_matrices coarse = Coarse_matrices::OF_LAST_STEPS) : m_coarse(coarse) {}
@@ -146,8 +143,9 @@ public:
     m_rest = 0;
     m_next_rest = 1;
     m_is_solved = true;
+    if(!m_transfers.empty())
+      m_coarser.push_back(std::make_unique<Split::Single>(m_matrix.take_single()));
     m_transfers.push_back(from_coarser);
-    m_matrices.push_back(std::make_unique<Matrix>());
   }
 
   // From now on the matrices of coarser levels are these; once `GALERKIN`, those of last steps are lost.
@@ -196,6 +194,7 @@ public:
   std::size_t iterations() const { return m_iterations; } // of all steps
 
 private:
+  typedef Multigrid::Split_matrix<Eigen::Matrix2d> Split;
   typedef Multigrid::Sparse_cholesky<Multigrid::Real_factorization> Coarsest;
   typedef Multigrid::Multigrid_levels<Surface_mesh_multiresolution::Prolongation, Coarsest,
                                       Eigen::Matrix2f> Levels;
@@ -214,12 +213,19 @@ private:
 
   static double norm(const Vectors& vectors) { return std::sqrt(Past_steps::product(vectors, vectors)); }
 
-  void set_coarser(const Multigrid::Self_adjoint_matrix<Eigen::Matrix2d>& matrix)
+  // Products of the matrix on coarser levels; the coarsest may be itself.
+  void set_coarser()
   {
-    Multigrid::Sparse_rows<Eigen::Matrix2d> rows(matrix);
-    for(std::size_t l = m_matrices.size() - 1; l-- > 0;) {
-      rows = Surface_mesh_multigrid::galerkin_rows(rows, *m_transfers[l + 1]);
-      *m_matrices[l] = rows.matrix<Eigen::Matrix2f>();
+    Multigrid::Sparse_rows<Eigen::Matrix2d> rows;
+    for(const auto& matrix : m_coarser)
+      *matrix = Split::Single();
+    if(m_coarser.empty())
+      rows = Multigrid::Sparse_rows<Eigen::Matrix2d>(m_matrix);
+    for(std::size_t l = m_coarser.size(); l-- > 0;) {
+      const auto& transfer = *m_transfers[l + 1];
+      rows = l + 1 == m_coarser.size() ? Surface_mesh_multigrid::galerkin_rows(m_matrix, transfer)
+                                       : Surface_mesh_multigrid::galerkin_rows(rows, transfer);
+      *m_coarser[l] = rows.matrix<Split::Single::Traits::Stored>();
     }
     rows.shift_diagonal(shift);
     m_coarsest = rows.matrix<Eigen::Matrix2d>();
@@ -227,7 +233,8 @@ private:
 
   Coarse_matrices m_coarse;
   std::vector<const Surface_mesh_multiresolution::Prolongation*> m_transfers;
-  std::vector<std::unique_ptr<Matrix>> m_matrices;
+  Split m_matrix; // of the finest level so far
+  std::vector<std::unique_ptr<Split::Single>> m_coarser;
   Multigrid::Self_adjoint_matrix<Eigen::Matrix2d> m_coarsest;
   Past_steps m_past;
   std::size_t m_rest = 0, m_next_rest = 1; // steps without the past
@@ -240,24 +247,24 @@ template <class Energy>
 Newton_steps::Vectors Newton_steps::direction(Stretch_level<Energy>& level, const Vectors& pulled,
                                               std::size_t iterations, double residual, double& slope)
 {
-  typedef Eigen::Vector2d Vector; // a few very stiff triangles hide all others from single precision
+  typedef Eigen::Vector2d Vector;
   level.linearize();
-  const Vectors gradient = level.gradient();
-  if(pulled.empty() && m_rest == 0)
-    m_past.add(level.places(), gradient);
-  const Vectors rest = m_past.rest_of(gradient);
+  Vectors its_own = level.gradient();
+  const bool is_noted = pulled.empty() && m_rest == 0;
+  if(is_noted)
+    m_past.add(level.places(), std::move(its_own));
+  const Vectors& gradient = is_noted ? m_past.gradient() : its_own;
+  Vectors rest = m_past.rest_of(gradient);
   m_solved = m_unsolved = 0.;
   m_is_solved = true;
-  const auto matrix = stretch_matrix<Eigen::Matrix2d>(level);
-  if(m_coarse != Coarse_matrices::GALERKIN && m_matrices.size() == 1)
-    m_coarsest = stretch_matrix<Eigen::Matrix2d>(level, shift);
-  level.forget_derivatives(); // before there is a second matrix
-  m_matrices.back()->assign(matrix);
-  if(m_coarse == Coarse_matrices::GALERKIN)
-    set_coarser(matrix);
+  m_matrix = Split(); // before there is another one
+  m_matrix = stretch_matrix(level);
+  if(m_coarse == Coarse_matrices::GALERKIN || m_coarser.empty())
+    set_coarser();
   Levels levels;
-  for(std::size_t l = 0; l < m_matrices.size(); ++l)
-    levels.add_level(*m_matrices[l], m_transfers[l]);
+  for(std::size_t l = 0; l < m_coarser.size(); ++l)
+    levels.add_level(*m_coarser[l], m_transfers[l]);
+  levels.add_level(m_matrix.single(), m_transfers.back());
   if(!levels.coarsest_solver().factorize(m_coarsest))
     return {};
   double size = norm(rest);
@@ -268,6 +275,7 @@ Newton_steps::Vectors Newton_steps::direction(Stretch_level<Energy>& level, cons
   std::vector<Vector> f(rest.size()), x(rest.size(), Vector::Zero());
   for(std::size_t v = 0; v < f.size(); ++v)
     f[v] = Vector(-rest[v].x / size, -rest[v].y / size);
+  Vectors().swap(rest);
   for(std::size_t v = 0; v < pulled.size(); ++v)
     if(level.is_fixed(v))
       x[v] = Vector(pulled[v].x / size, pulled[v].y / size);
@@ -277,10 +285,10 @@ Newton_steps::Vectors Newton_steps::direction(Stretch_level<Energy>& level, cons
   stop.maximal_iterations = iterations;
   const auto schedule = Multigrid::Schedule::v_cycle(1, 1);
   const auto cycle = [&](const std::vector<Vector>& r, std::vector<Vector>& z) {
-    levels.precondition(schedule, m_matrices.size() - 1, r, z);
+    levels.precondition(schedule, m_coarser.size(), r, z);
   };
   const Multigrid::Iteration_report report
-    = Multigrid::minimize_energy(matrix, f, x, cycle, stop, [](double) { return true; });
+    = Multigrid::minimize_energy(m_matrix, std::move(f), x, cycle, stop, [](double) { return true; });
   m_iterations += report.iterations;
   m_solved = -report.energy * size * size;
   m_is_solved = report.converged || report.energy_gap <= -report.energy;

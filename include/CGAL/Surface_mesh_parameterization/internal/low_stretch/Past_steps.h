@@ -34,7 +34,7 @@ public:
   }
 
   // Takes note of where the iteration has come to.
-  void add(const Vectors& places, const Vectors& gradient)
+  void add(const Vectors& places, Vectors gradient)
   {
     constexpr double least = 1e-12; // cosine of a step and its change: smaller ones may be rounding
     if(m_places.size() == places.size()) {
@@ -46,8 +46,10 @@ public:
         m_steps.pop_front();
     }
     m_places = places;
-    m_gradient = gradient;
+    m_gradient = std::move(gradient);
   }
+
+  const Vectors& gradient() const { return m_gradient; } // that was added last
 
   // What is left of the gradient for the first guess to invert.
   Vectors rest_of(Vectors gradient)

@@ -89,6 +89,27 @@ public:
     return double(finest().vertices.size()) / double(m_levels[l].vertices.size());
   }
 
+  // Those of the places of all vertices that level l has, to be put back: of the finest one all, without
+  // a copy.
+  std::vector<Plane_point> take_places(std::size_t l, std::vector<Plane_point>& places) const
+  {
+    if(l + 1 == m_levels.size())
+      return std::move(places);
+    std::vector<Plane_point> taken;
+    taken.reserve(m_levels[l].vertices.size());
+    for(const Vertex_index v : m_levels[l].vertices)
+      taken.push_back(places[v]);
+    return taken;
+  }
+  void put_places(std::size_t l, std::vector<Plane_point> taken, std::vector<Plane_point>& places) const
+  {
+    if(l + 1 == m_levels.size())
+      places = std::move(taken);
+    else
+      for(std::size_t v = 0; v < taken.size(); ++v)
+        places[m_levels[l].vertices[v]] = taken[v];
+  }
+
   // Gives the finest mesh away, to build other levels of it.
   Indexed_mesh::Indexed_triangle_mesh take_mesh() { return std::move(m_levels.back().mesh); }
 
@@ -113,10 +134,13 @@ public:
     const auto it = std::lower_bound(ends.begin(), ends.end(), end);
     return it == ends.begin() ? 0 : *(it - 1);
   }
-  void forget_collapses()
+  // Frees what only leads to the finest level: collapses, and the meshes of the others.
+  void forget_way()
   {
     m_rings = Indexed_mesh::Vertex_rings();
     m_collapses = Surface_mesh_multiresolution::Progressive_mesh();
+    for(std::size_t l = 0; l + 1 < m_levels.size(); ++l)
+      m_levels[l].mesh = Indexed_mesh::Indexed_triangle_mesh();
   }
 
   // The triangles of a level, as a function of their indices: of a coarse one when the collapses are

@@ -5,7 +5,6 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_STRETCH_LEVEL_H
 
 #include <CGAL/Blocked_execution/blocked_for.h>
-#include <CGAL/Blocked_execution/Uninitialized_vector.h>
 #include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 #include <CGAL/Surface_mesh_parameterization/Stretch_element.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Border_barrier.h>
@@ -85,6 +84,7 @@ public:
   }
 
   const Places& places() const { return m_places; }
+  Places take_places() { return std::move(m_places); } // the last that is asked of a level
   std::size_t size() const { return m_places.size(); }
   bool is_fixed(std::size_t v) const { return !m_is_fixed.empty() && m_is_fixed[v]; }
   double area() const { return m_area; } // of the reference triangles
@@ -121,26 +121,14 @@ public:
   // the energy fell.
   double sweep(double share_of_queue);
 
-  // Computes the derivatives at the map.
+  // Computes the derivatives of the barrier at the map.
   void linearize()
   {
     if(m_barrier)
       m_barrier->linearize(m_places);
-    m_elements.resize(m_triangles.size());
-    for_each(m_triangles.size(), [this](std::size_t t) {
-      m_elements[t] = Stretch_element<double>(
-        m_references[t], Plane_jacobian<double>(m_references[t], corners_at(m_places, t)), m_energy,
-        Curvature::PROJECTED);
-    });
   }
 
-  // Frees what `linearize()` has computed.
-  void forget_derivatives()
-  {
-    Blocked_execution::Uninitialized_vector<Stretch_element<double>>().swap(m_elements);
-  }
-
-  // The first derivative; 0 at fixed vertices.
+  // The first derivative, after `linearize()`; 0 at fixed vertices.
   Places gradient() const
   {
     Places result(size());
@@ -148,8 +136,8 @@ public:
       if(is_fixed(v))
         return;
       for(const Halfedge* c = m_corners.begin(Vertex_index(v)); c != m_corners.end(Vertex_index(v)); ++c)
-        result[v] = result[v] + m_elements[triangle_of(*c)].gradient(m_references[triangle_of(*c)],
-                                                                     int(corner_of(*c)));
+        result[v] = result[v] + element(triangle_of(*c)).gradient(m_references[triangle_of(*c)],
+                                                                  int(corner_of(*c)));
       for_each_contact_of(Vertex_index(v), [&](const Border_barrier::Contact& contact, int corner) {
         result[v] = result[v] + contact.gradient(corner);
       });
@@ -161,7 +149,13 @@ public:
   const Triangles& triangles() const { return m_triangles; }
   const Indexed_mesh::Triangles_at_vertices& corners() const { return m_corners; }
   const Reference_triangle<double>& reference(std::size_t t) const { return m_references[t]; }
-  const Stretch_element<double>& element(std::size_t t) const { return m_elements[t]; }
+  // That of a triangle at the map: to compute it for each corner anew takes no longer than to store it.
+  Stretch_element<double> element(std::size_t t) const
+  {
+    return Stretch_element<double>(
+      m_references[t], Plane_jacobian<double>(m_references[t], corners_at(m_places, t)), m_energy,
+      Curvature::PROJECTED);
+  }
   template <class Use>
   void for_each_contact_of(Vertex_index v, const Use& use) const
   {
@@ -234,7 +228,6 @@ private:
   std::vector<bool> m_border; // with a barrier: the vertices of the border
   Places m_places;
   std::vector<Reference_triangle<double>> m_references;
-  Blocked_execution::Uninitialized_vector<Stretch_element<double>> m_elements;
   double m_area = 0., m_value = 0.;
 };
 
