@@ -81,9 +81,11 @@ private:
 };
 
 // The projected second derivative of a level after `linearize()`, without rows for fixed vertices: a
-// few very stiff triangles hide all others from single precision.
+// few very stiff triangles hide all others from single precision. Sets `gradient` to the first one; 0
+// at fixed vertices.
 template <class Energy>
-Multigrid::Split_matrix<Eigen::Matrix2d> stretch_matrix(const Stretch_level<Energy>& level)
+Multigrid::Split_matrix<Eigen::Matrix2d>
+stretch_matrix(const Stretch_level<Energy>& level, std::vector<Plane_point>& gradient)
 {
   constexpr std::size_t block_size = 16384;
   const Indexed_mesh::Triangles_at_vertices& corners = level.corners();
@@ -95,13 +97,16 @@ Multigrid::Split_matrix<Eigen::Matrix2d> stretch_matrix(const Stretch_level<Ener
         level.for_each_contact_of(Vertex_index(v), [&](const auto&, int) { lengths[v] += 2; });
     }
   });
+  gradient.resize(level.size());
   const auto fill = [&](std::uint32_t v, auto& result) {
     Stretch_row row(lengths[v]);
+    Plane_point sum;
     if(!level.is_fixed(v)) {
       for(const Halfedge* c = corners.begin(v); c != corners.end(v); ++c) {
         const std::size_t t = triangle_of(*c);
         const int corner = int(corner_of(*c));
         const Stretch_element<double> element = level.element(t);
+        sum = sum + element.gradient(level.reference(t), corner);
         row.add_diagonal(element.block(level.reference(t), corner, corner));
         for(int k = 1; k < 3; ++k) {
           const int other = (corner + k) % 3;
@@ -109,12 +114,14 @@ Multigrid::Split_matrix<Eigen::Matrix2d> stretch_matrix(const Stretch_level<Ener
         }
       }
       level.for_each_contact_of(v, [&](const Border_barrier::Contact& contact, int corner) {
+        sum = sum + contact.gradient(corner);
         row.add_diagonal(contact.block(corner, corner));
         for(int k = 1; k < 3; ++k)
           row.add(contact.corner[(corner + k) % 3], contact.block(corner, (corner + k) % 3));
       });
     }
     row.write(result);
+    gradient[v] = sum;
   };
   return Multigrid::Split_matrix<Eigen::Matrix2d>(lengths, fill);
 }
@@ -249,7 +256,9 @@ Newton_steps::Vectors Newton_steps::direction(Stretch_level<Energy>& level, cons
 {
   typedef Eigen::Vector2d Vector;
   level.linearize();
-  Vectors its_own = level.gradient();
+  m_matrix = Split(); // before there is another one
+  Vectors its_own;
+  m_matrix = stretch_matrix(level, its_own);
   const bool is_noted = pulled.empty() && m_rest == 0;
   if(is_noted)
     m_past.add(level.places(), std::move(its_own));
@@ -257,8 +266,6 @@ Newton_steps::Vectors Newton_steps::direction(Stretch_level<Energy>& level, cons
   Vectors rest = m_past.rest_of(gradient);
   m_solved = m_unsolved = 0.;
   m_is_solved = true;
-  m_matrix = Split(); // before there is another one
-  m_matrix = stretch_matrix(level);
   if(m_coarse == Coarse_matrices::GALERKIN || m_coarser.empty())
     set_coarser();
   Levels levels;

@@ -128,24 +128,7 @@ public:
       m_barrier->linearize(m_places);
   }
 
-  // The first derivative, after `linearize()`; 0 at fixed vertices.
-  Places gradient() const
-  {
-    Places result(size());
-    for_each(size(), [&](std::size_t v) {
-      if(is_fixed(v))
-        return;
-      for(const Halfedge* c = m_corners.begin(Vertex_index(v)); c != m_corners.end(Vertex_index(v)); ++c)
-        result[v] = result[v] + element(triangle_of(*c)).gradient(m_references[triangle_of(*c)],
-                                                                  int(corner_of(*c)));
-      for_each_contact_of(Vertex_index(v), [&](const Border_barrier::Contact& contact, int corner) {
-        result[v] = result[v] + contact.gradient(corner);
-      });
-    });
-    return result;
-  }
-
-  // What the second derivative is made of, after `linearize()`; see `stretch_matrix()`.
+  // What the derivatives are made of, after `linearize()`; see `stretch_matrix()`.
   const Triangles& triangles() const { return m_triangles; }
   const Indexed_mesh::Triangles_at_vertices& corners() const { return m_corners; }
   const Reference_triangle<double>& reference(std::size_t t) const { return m_references[t]; }
