@@ -18,7 +18,7 @@ GRIDS = {"terrain_100k": "224x224", "terrain_250k": "354x354", "terrain_1000k": 
 MASSIF_CHART = "terrain_100k"
 
 # Beside `parameterize` with its default method, at a million faces; {out} is a folder or a file
-METHODS = ("spectral", "cascadic", "direct", "lscm")
+METHODS = ("spectral", "cascadic", "direct", "lscm", "low-stretch")
 COMMANDS = {
     **{f"parameterize --method {method}": ["-o", "{out}.obj"] for method in METHODS},
     "atlas": ["-o", "{out}"],

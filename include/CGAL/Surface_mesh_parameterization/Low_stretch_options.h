@@ -24,7 +24,7 @@ struct Low_stretch_options
   /// to gain, as far as can be estimated. Where the least energy is nearly that of an isometry, a
   /// tenth of the difference counts instead of the energy.
   double tolerance = 1e-3;
-  std::size_t maximal_iterations = 50; ///< of Newton's method, on the surface itself
+  std::size_t maximal_iterations = 200; ///< of Newton's method, on the surface itself
   /// Vertices and where they are held, different vertices; any number. The unit is that of the mesh.
   /// All vertices of a border: this border is prescribed.
   std::vector<HLSCM_pin> pins;

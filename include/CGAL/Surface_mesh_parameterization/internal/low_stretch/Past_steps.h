@@ -126,7 +126,7 @@ public:
   // Whether there was one step only.
   bool is_first() const { return m_gains.size() == 1; }
 
-  // The slowest mean rate over the last one, two, four and eight steps counts. A small gain after a
+  // The slowest mean rate over the last one, two, four, eight and sixteen steps counts. A small gain after a
   // large one may be luck: an eighth of that counts. Less is left where the iteration is known to be
   // fast: by how well the first gain was foretold, and how small the last one is beside that before.
   double value() const
@@ -136,7 +136,7 @@ public:
       return 0.;
     const double last = m_gains[n - 1], before = gain_before();
     double rate = before > 0. ? (std::max)(usual_rate, last / before) : usual_rate;
-    for(std::size_t span = 1; span <= 8 && span + 1 < n; span *= 2)
+    for(std::size_t span = 1; span <= 16 && span + 1 < n; span *= 2)
       if(larger_of_two(n - 1 - span) > 0.)
         rate = (std::max)(rate, std::pow(larger_of_two(n - 1) / larger_of_two(n - 1 - span),
                                          1. / double(span)));
@@ -147,7 +147,7 @@ public:
   }
 
 private:
-  static constexpr double usual_rate = 0.8, largest_rate = 0.95, fast = 0.2, least_part = 0.1;
+  static constexpr double usual_rate = 0.8, largest_rate = 0.98, fast = 0.2, least_part = 0.1;
 
   double larger_of_two(std::size_t i) const { return (std::max)(m_gains[i], m_gains[i - 1]); }
 
