@@ -495,7 +495,7 @@ ATLAS_OPTIONS = {
     "--smooth-seams": "straight seams; faces are cut",
     "--hide-seams": "seams where nobody looks",
     "--align": "rows and columns: pixels, tiles, straight parts",
-    "--method low-stretch": "fewer charts of bodies with limbs, for angles",
+    "--method border-first": "conformal charts only",
     "--max-quasi-conformal 1.5": "angles that are kept better",
     "--max-area-scale 2": "as many texels everywhere in a chart"}
 

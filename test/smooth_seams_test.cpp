@@ -220,6 +220,7 @@ TEST(Smooth_seams, an_atlas_has_them)
     options.packing.width = options.packing.height = 256;
     options.coarse_faces = 500;
     options.bound.area_scale = 1.5;
+    options.may_stretch = false; // one chart would have no seams
     const auto found = SMT::Chart_growth_segmenter()(surface.mesh, options);
     ASSERT_EQ(found.error, "") << surface.name << seed_text;
     const SMT::Given_charts_segmenter segmenter(found.charts); // the same charts for both

@@ -3,6 +3,7 @@
 //
 // Models of the concepts of texturing that users may write, and the least that a model may have.
 
+#include <support/chart_generators.h>
 #include <support/texture_atlas_properties.h>
 #include <support/textured_meshes.h>
 #include <support/texturing_options.h>
@@ -321,6 +322,36 @@ TEST(Texturing_models, a_correspondence_and_a_shader_of_the_user)
   EXPECT_EQ(map.number_of_covered_texels, 64u);
   const std::set<float> values(map.image.texels.begin(), map.image.texels.end());
   EXPECT_EQ(values, (std::set<float>{10.f, 11.f}));
+}
+
+// A dome beyond a hemisphere is one chart with little stretch, within the bound; it is not where all
+// maps are conformal, and another parameterizer than the default one maps every chart.
+TEST(Texturing_models, charts_are_stretched_beside_the_default_parameterizer_only)
+{
+  const Indexed_triangle_mesh mesh = on_sphere(round_disk(14), 1.7);
+  SMT::Texture_atlas_options options;
+  options.packing.width = options.packing.height = 256;
+  options.seam_price = std::numeric_limits<double>::infinity();
+  const SMT::Texture_atlas_result stretched = SMT::build_texture_atlas(mesh, options);
+  ASSERT_EQ(stretched.error, "");
+  EXPECT_EQ(error_in_atlas(mesh, stretched.atlas), "");
+  ASSERT_EQ(stretched.report.charts.size(), 1u);
+  EXPECT_TRUE(stretched.report.charts[0].distortion.is_within(options.bound));
+  std::size_t mapped = 0; // triangles of the charts that the parameterizer is asked to map last
+  const auto parameterizer = [&mapped](const Indexed_triangle_mesh& chart) {
+    mapped += chart.triangles.size();
+    return SMT::Border_first_chart_parameterizer()(chart);
+  };
+  const SMT::Texture_atlas_result by_another
+    = SMT::build_texture_atlas<CGAL::Sequential_tag>(mesh, options, CGAL::Default(), parameterizer);
+  options.may_stretch = false;
+  const SMT::Texture_atlas_result conformal = SMT::build_texture_atlas(mesh, options);
+  ASSERT_EQ(by_another.error + conformal.error, "");
+  EXPECT_GT(conformal.report.charts.size(), 1u);
+  EXPECT_EQ(by_another.atlas.charts.chart, conformal.atlas.charts.chart);
+  EXPECT_GE(mapped, mesh.triangles.size());
+  for(const SMT::Chart_report& chart : by_another.report.charts)
+    EXPECT_LT(chart.distortion.quasi_conformal, 1.1);
 }
 
 } // namespace texturing_models_test

@@ -79,15 +79,15 @@ void add_atlas_options(CLI::App& app, Program_options& o)
              "seconds to look for a better packing, on a usual machine (default none)");
   add_choice<Chart_map>(
       app, "--method",
-      {{"border-first", Chart_map::BORDER_FIRST},
-       {"low-stretch", Chart_map::LOW_STRETCH},
+      {{"low-stretch", Chart_map::LOW_STRETCH},
+       {"border-first", Chart_map::BORDER_FIRST},
        {"spectral", Chart_map::SPECTRAL},
        {"hlscm", Chart_map::HLSCM},
        {"cascadic", Chart_map::CASCADIC}},
       atlas.method,
-      "how charts are mapped; border-first: with the least change of areas; low-stretch: so, or with "
-      "less change of areas and more of angles where that makes fewer charts; the others are those of "
-      "parameterize (default border-first)");
+      "how charts are mapped; border-first: conformally, with the least change of areas; low-stretch: "
+      "so, or with less change of areas and more of angles where that makes fewer charts; the others are "
+      "those of parameterize (default low-stretch)");
   add_signal(app, o);
   add_layout_options(app, o);
   add_threads(app, o.library.threads);

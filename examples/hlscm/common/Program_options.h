@@ -95,7 +95,7 @@ struct Atlas_settings
   double packing_time = 0;    ///< seconds for better packings
   double time_limit = 0;      ///< seconds for `atlas`, or for all of `bake`; 0: none
   Packer packer = Packer::RASTER;
-  Chart_map method = Chart_map::BORDER_FIRST;
+  Chart_map method = Chart_map::LOW_STRETCH;
   bool writes_ply = false;
   Layout_settings layout;
 };

@@ -74,10 +74,10 @@ void take_numbers(const py::dict& options, const char* name, std::vector<T>& num
 void take_map(const py::dict& options, Atlas_request& request)
 {
   typedef SMP::Conformal_method Method;
-  std::string name = "border-first";
+  std::string name = "low-stretch";
   take(options, "method", name);
   const auto method = chosen<std::optional<Method>>("method", name,
-    {{"border-first", std::nullopt}, {"low-stretch", std::nullopt}, {"hlscm", Method::HLSCM},
+    {{"low-stretch", std::nullopt}, {"border-first", std::nullopt}, {"hlscm", Method::HLSCM},
      {"spectral", Method::SPECTRAL}, {"cascadic", Method::CASCADIC}, {"lscm", Method::LSCM},
      {"direct", Method::DIRECT}});
   request.options.may_stretch = name == "low-stretch";

@@ -96,6 +96,8 @@ Texture_atlas_result build_texture_atlas(const Indexed_triangle_mesh& mesh,
   models.is_for_any_mesh = Used_segmenter::Is_for_any_mesh::value;
   models.is_own = std::is_same<Used_segmenter, Chart_growth_segmenter>::value;
   models.parameterize = [&](const Indexed_triangle_mesh& chart) { return used_parameterizer(chart); };
+  models.may_stretch = std::is_same<std::decay_t<decltype(used_parameterizer)>,
+                                    Border_first_chart_parameterizer>::value;
   models.pack = internal::packing_by(used_packer);
   return internal::build_atlas(mesh, options, models);
 }

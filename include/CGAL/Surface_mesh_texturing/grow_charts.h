@@ -47,8 +47,9 @@ struct Chart_growth_options
   /// Triangles to one of the patches from which charts are merged.
   std::size_t patch_size = 25;
   /// Whether a chart that is beyond the bound on areas when it is mapped conformally may be mapped by
-  /// `Surface_mesh_parameterization::low_stretch_map()`, which keeps areas better and angles less.
-  bool may_stretch = false;
+  /// `Surface_mesh_parameterization::low_stretch_map()`, which keeps areas better and angles less: at the
+  /// end charts are merged if their union is within the bound then.
+  bool may_stretch = true;
   /// How much is tried to get along with fewer charts: triangles that are mapped for each triangle
   /// of the mesh.
   double effort = 150.;
@@ -182,7 +183,8 @@ CGAL_HLSCM_INLINE Chart_growth_result grow_charts_of(const Indexed_triangle_mesh
 \ingroup PkgHLSCMTexturing
 
 Cuts `mesh`, an oriented manifold of any topology, into few charts which are disks and whose least
-squares conformal maps are one-to-one and within a bound on their distortion.
+squares conformal maps, or maps with little stretch, are one-to-one and within a bound on their
+distortion.
 
 The method is in the spirit of Lévy, Petitjean, Ray and Maillot, *Least Squares Conformal Maps for
 Automatic Texture Atlas Generation*, SIGGRAPH 2002, section 3: small patches are grown between the

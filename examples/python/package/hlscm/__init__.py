@@ -529,7 +529,7 @@ def _labels(values: Optional[ArrayLike], name: str, back: Optional[Mended]) -> O
 
 def atlas(vertices: Any, faces: Any = None, /, *, max_charts: int = 0, seam_price: float = 0.02,
           min_used: float = 0., area_scale: float = 4., quasi_conformal: float = 2.,
-          least_fill: float = 0.75, method: str = "border-first",
+          least_fill: float = 0.75, method: str = "low-stretch",
           resolution: Union[int, Tuple[int, int]] = 1024, largest_aspect: float = 1., padding: int = 2,
           mip_levels: int = 0, pages: int = 1, texels_per_unit: float = 0., packer: str = "raster",
           cutting_time: float = 0., packing_time: float = 0., density: Optional[ArrayLike] = None,
@@ -548,8 +548,8 @@ def atlas(vertices: Any, faces: Any = None, /, *, max_charts: int = 0, seam_pric
     min_used: the part of the pages to use, in [0, 1); charts are cut until it is, or no cut helps.
     area_scale, quasi_conformal: how far a chart may be distorted: the range of its area scale, and
         its ratio s1 / s2.
-    method: "border-first"; "low-stretch", which changes areas less and angles more where that makes
-        fewer charts; or that of a conformal map, as for parameterize().
+    method: "border-first", conformal; "low-stretch", which changes areas less and angles more where that
+        makes fewer charts; or that of a conformal map, as for parameterize().
     resolution: texels of a page, or (width, height); padding: texels between charts.
     largest_aspect: how many times as wide as high pages may be, which are then lower if that is fuller.
     mip_levels: the coarsest level of the texture that keeps the padding; 2 for a light map.

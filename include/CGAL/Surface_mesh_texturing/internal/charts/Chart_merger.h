@@ -43,13 +43,20 @@ public:
 
   // Merges keep within `bound`, and leave `least` charts in each component.
   Chart_merger(const Growth_surface& surface, const std::vector<std::uint8_t>& is_feature,
-               const Distortion_bound& bound, bool may_stretch, double least_fill, std::size_t least)
-    : m_surface(surface), m_bound(bound), m_may_stretch(may_stretch), m_least_fill(least_fill)
-    , m_least(least), m_finder(surface, is_feature), m_cutter(surface.mesh, surface.adjacency)
+               const Distortion_bound& bound, double least_fill, std::size_t least)
+    : m_surface(surface), m_bound(bound), m_least_fill(least_fill), m_least(least)
+    , m_finder(surface, is_feature), m_cutter(surface.mesh, surface.adjacency)
     , m_is_opened(3 * surface.size(), 0)
   {
     for(const double a : surface.area)
       m_area += a;
+  }
+
+  // From now on charts may be mapped with little stretch, see `try_map()`.
+  void allow_stretch()
+  {
+    m_may_stretch = true;
+    m_known.clear();
   }
 
   // The charts with the given seams and labels of triangles, which are less than `number`; not all
@@ -124,7 +131,7 @@ private:
 
   const Growth_surface& m_surface;
   Distortion_bound m_bound;
-  bool m_may_stretch;
+  bool m_may_stretch = false;
   double m_least_fill;
   std::size_t m_least;
   Union_finder m_finder;

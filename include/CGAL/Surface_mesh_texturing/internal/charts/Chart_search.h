@@ -111,8 +111,7 @@ public:
   Chart_search(const Growth_surface& surface, const Search_options& options)
     : m_surface(surface), m_options(options)
     , m_is_feature(feature_edges(surface, options.feature_angle))
-    , m_merger(surface, m_is_feature, options.bound, options.may_stretch, options.least_fill,
-               options.least_charts)
+    , m_merger(surface, m_is_feature, options.bound, options.least_fill, options.least_charts)
     , m_most_work(options.effort * double(surface.size() + small_size))
   {
     m_merger.set_progress([this] { return tell_progress() && !is_enough(); });
@@ -183,6 +182,10 @@ inline bool Chart_search::run()
   std::iota(all.begin(), all.end(), 0u);
   m_merger.merge(*m_best, all, Merge_weights());
   improve();
+  if(m_options.may_stretch) { // from the first on there would be no fewer charts, and more stretched ones
+    m_merger.allow_stretch();
+    m_merger.merge(*m_best, all, Merge_weights());
+  }
   if(m_options.max_charts > 0)
     m_merger.merge_down_to(*m_best, m_options.max_charts);
   straighten();

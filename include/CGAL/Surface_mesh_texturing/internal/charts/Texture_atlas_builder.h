@@ -47,6 +47,7 @@ struct Atlas_models
   bool is_for_any_mesh = true; // ChartSegmenter::Is_for_any_mesh
   bool is_own = true;          // the default segmenter, which checks meshes and cuts charts to disks
   std::function<std::vector<Chart_shape::Point_2>(const Indexed_triangle_mesh&)> parameterize;
+  bool may_stretch = true;     // the default parameterizer, which leaves charts to low-stretch maps
   Pack_function pack;
   // Charts with maps that are there already, in the place of what segments and parameterizes.
   std::function<std::vector<Mapped_chart>(const Indexed_triangle_mesh&, const Triangle_adjacency&,
