@@ -102,9 +102,9 @@ public:
       const std::uint32_t most = count + 3 * (m_fine.length(i) + 1);
       if(m_column.size() < most)
         m_column.resize(2 * most);
-      count = add(I, w, i, m_fine.diagonal(i), count);
-      m_fine.for_each_entry(i, [&](std::uint32_t j, const Double& value) {
-        count = add(I, w, j, value, count);
+      count = add(I, w, i, Diagonal_traits::from(m_fine.diagonal(i)), count);
+      m_fine.for_each_entry(i, [&](std::uint32_t j, const auto& value) {
+        count = add(I, w, j, Multigrid::Value_traits<Double>::from(value), count);
       });
     });
     if constexpr(Multigrid::Value_traits<Double>::is_complex)
@@ -120,6 +120,8 @@ public:
   }
 
 private:
+  typedef Multigrid::Value_traits<typename Multigrid::Value_traits<Double>::Diagonal> Diagonal_traits;
+
   static constexpr std::uint32_t none = std::uint32_t(-1);
 
   // Adds w times an entry of column j of the fine matrix times row j of P; `count` columns are
