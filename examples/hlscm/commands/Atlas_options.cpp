@@ -98,7 +98,7 @@ void add_atlas(CLI::App& app, Program_options& o)
 {
   CLI::App* run = app.add_subcommand(
       "atlas", "Give a surface of any shape texture coordinates: cut it into charts, map each one "
-               "to the plane conformally, and pack them into a texture");
+               "to the plane, and pack them into a texture");
   run->add_option("IN", o.input, "a mesh of any kind: .glb, .gltf, .off, .obj, .ply or .stl")
       ->required();
   add_atlas_options(*run, o);
