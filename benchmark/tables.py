@@ -487,7 +487,7 @@ def full_pages():
 ATLAS_OPTIONS = {
     "": "few charts, cut where that fills the page",
     "--seam-price inf": "the fewest charts and shortest seams, to paint on",
-    "--seam-price 0.005": "a fuller page for longer seams",
+    "--seam-price 0.02": "shorter seams on a page less full",
     "--min-used 88": "the fullest page, whatever the seams",
     "--cutting-time 2": "fewer charts at the same bounds",
     "--packing-time 2": "a fuller page with the same charts",

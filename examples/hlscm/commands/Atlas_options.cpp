@@ -55,7 +55,7 @@ void add_atlas_options(CLI::App& app, Program_options& o)
             "as many charts at most, even if they are distorted more");
   add_price(app, "--seam-price", atlas.seam_price,
             "cut a chart only where that gains this part of the texture for a seam as long as its side; "
-            "inf for no seams that only fill the texture (default 0.02)");
+            "inf for no seams that only fill the texture (default 0.005)");
   add_number(app, "--min-used", 0, 99, atlas.min_used,
              "cut charts until so many % of the texture are used, or no cut helps any more");
   app.add_flag("--smooth-seams", atlas.has_smooth_seams,

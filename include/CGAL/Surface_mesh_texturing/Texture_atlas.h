@@ -59,10 +59,10 @@ struct Texture_atlas_options
   std::vector<float> density;
   /// The price of seams that only serve to fill the pages: a chart is cut where it fits better in two
   /// parts if that gains more than this part of the pages for a seam as long as the side of a page.
-  /// On a page of 1024 x 1024 texels, 0.02 is some 20 texels for each texel of the seam. The parts keep
+  /// On a page of 1024 x 1024 texels, 0.005 is some 5 texels for each texel of the seam. The parts keep
   /// the map of the chart. Infinity for no such cuts. There are none beyond `max_charts`, for a
   /// segmenter that is not bounded, with a given density of texels, nor if there are very many charts.
-  double seam_price = 0.02;
+  double seam_price = 0.005;
   /// The part of the pages that is to be used: charts are cut, whatever the seams cost, until it is. If
   /// no cut helps any more, `Texture_atlas_report::utilisation` is less. 0 for what `seam_price` says.
   double min_used = 0.;

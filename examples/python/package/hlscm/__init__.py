@@ -527,7 +527,7 @@ def _labels(values: Optional[ArrayLike], name: str, back: Optional[Mended]) -> O
     return labels if back is None else labels[back.face]
 
 
-def atlas(vertices: Any, faces: Any = None, /, *, max_charts: int = 0, seam_price: float = 0.02,
+def atlas(vertices: Any, faces: Any = None, /, *, max_charts: int = 0, seam_price: float = 0.005,
           min_used: float = 0., area_scale: float = 4., quasi_conformal: float = 2.,
           least_fill: float = 0.75, method: str = "low-stretch",
           resolution: Union[int, Tuple[int, int]] = 1024, largest_aspect: float = 1., padding: int = 2,
