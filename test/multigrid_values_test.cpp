@@ -81,14 +81,15 @@ protected:
   template <class V>
   static Eigen::MatrixXd to_real_dense(const Self_adjoint_matrix<V>& h)
   {
-    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(rows * size, rows * size);
+    const std::uint32_t n = std::uint32_t(h.size());
+    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(rows * n, rows * n);
     const auto put = [&a](std::uint32_t i, std::uint32_t j, const auto& value) {
       for(int k = 0; k < rows * rows; ++k)
         a(rows * i + k / rows, rows * j + k % rows)
           = Value_traits<V>::coefficient(value, k / rows, k % rows);
     };
     const auto slot = h.slot_of_row();
-    for(std::uint32_t i = 0; i < size; ++i) {
+    for(std::uint32_t i = 0; i < n; ++i) {
       put(i, i, h.diagonal()[i]);
       h.for_each_entry(slot[i], [&](std::uint32_t j, const V& value) { put(i, j, value); });
     }
@@ -350,16 +351,7 @@ TYPED_TEST(Real_values, have_products_with_a_prolongation)
   const Prolongation prolongation(kept, stencils);
   const Eigen::MatrixXd expected = p.transpose() * this->dense * p;
   const auto difference = [&](const Sparse_rows<Double>& product) {
-    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(expected.rows(), expected.cols());
-    const auto put = [&a](std::uint32_t i, std::uint32_t j, const Double& value) {
-      for(int k = 0; k < rows * rows; ++k)
-        a(rows * i + k / rows, rows * j + k % rows)
-          = Value_traits<Double>::coefficient(value, k / rows, k % rows);
-    };
-    for(std::uint32_t i = 0; i < product.size(); ++i) {
-      put(i, i, product.diagonal(i));
-      product.for_each_entry(i, [&](std::uint32_t j, const Double& value) { put(i, j, value); });
-    }
+    const Eigen::MatrixXd a = Test::to_real_dense(product.template matrix<Double>());
     return (a - expected).norm() / expected.norm();
   };
   const Sparse_rows<Double> fine(this->sparse());
