@@ -12,7 +12,7 @@ file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/long_under_sanitizers.txt long_tests REGE
 list(JOIN long_tests ":" long_tests)
 set(ENV{GTEST_FILTER} "-${long_tests}")
 run(${CMAKE_COMMAND} --preset asan-ubsan -S ${source_dir} -B ${work_dir}
-    -D CMAKE_CXX_COMPILER=${compiler} -D CGAL_DIR=${cgal_dir})
+    -D HLSCM_QUICK_CORE_TESTS_ONLY=ON -D CMAKE_CXX_COMPILER=${compiler} -D CGAL_DIR=${cgal_dir})
 run(${CMAKE_COMMAND} --build ${work_dir})
 cmake_host_system_information(RESULT processors QUERY NUMBER_OF_LOGICAL_CORES)
 run(${CMAKE_CTEST_COMMAND} --test-dir ${work_dir} --parallel ${processors} --output-on-failure

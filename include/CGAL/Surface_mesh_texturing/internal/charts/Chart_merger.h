@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <queue>
@@ -56,7 +57,9 @@ public:
   void allow_stretch()
   {
     m_may_stretch = true;
-    m_known.clear();
+    for(auto known = m_known.begin(); known != m_known.end();)
+      known = is_worth_stretching(known->second.distortion, m_bound) ? m_known.erase(known)
+                                                                     : std::next(known);
   }
 
   // The charts with the given seams and labels of triangles, which are less than `number`; not all

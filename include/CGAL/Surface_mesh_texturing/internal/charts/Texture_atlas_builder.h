@@ -111,11 +111,11 @@ private:
   Segmentation_result try_charts(const Indexed_triangle_mesh& mesh);
   bool map();
   bool take_maps();
+  bool may_stretch() const { return m_options.may_stretch && m_models.may_stretch; }
   Chart_mapping chart_mapping(const Distortion_bound& bound) const // of any mesh
   {
-    return {m_models.parameterize, bound, m_models.is_bounded,
-            m_models.is_bounded && m_options.may_stretch, m_options.least_fill,
-            m_options.coarse_faces, {}, [this] { return is_over(); }};
+    return {m_models.parameterize, bound, m_models.is_bounded, m_models.is_bounded && may_stretch(),
+            m_options.least_fill, m_options.coarse_faces, {}, [this] { return is_over(); }};
   }
   void map_charts_within(const Distortion_bound& bound, double begin, double end);
   bool pack();
@@ -220,6 +220,7 @@ inline Segmentation_result Texture_atlas_builder::find_charts(const Indexed_tria
                                                               double begin, double end)
 {
   Texture_atlas_options options = m_options;
+  options.may_stretch = may_stretch();
   if(&mesh != &m_mesh)
     options.no_seams.clear();
   options.progress = [=](double part) { return proceed(begin, end, part); };
@@ -227,8 +228,7 @@ inline Segmentation_result Texture_atlas_builder::find_charts(const Indexed_tria
   if(m_options.seconds > 0.)
     options.seconds = (std::max)(least_seconds, share * m_options.seconds - m_watch.seconds());
   Segmentation_result result = m_models.segment(mesh, options);
-  if(result.stopped_early)
-    m_was_over = true;
+  m_was_over = m_was_over || result.stopped_early;
   if(m_models.is_own || !result.is_ok())
     return result;
   // Whatever the charts say beside their seams

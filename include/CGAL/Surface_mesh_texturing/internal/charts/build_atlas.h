@@ -183,11 +183,9 @@ inline void scale_lengths(double unit, Texture_atlas_report& report)
 }
 
 CGAL_HLSCM_INLINE Texture_atlas_result build_atlas(const Indexed_triangle_mesh& mesh,
-                                                   const Texture_atlas_options& given,
+                                                   const Texture_atlas_options& options,
                                                    const Atlas_models& models)
 {
-  Texture_atlas_options options = given;
-  options.may_stretch = options.may_stretch && models.may_stretch;
   const auto build = [&models](const Indexed_triangle_mesh& m, const Texture_atlas_options& o) {
     return o.cutting_time > 0. && std::isfinite(o.cutting_time) && models.is_bounded
              ? build_twice(m, o, models)
@@ -199,8 +197,9 @@ CGAL_HLSCM_INLINE Texture_atlas_result build_atlas(const Indexed_triangle_mesh& 
   Indexed_triangle_mesh scaled = mesh;
   for(auto& p : scaled.points) // exactly
     p = Indexed_triangle_mesh::Point_3(p.x() / unit, p.y() / unit, p.z() / unit);
-  options.packing.texels_per_unit *= unit;
-  Texture_atlas_result result = build(scaled, options);
+  Texture_atlas_options of_scaled = options;
+  of_scaled.packing.texels_per_unit *= unit;
+  Texture_atlas_result result = build(scaled, of_scaled);
   for(auto& p : result.atlas.mesh.points)
     p = Indexed_triangle_mesh::Point_3(p.x() * unit, p.y() * unit, p.z() * unit);
   if(result.is_ok())
