@@ -25,6 +25,42 @@ namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
 
+// Solves systems with a cotangent Laplacian. Supernodes pay from some ten thousand rows on; with a
+// thousand, CHOLMOD takes twice as long as Eigen.
+class Laplacian_solver
+{
+public:
+  // Takes the lower triangle; returns whether that succeeded.
+  bool factorize(const Eigen::SparseMatrix<double>& laplacian)
+  {
+    m_is_large = laplacian.rows() > most_small;
+    return m_is_large ? Multigrid::factorize_sparse(m_large, laplacian)
+                      : Multigrid::factorize_sparse(m_small, laplacian);
+  }
+
+  template <class Vectors>
+  void solve(const Vectors& f, Vectors& x)
+  {
+    if(m_is_large)
+      Multigrid::solve_sparse(m_large, f, x);
+    else
+      Multigrid::solve_sparse(m_small, f, x);
+  }
+
+private:
+  typedef Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> Small;
+#ifdef CGAL_HLSCM_USE_CHOLMOD
+  typedef Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>> Large;
+#else
+  typedef Small Large;
+#endif
+  static constexpr Eigen::Index most_small = 16000;
+
+  Small m_small;
+  Large m_large;
+  bool m_is_large = false;
+};
+
 // The neighbourhood of some border vertices, on which a change of the scale there is worked out.
 class Scale_patch
 {
@@ -109,51 +145,16 @@ inline std::vector<double> Scale_patch::scale_change(const std::vector<std::uint
                                                      const std::vector<double>& change)
 {
   grow(border, radius);
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factorization(laplacian());
-  if(factorization.info() != Eigen::Success)
+  Laplacian_solver solver;
+  if(!solver.factorize(laplacian()))
     return {};
   Eigen::VectorXd right = Eigen::VectorXd::Zero(Eigen::Index(m_vertices.size()));
   for(std::size_t i = 0; i < change.size(); ++i)
     right[Eigen::Index(i)] = change[i];
-  const Eigen::VectorXd u = factorization.solve(right);
+  Eigen::VectorXd u;
+  solver.solve(right, u);
   return std::vector<double>(u.data(), u.data() + change.size());
 }
-
-// Solves for the inner vertices. Supernodes pay from some ten thousand on; with a thousand, CHOLMOD
-// takes twice as long as Eigen.
-class Inside_solver
-{
-public:
-  // Returns whether that succeeded.
-  bool factorize(const Eigen::SparseMatrix<double>& laplacian)
-  {
-    m_is_large = laplacian.rows() > most_small;
-    return m_is_large ? Multigrid::factorize_sparse(m_large, laplacian)
-                      : Multigrid::factorize_sparse(m_small, laplacian);
-  }
-
-  template <class Vectors>
-  void solve(const Vectors& f, Vectors& x)
-  {
-    if(m_is_large)
-      Multigrid::solve_sparse(m_large, f, x);
-    else
-      Multigrid::solve_sparse(m_small, f, x);
-  }
-
-private:
-  typedef Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> Small;
-#ifdef CGAL_HLSCM_USE_CHOLMOD
-  typedef Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>> Large;
-#else
-  typedef Small Large;
-#endif
-  static constexpr Eigen::Index most_small = 16000;
-
-  Small m_small;
-  Large m_large;
-  bool m_is_large = false;
-};
 
 // The conformal map of a disk whose border keeps its lengths, the one with the least distortion of
 // areas (Springborn, Schröder, Pinkall 2008; boundary first flattening: Sawhney and Crane 2017,
@@ -218,7 +219,7 @@ private:
   std::vector<double> m_scale;             // its logarithm u, of each vertex
   Eigen::SparseMatrix<double> m_laplacian; // A_II, the lower triangle
   std::vector<Link> m_links;
-  Inside_solver m_inside;
+  Laplacian_solver m_inside;
   Scale_patch m_patch;
 };
 

@@ -39,19 +39,26 @@ inline bool is_worth_stretching(const Chart_distortion& conformal, const Distort
       && conformal.quasi_conformal <= bound.quasi_conformal;
 }
 
-// A map with little stretch, without a flipped triangle; empty if there is none. `progress` as of
+typedef Simple_cartesian<double>::Point_2 Trial_uv;
+
+// A map with little stretch, without a flipped triangle; empty if there is none. If it is within the bound,
+// and its border meets itself, that which does not, which takes longer. `progress` as of
 // `Low_stretch_options`.
-inline std::vector<Simple_cartesian<double>::Point_2>
-stretch_map(const Indexed_mesh::Indexed_triangle_mesh& chart,
-            std::function<bool(double)> progress = nullptr)
+inline std::vector<Trial_uv> stretch_map(const Indexed_mesh::Indexed_triangle_mesh& chart,
+                                         const std::vector<Border_edge>& border,
+                                         const Distortion_bound& bound,
+                                         std::function<bool(double)> progress = nullptr)
 {
-  Surface_mesh_parameterization::Low_stretch_options options;
+  namespace SMP = Surface_mesh_parameterization;
+  SMP::Low_stretch_options options;
   options.tolerance = 1e-2;
   options.progress = std::move(progress);
-  return Surface_mesh_parameterization::low_stretch_map(chart, options).uv;
+  std::vector<Trial_uv> uv = SMP::low_stretch_map(chart, options).uv;
+  if(uv.empty() || !measure_chart_distortion(chart, uv).is_within(bound) || SMP::is_simple_border(border, uv))
+    return uv;
+  options.is_one_to_one = true;
+  return SMP::low_stretch_map(chart, options).uv;
 }
-
-typedef Simple_cartesian<double>::Point_2 Trial_uv;
 
 // What the map of a possible chart is like.
 struct Trial_map
@@ -112,7 +119,7 @@ inline Trial_map try_map(const Chart_mesh& chart, const Distortion_bound& bound,
   const Trial_map conformal = judge_map(chart, border, map.uv);
   if(!may_stretch || !is_worth_stretching(conformal.distortion, bound))
     return conformal;
-  const std::vector<Trial_uv> uv = stretch_map(chart.mesh);
+  const std::vector<Trial_uv> uv = stretch_map(chart.mesh, border, bound);
   const Trial_map stretched = uv.empty() ? Trial_map() : judge_map(chart, border, uv);
   return stretched.is_within(bound) ? stretched : conformal;
 }

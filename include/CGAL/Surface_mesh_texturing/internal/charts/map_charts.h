@@ -39,6 +39,7 @@ struct Chart_mapping
   std::function<bool()> is_over = {};      // whether the quickest way is to be taken from now on
   // Of a chart that may have a higher bound where the surface is rough, see `rough_bound()`
   std::size_t least_rough_faces = (std::numeric_limits<std::size_t>::max)();
+  std::size_t most_charts = (std::numeric_limits<std::size_t>::max)(); // or none at all
 
   bool has_time() const { return !is_over || !is_over(); }
 };
@@ -163,7 +164,8 @@ inline Mapped_chart map_chart(Chart_mesh chart, const Distortion_bound& bound,
     result.bound = higher_bound(bound, rough_bound(mesh, mapping.parameterize, mapping.bound));
   if(mapping.may_stretch && mapping.has_time()
      && is_worth_stretching(result.report.distortion, result.bound)) {
-    const std::vector<Point_2> uv = stretch_map(mesh, [&mapping](double) { return mapping.has_time(); });
+    const std::vector<Point_2> uv = stretch_map(mesh, border, result.bound,
+                                                [&mapping](double) { return mapping.has_time(); });
     const Chart_distortion distortion
       = uv.empty() ? result.report.distortion : measure_chart_distortion(mesh, uv);
     if(distortion.is_within(result.bound)) {
@@ -217,6 +219,31 @@ inline std::vector<Mapped_chart> map_each(std::vector<Chart_mesh> charts,
   return result;
 }
 
+// Whether a large chart can hardly have a valid map: a coarser version of it, which is mapped soon, has none.
+inline bool is_hopeless(const Indexed_triangle_mesh& chart, const Chart_mapping& mapping)
+{
+  constexpr std::size_t coarse_faces = 5000, least_faces = 50000;
+  constexpr double margin = 1.1; // the power of the bound
+  if(chart.triangles.size() < least_faces)
+    return false;
+  bool result = false;
+  Segmentation_options options;
+  options.coarse_faces = coarse_faces;
+  segment_coarse_to_fine(chart, options, [&](const Indexed_triangle_mesh& coarse) {
+    const Distortion_bound bound = {std::pow(mapping.bound.area_scale, margin),
+                                    std::pow(mapping.bound.quasi_conformal, margin)};
+    std::vector<Triangle_index> all(coarse.triangles.size());
+    std::iota(all.begin(), all.end(), Triangle_index(0));
+    const Triangle_adjacency adjacency(coarse.triangles);
+    Chart_cutter<Triangle_adjacency> cut_out(coarse, adjacency);
+    result = !map_chart(cut_out(std::move(all)), bound, mapping).is_valid;
+    Segmentation_result no_charts;
+    no_charts.cancel();
+    return no_charts;
+  });
+  return result;
+}
+
 // Cuts a chart that may not stay as it is into smaller ones, given as parts of the whole mesh.
 inline std::vector<Chart_mesh> cut_again(const Mapped_chart& mapped,
                                          const Chart_mapping& mapping)
@@ -253,6 +280,7 @@ inline std::vector<Chart_mesh> cut_again(const Mapped_chart& mapped,
 
 // The charts and their maps; those that fail are cut until all are valid, which single triangles
 // always are. In the order of their first triangles. `proceed(part done)` says whether to go on.
+// Nothing if not, or as soon as it is known that there are more than `mapping.most_charts`.
 inline std::vector<Mapped_chart> map_charts(std::vector<Chart_mesh> charts,
                                             const Chart_mapping& mapping,
                                             const std::function<bool(double)>& proceed,
@@ -262,6 +290,8 @@ inline std::vector<Mapped_chart> map_charts(std::vector<Chart_mesh> charts,
   std::vector<Distortion_bound> bounds(charts.size(), mapping.bound);
   recut = 0;
   for(int round = 0; !charts.empty(); ++round) {
+    if(done.size() + charts.size() > mapping.most_charts)
+      return {};
     std::vector<Mapped_chart> mapped = map_each(std::move(charts), bounds, mapping);
     charts.clear();
     bounds.clear();
@@ -285,6 +315,20 @@ inline std::vector<Mapped_chart> map_charts(std::vector<Chart_mesh> charts,
     return a.chart.triangles.front() < b.chart.triangles.front();
   });
   return done;
+}
+
+// The same for one chart, whose map is not used.
+inline std::vector<Mapped_chart> map_anew(Mapped_chart mapped, const Chart_mapping& mapping)
+{
+  std::vector<Chart_mesh> charts;
+  if(is_hopeless(mapped.chart.mesh, mapping)) {
+    mapped.bound = mapping.bound;
+    charts = cut_again(mapped, mapping);
+  } else {
+    charts.push_back(std::move(mapped.chart));
+  }
+  std::size_t recut;
+  return map_charts(std::move(charts), mapping, [](double) { return true; }, recut);
 }
 
 // The charts whose triangles these are, with all seams between wedges.

@@ -334,17 +334,17 @@ inline std::vector<Mapped_chart> Page_filler::parts_of(const Chart_cut& cut,
       result.push_back(std::move(part));
       continue;
     }
-    std::vector<Chart_mesh> beyond;
-    beyond.push_back(std::move(part.chart));
-    std::size_t recut;
-    for(Mapped_chart& smaller : map_charts(std::move(beyond), m_mapping,
-                                           [](double) { return true; }, recut))
-      result.push_back(std::move(smaller));
+    Chart_mapping mapping = m_mapping;
+    mapping.most_charts = most_parts - result.size() - (&side == &sides[0] ? 1 : 0); // another one comes
+    std::vector<Mapped_chart> smaller = map_anew(std::move(part), mapping);
+    if(smaller.empty())
+      return {};
+    std::move(smaller.begin(), smaller.end(), std::back_inserter(result));
   }
   for(Mapped_chart& part : result) {
     Chart_distortion& after = part.report.distortion;
     const double scale = std::sqrt(before.uv_area / before.area * (after.area / after.uv_area));
-    if(!(scale > 0.) || !std::isfinite(scale) || result.size() > most_parts)
+    if(!(scale > 0.) || !std::isfinite(scale))
       return {};
     for(Point_2& p : part.uv)
       p = Point_2(scale * p.x(), scale * p.y());
