@@ -11,11 +11,13 @@
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_parameterization/Live_low_stretch_map.h>
 #include <CGAL/Surface_mesh_parameterization/Map_certificate.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/Chart_state.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -178,6 +180,24 @@ TEST(One_to_one_stretch, goes_with_pins_starts_and_borders)
   const Low_stretch_map none = low_stretch_map(strip, options);
   EXPECT_TRUE(none.uv.empty());
   EXPECT_NE(none.error.find("meets"), std::string::npos) << none.error;
+}
+
+// If they would be taken otherwise: to keep parts apart takes longer.
+TEST(One_to_one_stretch, charts_of_atlases_are_so_within_the_bound)
+{
+  namespace SMT = CGAL::Surface_mesh_texturing;
+  const Indexed_triangle_mesh mesh = stairs(140);
+  const CGAL::Indexed_mesh::Triangle_adjacency adjacency(mesh.triangles);
+  std::vector<CGAL::Indexed_mesh::Triangle_index> all(mesh.triangles.size());
+  std::iota(all.begin(), all.end(), 0);
+  const SMT::Chart_mesh chart
+    = SMT::internal::Chart_cutter<CGAL::Indexed_mesh::Triangle_adjacency>(mesh, adjacency)(all);
+  const auto is_one_to_one = [&chart](const SMT::Distortion_bound& bound) {
+    const auto uv = SMT::internal::stretch_map(chart.mesh, chart.border_edges(), bound);
+    return certificate_of(chart.mesh, uv).is_one_to_one();
+  };
+  EXPECT_TRUE(is_one_to_one({4., 2.}));
+  EXPECT_FALSE(is_one_to_one({1., 1.}));
 }
 
 } // namespace one_to_one_stretch_test

@@ -344,6 +344,40 @@ TEST(Page_filling, the_left_of_a_path)
 
 // --- Measures
 
+// What a coarse mesh tells spares the map of the fine one, and more charts than may be are not mapped.
+TEST(Page_filling, large_charts_are_mapped_only_if_there_is_hope)
+{
+  std::size_t large_maps = 0;
+  SMT::internal::Chart_mapping mapping;
+  mapping.parameterize = [&large_maps](const Indexed_triangle_mesh& chart) {
+    large_maps += chart.triangles.size() > 50000 ? 1 : 0;
+    return SMT::Border_first_chart_parameterizer()(chart);
+  };
+  const auto charts_of = [&mapping](const Indexed_triangle_mesh& mesh) {
+    SMT::internal::Mapped_chart whole;
+    whole.chart = SMT::chart_meshes(mesh, SMT::charts_of_labels(
+      mesh.triangles, std::vector<std::uint32_t>(mesh.triangles.size(), 0)))[0];
+    return SMT::internal::map_anew(whole, mapping);
+  };
+  const Indexed_triangle_mesh flat = grid(170, 170), cap = on_sphere(round_disk(100), 2.8);
+  ASSERT_GT(cap.triangles.size(), 50000u);
+  EXPECT_EQ(charts_of(flat).size(), 1u);
+  EXPECT_EQ(large_maps, 1u);
+  const auto parts = charts_of(cap);
+  EXPECT_GT(parts.size(), 1u);
+  std::size_t faces = 0;
+  for(const auto& part : parts) {
+    EXPECT_TRUE(part.is_valid);
+    faces += part.chart.triangles.size();
+  }
+  EXPECT_EQ(faces, cap.triangles.size());
+  EXPECT_EQ(large_maps, 1u);
+  mapping.most_charts = parts.size() - 1;
+  EXPECT_TRUE(charts_of(cap).empty());
+  mapping.most_charts = parts.size();
+  EXPECT_EQ(charts_of(cap).size(), parts.size());
+}
+
 // The surface of a cube, n x n quads a side, each side a chart.
 TEST(Atlas_measures, seams_of_the_sides_of_a_cube)
 {

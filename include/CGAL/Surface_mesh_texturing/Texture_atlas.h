@@ -36,9 +36,10 @@ struct Texture_atlas_options
   /// tells of how many charts.
   Distortion_bound bound;
   /// Whether a chart whose conformal map is beyond the bound on areas may be mapped by
-  /// `Surface_mesh_parameterization::low_stretch_map()` if that map is within both bounds: there are
-  /// fewer charts then, in some of which angles are kept less. Only beside the default parameterizer:
-  /// another one maps all charts.
+  /// `Surface_mesh_parameterization::low_stretch_map()` if that map is within both bounds, kept
+  /// one-to-one by `Low_stretch_options::is_one_to_one` where that is needed: there are fewer charts
+  /// then, in some of which angles are kept less. Only beside the default parameterizer: another one
+  /// maps all charts.
   bool may_stretch = true;
   /// The number of charts to come down to, beyond the bound on distortion if need be; 0 for as few
   /// as the bound allows. There are more only where a map would not be one-to-one otherwise, and of
