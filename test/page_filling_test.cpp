@@ -342,8 +342,6 @@ TEST(Page_filling, the_left_of_a_path)
   }
 }
 
-// --- Measures
-
 // What a coarse mesh tells spares the map of the fine one, and more charts than may be are not mapped.
 TEST(Page_filling, large_charts_are_mapped_only_if_there_is_hope)
 {
@@ -377,6 +375,8 @@ TEST(Page_filling, large_charts_are_mapped_only_if_there_is_hope)
   mapping.most_charts = parts.size();
   EXPECT_EQ(charts_of(cap).size(), parts.size());
 }
+
+// --- Measures
 
 // The surface of a cube, n x n quads a side, each side a chart.
 TEST(Atlas_measures, seams_of_the_sides_of_a_cube)
