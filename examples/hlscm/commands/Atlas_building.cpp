@@ -96,6 +96,7 @@ Built_atlas build_atlas(const Input_surface& surface, const Program_options& opt
   library.max_charts = options.atlas.max_charts;
   library.seam_price = options.atlas.seam_price.value_or(library.seam_price);
   library.min_used = 0.01 * options.atlas.min_used;
+  library.bending = 0.01 * options.atlas.bending;
   auto charts = given_charts(surface, options);
   const double share = options.command == Command::BAKE ? share_of_atlas : 1;
   library.seconds = share * options.atlas.time_limit;

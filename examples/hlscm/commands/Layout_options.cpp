@@ -14,7 +14,7 @@ void check_layout(const CLI::App& app, const Layout_settings& layout)
 {
   for(const char* other : {"--max-area-scale", "--max-quasi-conformal", "--max-charts", "--charts",
                            "--one-disk", "--method", "--signal", "--limits", "--seam-price", "--min-used",
-                           "--cutting-time"}) {
+                           "--bend", "--cutting-time"}) {
     if(layout.is_repacked && app.count(other) > 0) {
       throw CLI::ValidationError("--repack", "it keeps the charts and maps of IN, leave "
                                                  + std::string(other) + " out");
@@ -70,7 +70,7 @@ void check_target(const CLI::App& app)
 {
   for(const char* other :
       {"--aspect", "--mip-levels", "--max-area-scale", "--max-quasi-conformal", "--max-charts",
-       "--seam-price", "--min-used", "--smooth-seams", "--charts", "--one-disk", "--pages",
+       "--seam-price", "--min-used", "--bend", "--smooth-seams", "--charts", "--one-disk", "--pages",
        "--cutting-time", "--packing-time", "--method", "--repack", "--keep-scale", "--density",
        "--importance", "--hide-seams", "--limits", "--separate", "--align", "--udim", "--symmetric"}) {
     if(app.count(other) > 0) {

@@ -85,6 +85,7 @@ struct Atlas_settings
   std::size_t max_charts = 0; ///< 0: as many as the bound needs
   std::optional<double> seam_price; ///< of seams that fill the pages; none: the default
   double min_used = 0;        ///< % of the textures
+  double bending = 3;         ///< of charts, % of lengths
   double largest_aspect = 1;  ///< of textures: width to height
   bool has_smooth_seams = false; ///< they go through faces
   bool hides_seams = false;      ///< they rather lie where the surface hides them

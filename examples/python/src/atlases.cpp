@@ -112,6 +112,7 @@ Atlas_request to_request(const py::dict& options)
   take(options, "max_charts", library.max_charts);
   take(options, "seam_price", library.seam_price);
   take(options, "min_used", library.min_used);
+  take(options, "bending", library.bending);
   take(options, "area_scale", library.bound.area_scale);
   take(options, "quasi_conformal", library.bound.quasi_conformal);
   take(options, "least_fill", library.least_fill);

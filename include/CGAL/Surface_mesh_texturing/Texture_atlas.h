@@ -67,6 +67,12 @@ struct Texture_atlas_options
   /// The part of the pages that is to be used: charts are cut, whatever the seams cost, until it is. If
   /// no cut helps any more, `Texture_atlas_report::utilisation` is less. 0 for what `seam_price` says.
   double min_used = 0.;
+  /// How far charts bend on their pages so that they fill more of them: the change of lengths, as a root
+  /// mean square over all charts and directions. They grow together, and where they touch each other or the
+  /// side of a page they give way as elastic bodies do; the gaps stay as they shall be, maps stay
+  /// one-to-one and within `bound`, or no further beyond it than they were. 0 for none. Charts do not bend
+  /// if they are aligned, or have whole texels, nor with a given density of texels.
+  double bending = 0.03;
   /// The metric to which charts are adapted, a tensor for each triangle, such as that of
   /// `signal_metric()`. A chart is mapped by `low_stretch_map()` in that metric if that is one-to-one,
   /// otherwise it gets its area in it; the bound of distortion holds before. Empty for none.

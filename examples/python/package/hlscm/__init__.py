@@ -528,7 +528,7 @@ def _labels(values: Optional[ArrayLike], name: str, back: Optional[Mended]) -> O
 
 
 def atlas(vertices: Any, faces: Any = None, /, *, max_charts: int = 0, seam_price: float = 0.005,
-          min_used: float = 0., area_scale: float = 4., quasi_conformal: float = 2.,
+          min_used: float = 0., bending: float = 0.03, area_scale: float = 4., quasi_conformal: float = 2.,
           least_fill: float = 0.75, method: str = "low-stretch",
           resolution: Union[int, Tuple[int, int]] = 1024, largest_aspect: float = 1., padding: int = 2,
           mip_levels: int = 0, pages: int = 1, texels_per_unit: float = 0., packer: str = "raster",
@@ -546,6 +546,7 @@ def atlas(vertices: Any, faces: Any = None, /, *, max_charts: int = 0, seam_pric
     seam_price: the part of a page that a seam as long as its side must gain if it only fills the page;
         math.inf for no such seams.
     min_used: the part of the pages to use, in [0, 1); charts are cut until it is, or no cut helps.
+    bending: how far charts bend so that they fill the pages more, as a change of lengths; 0 for none.
     area_scale, quasi_conformal: how far a chart may be distorted: the range of its area scale, and
         its ratio s1 / s2.
     method: "border-first", conformal; "low-stretch", which changes areas less and angles more where that
@@ -583,7 +584,7 @@ def atlas(vertices: Any, faces: Any = None, /, *, max_charts: int = 0, seam_pric
     vertices, faces, back, no_seams = _mended(vertices, faces, mend)
     width, height = _size(resolution)
     options = {
-        "max_charts": max_charts, "seam_price": seam_price, "min_used": min_used,
+        "max_charts": max_charts, "seam_price": seam_price, "min_used": min_used, "bending": bending,
         "area_scale": area_scale, "quasi_conformal": quasi_conformal, "least_fill": least_fill,
         "method": method, "width": width, "height": height, "largest_aspect": largest_aspect,
         "padding": padding, "mip_levels": mip_levels, "pages": pages,

@@ -12,6 +12,7 @@
 #include <CGAL/Surface_mesh_texturing/internal/charts/adapt_chart.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/map_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/filling/Filled_packing.h>
+#include <CGAL/Surface_mesh_texturing/internal/filling/bend_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/filling/page_sets.h>
 #include <CGAL/Surface_mesh_texturing/internal/mapped_charts/align_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/mapped_charts/straighten_borders.h>
@@ -112,6 +113,11 @@ private:
   bool map();
   bool take_maps();
   bool may_stretch() const { return m_options.may_stretch && m_models.may_stretch; }
+  bool may_bend() const
+  {
+    return m_options.bending > 0. && !m_options.is_aligned && !m_options.has_whole_texels
+        && !m_models.take_maps && m_options.packing.texels_per_unit == 0.;
+  }
   Chart_mapping chart_mapping(const Distortion_bound& bound) const // of any mesh
   {
     return {m_models.parameterize, bound, m_models.is_bounded, m_models.is_bounded && may_stretch(),
@@ -185,6 +191,8 @@ inline bool Texture_atlas_builder::check()
     m_result.fail(Mesh_status::BAD_OPTIONS, "the price of seams is not a number from 0 on");
   if(!(m_options.min_used >= 0. && m_options.min_used < 1.))
     m_result.fail(Mesh_status::BAD_OPTIONS, "the part of the pages to use is not in [0, 1)");
+  if(!std::isfinite(m_options.bending) || m_options.bending < 0.)
+    m_result.fail(Mesh_status::BAD_OPTIONS, "the bending of charts is not a finite number from 0 on");
   if(!(m_options.largest_aspect >= 1.))
     m_result.fail(Mesh_status::BAD_OPTIONS, "the largest aspect of pages is not a number from 1 on");
   if(!std::isfinite(m_options.seconds) || m_options.seconds < 0.)
@@ -338,8 +346,12 @@ inline bool Texture_atlas_builder::pack()
     m_result.report.page_cuts += filled.number_of_cuts();
     if(m_result.report.why_not_used.empty())
       m_result.report.why_not_used = filled.why_not_used();
-    if(!m_result.fail(packed))
-      add_pages(std::move(sets[i]), std::move(packed), m_maps, m_packing);
+    if(m_result.fail(packed))
+      break;
+    if(may_bend())
+      Chart_bending(packing, mapping, [&] { return !is_over() && proceed(0.8, 1., 1. - 0.5 * left); },
+                    sets[i], packed).run(2. * m_options.bending * m_options.bending);
+    add_pages(std::move(sets[i]), std::move(packed), m_maps, m_packing);
   }
   if(m_result.is_ok() && m_options.is_aligned)
     turn_by_quarters(m_maps, m_packing.placements);

@@ -1,0 +1,396 @@
+// Copyright (c) 2026  The HLSCM for CGAL authors.
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_FILLING_BORDER_CONTACTS_H
+#define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_FILLING_BORDER_CONTACTS_H
+
+#include <CGAL/Surface_mesh_texturing/internal/filling/Control_net.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_texturing {
+namespace internal {
+
+// A place on one of the pages.
+struct Page_place
+{
+  std::size_t page;
+  Plane_vector_d place;
+};
+
+// Lengths on pages, in texels.
+struct Contact_sizes
+{
+  Plane_vector_d page;      // width and height
+  Plane_vector_d low, high; // the corners of what charts may cover
+  double gap;  // wanted between charts along rows or columns, whichever is more
+  double unit; // the smallest length that counts
+};
+
+// A point of a border that is near another one, or beyond the sides of a page: the gap is that of their
+// places along the normal.
+struct Contact
+{
+  Control_weights weights; // of the change of the gap, along the normal
+  Plane_vector_d normal;
+  double gap, wanted;
+  double length; // of the border that it stands for
+};
+
+// The borders of bent charts, by points along them, and where they come too near to each other, to
+// themselves, or to the sides of the page.
+class Border_contacts
+{
+public:
+  typedef Plane_vector_d Vector;
+
+  explicit Border_contacts(const Contact_sizes& sizes) : m_sizes(sizes) {}
+
+  // Adds a loop of a chart's border, which has the chart on its left, at rest.
+  void add_loop(std::uint32_t chart, std::uint32_t page, const std::vector<std::uint32_t>& loop,
+                const std::vector<Chart_shape::Point_2>& uv, const Control_net& net);
+
+  // Wants larger gaps from now on at samples within the reach of some places.
+  void widen(const std::vector<Page_place>& places, double more)
+  {
+    for(std::size_t i = 0; i < m_samples.size(); ++i) {
+      const auto is_near = [&](const Page_place& p) {
+        return p.page == m_samples[i].page && (m_places[i] - p.place).squared_length() < reach() * reach();
+      };
+      if(std::any_of(places.begin(), places.end(), is_near))
+        m_samples[i].more += more;
+    }
+  }
+
+  // Sets the gaps that are wanted by how borders run with these control points: gaps are wanted along rows
+  // or columns, whichever is more, so that those across diagonals are the widest.
+  void set_gaps(const std::vector<Vector>& points);
+
+  // Finds the contacts of charts with these control points.
+  const std::vector<Contact>& find(const std::vector<Vector>& points);
+
+  // Those of the last `find()`.
+  const std::vector<Contact>& contacts() const { return m_contacts; }
+
+  // By how much the largest gap is too small, after `find()`.
+  double worst() const
+  {
+    double result = 0.;
+    for(const Contact& c : m_contacts)
+      result = (std::max)(result, c.wanted - c.gap);
+    return result;
+  }
+
+  // The longest way of a point of a border from some control points to others.
+  double longest_way(const std::vector<Vector>& from, const std::vector<Vector>& to) const
+  {
+    double result = 0.;
+    for(const Sample& s : m_samples)
+      result = (std::max)(result, (place(s, to) - place(s, from)).squared_length());
+    return std::sqrt(result);
+  }
+
+private:
+  struct Sample
+  {
+    std::uint32_t chart, page, previous, next;
+    Vector rest;
+    Control_weights weights;
+    double length = 0.;
+    double wanted = 0., more = 0.; // of a gap there: see `set_gaps()`, and how much more of it
+  };
+  // The nearest point of another border: a part of the way from a sample to the next one.
+  struct Nearest
+  {
+    double distance = (std::numeric_limits<double>::infinity)();
+    std::uint32_t sample = 0;
+    double part = 0.;
+    Vector way; // from there
+  };
+
+  static Vector place(const Sample& sample, const std::vector<Vector>& points)
+  {
+    Vector result;
+    for(const Control_weight& w : sample.weights)
+      result = result + points[w.point] * w.weight;
+    return result;
+  }
+
+  // Adds a factor times some weights.
+  static void add(const Control_weights& weights, double factor, Control_weights& sum)
+  {
+    Control_weights result;
+    auto a = sum.begin();
+    for(const Control_weight& b : weights) {
+      for(; a != sum.end() && a->point < b.point; ++a)
+        result.push_back(*a);
+      const double before = a != sum.end() && a->point == b.point ? (a++)->weight : 0.;
+      result.push_back({b.point, before + factor * b.weight});
+    }
+    result.insert(result.end(), a, sum.end());
+    sum.swap(result);
+  }
+
+  // A vector of length 1, or 0.
+  static Vector unit(const Vector& v)
+  {
+    const double length = std::sqrt(v.squared_length());
+    return length > 0. ? v * (1. / length) : Vector();
+  }
+  // Of what leads along a border: to the outside.
+  static Vector outward(const Vector& along) { return unit({along.y, -along.x}); }
+
+  double reach() const { return 1.5 * m_sizes.gap + 6. * m_sizes.unit; }
+
+  std::vector<std::uint32_t> kept_vertices(const std::vector<std::uint32_t>& loop,
+                                           const std::vector<Chart_shape::Point_2>& uv) const;
+  void sort_into_cells();
+  template <class Use>
+  void for_each_near(std::uint32_t i, const Use& use) const;
+  void add_contacts_with_charts(std::uint32_t i);
+  void add_contacts_with_sides(std::uint32_t i);
+  void add_contact(std::uint32_t i, const Nearest& nearest, const Vector& normal, double gap,
+                   double wanted);
+
+  Contact_sizes m_sizes;
+  std::vector<Sample> m_samples;
+  std::vector<Contact> m_contacts;
+  std::vector<Vector> m_places; // of the samples
+  // Samples, from each of which a piece of border leads to the next one, by cells of the pages
+  std::vector<std::uint32_t> m_begin, m_in_cell;
+  int m_columns = 0, m_rows = 0;
+  std::size_t m_pages = 1;
+  std::vector<std::pair<std::uint32_t, Nearest>> m_nearest; // of other charts
+};
+
+// Vertices at which pieces of about half the distance of samples begin, from which those between differ
+// by hardly anything.
+inline std::vector<std::uint32_t>
+Border_contacts::kept_vertices(const std::vector<std::uint32_t>& loop,
+                               const std::vector<Chart_shape::Point_2>& uv) const
+{
+  const double longest = 3. * m_sizes.unit, deviation = 0.2 * m_sizes.unit;
+  const std::size_t n = loop.size();
+  std::vector<std::uint32_t> result;
+  const auto spans = [&](std::size_t begin, std::size_t end) {
+    const Vector a = vector_of(uv[loop[begin]]), way = vector_of(uv[loop[end % n]]) - a;
+    const double length = std::sqrt(way.squared_length());
+    bool is_near = length <= longest;
+    for(std::size_t i = begin + 1; i < end && is_near; ++i)
+      is_near = std::abs(way.cross(vector_of(uv[loop[i]]) - a)) <= deviation * length;
+    return is_near;
+  };
+  for(std::size_t begin = 0, end; begin < n; begin = end) {
+    result.push_back(loop[begin]);
+    for(end = begin + 1; end + 1 < n && spans(begin, end + 1);)
+      ++end;
+  }
+  return result;
+}
+
+inline void Border_contacts::add_loop(std::uint32_t chart, std::uint32_t page,
+                                      const std::vector<std::uint32_t>& loop,
+                                      const std::vector<Chart_shape::Point_2>& uv,
+                                      const Control_net& net)
+{
+  const double longest = 6. * m_sizes.unit;
+  const std::vector<std::uint32_t> kept = kept_vertices(loop, uv);
+  const std::size_t first = m_samples.size();
+  Control_weights weights, next_weights;
+  for(std::size_t i = 0; i < kept.size(); ++i) {
+    const std::uint32_t v = kept[i], w = kept[(i + 1) % kept.size()];
+    const Vector a = vector_of(uv[v]), way = vector_of(uv[w]) - a;
+    const int parts = (std::max)(1, int(std::ceil(std::sqrt(way.squared_length()) / longest)));
+    net.weigh(v, weights);
+    net.weigh(w, next_weights);
+    for(int k = 0; k < parts; ++k) {
+      const double part = double(k) / parts;
+      Sample sample;
+      sample.chart = chart;
+      sample.page = page;
+      sample.rest = a + way * part;
+      if(k == 0)
+        sample.weights = weights;
+      else {
+        add(weights, 1. - part, sample.weights);
+        add(next_weights, part, sample.weights);
+      }
+      m_samples.push_back(std::move(sample));
+    }
+  }
+  const std::size_t n = m_samples.size() - first;
+  for(std::size_t i = 0; i < n; ++i) {
+    Sample &s = m_samples[first + i], &t = m_samples[first + (i + 1) % n];
+    const double half = 0.5 * std::sqrt((t.rest - s.rest).squared_length());
+    s.length += half;
+    t.length += half;
+    s.next = std::uint32_t(first + (i + 1) % n);
+    t.previous = std::uint32_t(first + i);
+  }
+  m_pages = (std::max)(m_pages, std::size_t(page) + 1);
+}
+
+// By the cells of a grid whose sides are the reach; what is beyond the pages is in their outermost cells.
+inline void Border_contacts::sort_into_cells()
+{
+  m_columns = int(m_sizes.page.x / reach()) + 1;
+  m_rows = int(m_sizes.page.y / reach()) + 1;
+  m_begin.assign(m_pages * std::size_t(m_columns) * std::size_t(m_rows) + 2, 0);
+  const auto for_each_cell = [&](std::uint32_t i, const auto& use) {
+    const Vector &a = m_places[i], &b = m_places[m_samples[i].next];
+    const auto cell = [&](double x, int n) { return std::clamp(int(x / reach()), 0, n - 1); };
+    for(int y = cell((std::min)(a.y, b.y), m_rows); y <= cell((std::max)(a.y, b.y), m_rows); ++y)
+      for(int x = cell((std::min)(a.x, b.x), m_columns); x <= cell((std::max)(a.x, b.x), m_columns); ++x)
+        use((std::size_t(m_samples[i].page) * m_rows + y) * m_columns + x);
+  };
+  for(std::uint32_t i = 0; i < m_samples.size(); ++i)
+    for_each_cell(i, [&](std::size_t cell) { ++m_begin[cell + 2]; });
+  for(std::size_t cell = 1; cell < m_begin.size(); ++cell)
+    m_begin[cell] += m_begin[cell - 1];
+  m_in_cell.resize(m_begin.back());
+  for(std::uint32_t i = 0; i < m_samples.size(); ++i)
+    for_each_cell(i, [&](std::size_t cell) { m_in_cell[m_begin[cell + 1]++] = i; });
+}
+
+// Calls use(point of a border) for those within reach of a sample, some of them several times.
+template <class Use>
+void Border_contacts::for_each_near(std::uint32_t i, const Use& use) const
+{
+  const Vector& p = m_places[i];
+  const int column = std::clamp(int(p.x / reach()), 0, m_columns - 1);
+  const int row = std::clamp(int(p.y / reach()), 0, m_rows - 1);
+  for(int y = (std::max)(0, row - 1); y <= (std::min)(m_rows - 1, row + 1); ++y)
+    for(int x = (std::max)(0, column - 1); x <= (std::min)(m_columns - 1, column + 1); ++x) {
+      const std::size_t cell = (std::size_t(m_samples[i].page) * m_rows + y) * m_columns + x;
+      for(std::uint32_t k = m_begin[cell]; k < m_begin[cell + 1]; ++k) {
+        const std::uint32_t j = m_in_cell[k];
+        if(j == i || m_samples[j].next == i)
+          continue;
+        const Vector& a = m_places[j];
+        const Vector way = m_places[m_samples[j].next] - a;
+        const double squared = way.squared_length();
+        Nearest nearest;
+        nearest.sample = j;
+        nearest.part = squared > 0. ? std::clamp((p - a).dot(way) / squared, 0., 1.) : 0.;
+        nearest.way = p - (a + way * nearest.part);
+        nearest.distance = std::sqrt(nearest.way.squared_length());
+        if(nearest.distance <= reach())
+          use(nearest);
+      }
+    }
+}
+
+inline void Border_contacts::add_contact(std::uint32_t i, const Nearest& nearest, const Vector& normal,
+                                         double gap, double wanted)
+{
+  Contact contact;
+  contact.weights = m_samples[i].weights;
+  const Sample& there = m_samples[nearest.sample];
+  add(there.weights, nearest.part - 1., contact.weights);
+  add(m_samples[there.next].weights, -nearest.part, contact.weights);
+  contact.normal = normal;
+  contact.gap = gap;
+  contact.wanted = wanted;
+  contact.length = m_samples[i].length;
+  m_contacts.push_back(std::move(contact));
+}
+
+// The nearest point of each other chart, which may be on the wrong side, and that across a bay of its own
+// chart: such gaps stay at least 0.7 of what they are at rest, if they need not be larger.
+inline void Border_contacts::add_contacts_with_charts(std::uint32_t i)
+{
+  constexpr double facing = 0.3, kept = 0.7; // a cosine; of a gap within a chart
+  const Sample& sample = m_samples[i];
+  const Vector out = outward(m_places[sample.next] - m_places[sample.previous]);
+  Nearest own;
+  m_nearest.clear();
+  for_each_near(i, [&](const Nearest& near) {
+    const Sample& there = m_samples[near.sample];
+    if(there.chart == sample.chart) {
+      const Vector normal = outward(m_places[there.next] - m_places[near.sample]);
+      if(near.distance < own.distance && out.dot(near.way) < -facing * near.distance
+         && normal.dot(near.way) > facing * near.distance)
+        own = near;
+      return;
+    }
+    const auto of_chart = std::find_if(m_nearest.begin(), m_nearest.end(),
+                                       [&](const auto& n) { return n.first == there.chart; });
+    if(of_chart == m_nearest.end())
+      m_nearest.push_back({there.chart, near});
+    else if(near.distance < of_chart->second.distance)
+      of_chart->second = near;
+  });
+  if(own.distance > 0. && own.distance <= reach()) {
+    const Sample& there = m_samples[own.sample];
+    const Vector rest = there.rest * (1. - own.part) + m_samples[there.next].rest * own.part;
+    const double at_rest = std::sqrt((sample.rest - rest).squared_length());
+    const Vector normal = own.way * (1. / own.distance);
+    const double least = (std::min)(sample.wanted + sample.more, kept * at_rest);
+    if(own.distance < least)
+      add_contact(i, own, normal, own.distance, least);
+  }
+  for(const auto& [chart, near] : m_nearest) {
+    const Sample& there = m_samples[near.sample];
+    const Vector along = unit(m_places[there.next] - m_places[near.sample]);
+    Vector sum = along; // of the directions of the pieces that meet there
+    if(near.part <= 0.)
+      sum = along + unit(m_places[near.sample] - m_places[there.previous]);
+    else if(near.part >= 1.)
+      sum = along + unit(m_places[m_samples[there.next].next] - m_places[there.next]);
+    const bool is_outside = outward(sum).dot(near.way) > 0.;
+    const Vector normal = near.distance > 1e-6 * m_sizes.unit
+                          ? near.way * ((is_outside ? 1. : -1.) / near.distance) : outward(along);
+    const double gap = is_outside ? near.distance : -near.distance;
+    if(gap < sample.wanted + sample.more)
+      add_contact(i, near, normal, gap, sample.wanted + sample.more);
+  }
+}
+
+inline void Border_contacts::add_contacts_with_sides(std::uint32_t i)
+{
+  const Vector& p = m_places[i];
+  const std::array<std::pair<Vector, double>, 4> sides
+    = {{{{1., 0.}, p.x - m_sizes.low.x}, {{-1., 0.}, m_sizes.high.x - p.x},
+        {{0., 1.}, p.y - m_sizes.low.y}, {{0., -1.}, m_sizes.high.y - p.y}}};
+  for(const auto& [normal, gap] : sides)
+    if(gap < m_samples[i].more)
+      m_contacts.push_back(
+        {m_samples[i].weights, normal, gap, m_samples[i].more, m_samples[i].length});
+}
+
+inline void Border_contacts::set_gaps(const std::vector<Vector>& points)
+{
+  for(Sample& sample : m_samples) {
+    const Vector out
+      = outward(place(m_samples[sample.next], points) - place(m_samples[sample.previous], points));
+    sample.wanted = m_sizes.gap / (std::max)({std::abs(out.x), std::abs(out.y), 0.7});
+  }
+}
+
+inline const std::vector<Contact>& Border_contacts::find(const std::vector<Vector>& points)
+{
+  m_contacts.clear();
+  m_places.clear();
+  for(const Sample& sample : m_samples)
+    m_places.push_back(place(sample, points));
+  sort_into_cells();
+  for(std::uint32_t i = 0; i < m_samples.size(); ++i) {
+    add_contacts_with_charts(i);
+    add_contacts_with_sides(i);
+  }
+  return m_contacts;
+}
+
+} // namespace internal
+} // namespace Surface_mesh_texturing
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_TEXTURING_INTERNAL_FILLING_BORDER_CONTACTS_H
