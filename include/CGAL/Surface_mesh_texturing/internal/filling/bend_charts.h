@@ -141,7 +141,7 @@ public:
 
 private:
   static constexpr double margin = 0.4; // of gaps, in units: for what samples of borders do not tell
-  static constexpr double squares = 8.; // along a page
+  static constexpr double squares = 10.; // along a page
   static constexpr int attempts = 16;
   static constexpr double less = 0.99; // growth after half of them
   static constexpr double first_stiffness = 40., harder = 1.3; // of contacts, and with each attempt

@@ -71,7 +71,7 @@ private:
   };
 
   static constexpr std::size_t tries = 8;         // orders at a time
-  static constexpr double first_work = 4e8;       // positions compared before those of the budget
+  static constexpr double first_work = 1.2e8;      // positions compared before those of the budget
   static constexpr double work_per_second = 1e9;  // see `Packing_options::time_budget`
 
   // With more charts than these, other orders are better than raising the density.
