@@ -86,7 +86,7 @@ TEST_F(Atlas, has_textures_for_each_material)
   lines[2 * lines.size() / 3] = "usemtl wood";
   const std::string in = write("in.obj", with_lines(obj(surface), lines));
   const Json report
-      = call_well("atlas", in, "out", {"--separate", "materials", "--texture", "128"});
+      = call_well("atlas", in, "out", {"--separate", "materials", "--texture", "128", "--bend", "0"});
   ASSERT_TRUE(report.is_object());
   EXPECT_EQ(report["pages"], 2);
   EXPECT_EQ(report["layout"]["separate"]["by"], "materials");

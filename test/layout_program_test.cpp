@@ -211,7 +211,7 @@ TEST_F(Atlas, has_the_density_of_a_file)
   }
   const std::string in = write("in.obj", obj(surface));
   const std::string density = write("density.txt", numbers);
-  const Json report = call_well("atlas", in, "out", {"--density", density});
+  const Json report = call_well("atlas", in, "out", {"--density", density, "--bend", "0"});
   ASSERT_TRUE(report.is_object());
   const Textured_soup after = read_model(folder / "out/atlas.obj").soup;
   EXPECT_NEAR(std::abs(uv_area(after, surface.faces.size() - 1) / uv_area(after, 0)), 6.25, 1e-6);
@@ -236,7 +236,7 @@ TEST_F(Atlas, has_the_density_of_an_image)
   }
   const std::string in = write("in.obj", obj(soup));
   const std::string image = write("image.tga", tga({255, 0}));
-  const Json report = call_well("atlas", in, "out", {"--importance", image});
+  const Json report = call_well("atlas", in, "out", {"--importance", image, "--bend", "0"});
   ASSERT_TRUE(report.is_object());
   const Textured_soup after = read_model(folder / "out/atlas.obj").soup;
   EXPECT_NEAR(std::sqrt(std::abs(uv_area(after, 0) / uv_area(after, after.uv_faces.size() - 1))), 16,

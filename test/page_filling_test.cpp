@@ -36,6 +36,7 @@ SMT::Texture_atlas_options with_price(double price)
   options.packing.width = options.packing.height = 256;
   options.coarse_faces = 500;
   options.seam_price = price;
+  options.bending = 0.;
   return options;
 }
 

@@ -8,6 +8,7 @@
 #include <CGAL/Surface_mesh_texturing/Texture_defect.h>
 #include <CGAL/Surface_mesh_texturing/build_texture_atlas.h>
 #ifdef CGAL_HLSCM_DEFINITIONS
+#include <CGAL/Surface_mesh_texturing/internal/charts/measure_atlas.h>
 #include <CGAL/Surface_mesh_texturing/internal/mapped_charts/given_maps.h>
 #endif
 

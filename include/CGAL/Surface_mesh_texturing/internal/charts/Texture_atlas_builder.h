@@ -11,6 +11,7 @@
 #ifdef CGAL_HLSCM_DEFINITIONS
 #include <CGAL/Surface_mesh_texturing/internal/charts/adapt_chart.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/map_charts.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/measure_atlas.h>
 #include <CGAL/Surface_mesh_texturing/internal/filling/Filled_packing.h>
 #include <CGAL/Surface_mesh_texturing/internal/filling/bend_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/filling/page_sets.h>
@@ -57,32 +58,6 @@ struct Atlas_models
 };
 
 #ifdef CGAL_HLSCM_DEFINITIONS
-
-// Measures the whole atlas, in texels.
-inline void measure_atlas(const Texture_atlas& atlas, Texture_atlas_report& report)
-{
-  namespace SMP = Surface_mesh_parameterization;
-  SMP::Distortion_summary summary;
-  const Textured_triangle_mesh& mesh = atlas.mesh;
-  const double width = double(atlas.width), height = double(atlas.height);
-  double area = 0.;
-  for(std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    std::array<SMP::Conformal_triangle::Point_3, 3> corner;
-    SMP::Uv_triangle uv;
-    for(int c = 0; c < 3; ++c) {
-      const auto d = mesh.points[mesh.triangles[t][c]] - mesh.points[mesh.triangles[t][0]];
-      corner[c] = CGAL::ORIGIN + report.texels_per_unit * d;
-      const Point_2& p = mesh.uv[mesh.wedges[t][c]];
-      uv[c] = SMP::Uv_point(p.x() * width, p.y() * height);
-    }
-    area += 0.5 * CGAL::abs((uv[1].x() - uv[0].x()) * (uv[2].y() - uv[0].y())
-                            - (uv[1].y() - uv[0].y()) * (uv[2].x() - uv[0].x()));
-    summary.add(SMP::Conformal_triangle(corner[0], corner[1], corner[2]), uv,
-                SMP::orientation_of(uv));
-  }
-  report.distortion = summary.result();
-  report.utilisation = area / (width * height * double(atlas.number_of_pages));
-}
 
 // The steps of `build_texture_atlas()`.
 class Texture_atlas_builder
@@ -337,21 +312,23 @@ inline bool Texture_atlas_builder::pack()
         left *= 0.5;
         return result;
       };
+  Filled_packing::Bend bend;
+  if(may_bend())
+    bend = [&](std::vector<Mapped_chart>& charts, Packing_result& packed) {
+      bend_charts(m_options.bending, packing, mapping,
+                  [&] { return !is_over() && proceed(0.8, 1., 1. - 0.5 * left); }, charts, packed);
+    };
   std::vector<std::vector<Mapped_chart>> sets
     = sets_of_pages(m_options.page_set, std::move(m_maps));
   m_maps.clear();
   for(std::size_t i = 0; i < sets.size() && m_result.is_ok(); ++i) {
-    Filled_packing filled(m_options, packing, mapping, pack_shapes, sets[i]);
+    Filled_packing filled(m_options, packing, mapping, pack_shapes, bend, sets[i]);
     Packing_result packed = filled.run(m_models.is_bounded);
     m_result.report.page_cuts += filled.number_of_cuts();
     if(m_result.report.why_not_used.empty())
       m_result.report.why_not_used = filled.why_not_used();
-    if(m_result.fail(packed))
-      break;
-    if(may_bend())
-      Chart_bending(packing, mapping, [&] { return !is_over() && proceed(0.8, 1., 1. - 0.5 * left); },
-                    sets[i], packed).run(2. * m_options.bending * m_options.bending);
-    add_pages(std::move(sets[i]), std::move(packed), m_maps, m_packing);
+    if(!m_result.fail(packed))
+      add_pages(std::move(sets[i]), std::move(packed), m_maps, m_packing);
   }
   if(m_result.is_ok() && m_options.is_aligned)
     turn_by_quarters(m_maps, m_packing.placements);

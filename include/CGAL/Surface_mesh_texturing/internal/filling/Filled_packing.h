@@ -18,16 +18,19 @@ namespace CGAL {
 namespace Surface_mesh_texturing {
 namespace internal {
 
-// Packs the charts of an atlas, cut where that fills the pages better.
+// Packs the charts of an atlas, cut where that fills the pages better, and bent.
 class Filled_packing
 {
 public:
   typedef std::function<Packing_result(const std::vector<Chart_shape>&)> Pack;
+  typedef std::function<void(std::vector<Mapped_chart>&, Packing_result&)> Bend;
 
-  // All of these must outlive this.
+  // All of these must outlive this. `bend` may be empty.
   Filled_packing(const Texture_atlas_options& options, const Packing_options& pages,
-                 const Chart_mapping& mapping, const Pack& pack, std::vector<Mapped_chart>& charts)
-    : m_options(options), m_pages(pages), m_mapping(mapping), m_pack(pack), m_charts(charts)
+                 const Chart_mapping& mapping, const Pack& pack, const Bend& bend,
+                 std::vector<Mapped_chart>& charts)
+    : m_options(options), m_pages(pages), m_mapping(mapping), m_pack(pack), m_bend(bend)
+    , m_charts(charts), m_goal(options.min_used - (bend && options.min_used > 0. ? usual_gain : 0.))
   {}
 
   Packing_result run(bool may_cut)
@@ -37,6 +40,8 @@ public:
       cut_and_pack();
     else
       m_packing = pack();
+    if(m_bend && m_packing.is_ok())
+      bend();
     if(m_packing.utilisation >= m_options.min_used)
       m_why_not_used.clear();
     else if(m_why_not_used.empty())
@@ -51,6 +56,8 @@ public:
   const std::string& why_not_used() const { return m_why_not_used; }
 
 private:
+  static constexpr double usual_gain = 0.05; // of the pages, by bending
+
   std::string reason_for_no_cuts(bool may_cut) const
   {
     constexpr std::size_t most_charts = 200; // with more there is dust for all gaps
@@ -95,13 +102,39 @@ private:
     } else {
       m_packing = pack();
     }
-    if(!m_packing.is_ok() || m_packing.utilisation >= m_options.min_used)
+    if(!m_packing.is_ok() || m_packing.utilisation >= m_goal)
       return;
     if(m_number_of_cuts > 0) {
       cut_until_used(filler);
     } else { // the charts are not those of the filler any more
       Page_filler anew(m_charts, m_pages, m_mapping);
       cut_until_used(anew);
+    }
+  }
+
+  // Bends the charts; if then less is used than shall be, cuts them as they were before to where they are
+  // fuller by what is missing, and bends these.
+  void bend()
+  {
+    constexpr int rounds = 3;
+    const bool may_cut_more = m_why_not_used.empty() && m_options.min_used > 0.;
+    for(int i = 1; m_packing.is_ok(); ++i) {
+      std::vector<Mapped_chart> rigid = may_cut_more ? m_charts : std::vector<Mapped_chart>();
+      const Packing_result rigid_packing = m_packing;
+      m_bend(m_charts, m_packing);
+      const double missing = m_options.min_used - m_packing.utilisation;
+      if(!may_cut_more || missing <= 0. || i == rounds || !m_mapping.has_time())
+        return;
+      m_goal = rigid_packing.utilisation + missing;
+      std::vector<Mapped_chart> bent = std::exchange(m_charts, std::move(rigid));
+      Packing_result bent_packing = std::exchange(m_packing, rigid_packing);
+      Page_filler filler(m_charts, m_pages, m_mapping);
+      cut_until_used(filler);
+      if(m_packing.is_ok() && m_packing.utilisation <= rigid_packing.utilisation) {
+        m_charts = std::move(bent);
+        m_packing = std::move(bent_packing);
+        return;
+      }
     }
   }
 
@@ -127,7 +160,7 @@ private:
     std::vector<Mapped_chart> best = m_charts;
     std::size_t number = m_number_of_cuts;
     for(int failures = 0; failures < failures_allowed && m_mapping.has_time()
-                          && m_packing.utilisation < m_options.min_used;) {
+                          && m_packing.utilisation < m_goal;) {
       const std::size_t cuts
         = filler.run({0., least_gain, 1., most_cuts, m_options.max_charts});
       if(cuts == 0)
@@ -152,7 +185,9 @@ private:
   const Packing_options& m_pages;
   const Chart_mapping& m_mapping;
   const Pack& m_pack;
+  const Bend& m_bend;
   std::vector<Mapped_chart>& m_charts;
+  double m_goal; // to be used before charts are bent
   Packing_result m_packing;
   std::size_t m_number_of_cuts = 0;
   std::string m_why_not_used;

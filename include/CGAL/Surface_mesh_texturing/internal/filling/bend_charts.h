@@ -10,6 +10,7 @@
 #include <CGAL/Surface_mesh_texturing/internal/packing/Chart_raster.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -96,15 +97,16 @@ private:
   std::vector<Page_place> m_faults;
 };
 
-// Lets charts grow and bend on their pages so that they fill more of them.
+// Lets charts grow and bend on their pages; see `bend_charts()`.
 class Chart_bending
 {
 public:
-  // All of these must outlive this. `goes_on` is asked from time to time.
-  Chart_bending(const Packing_options& options, const Chart_mapping& mapping,
+  // As `bend_charts()`; all of these must outlive this.
+  Chart_bending(double bending, const Packing_options& options, const Chart_mapping& mapping,
                 const std::function<bool()>& goes_on, std::vector<Mapped_chart>& maps,
                 Packing_result& packing)
-    : m_options(options), m_mapping(mapping), m_goes_on(goes_on), m_maps(maps), m_packing(packing)
+    : m_strain(2. * bending * bending), m_options(options), m_mapping(mapping), m_goes_on(goes_on)
+    , m_maps(maps), m_packing(packing)
   {
     const Packing_raster raster = exact_raster(options);
     const double side = double((std::max)(options.width, options.height));
@@ -119,14 +121,13 @@ public:
     m_square = side / squares;
   }
 
-  // Until the strain is that, see `Elastic_charts::strain()`; changes nothing if nothing is gained.
-  void run(double strain)
+  void run()
   {
     if(m_maps.empty() || m_maps.size() > most_charts
        || !std::all_of(m_maps.begin(), m_maps.end(), is_bendable))
       return;
     Elastic_charts charts = elastic_charts();
-    if(!grow(charts, strain))
+    if(!grow(charts))
       return;
     double stiffness = first_stiffness;
     for(int i = 0; i < attempts && charts.scale() > 1.; ++i) {
@@ -154,13 +155,14 @@ private:
   }
 
   Elastic_charts elastic_charts();
-  bool grow(Elastic_charts& charts, double strain) const;
+  bool grow(Elastic_charts& charts) const;
   bool settle(Elastic_charts& charts) const;
   bool take(Elastic_charts& charts);
   bool bend(std::size_t i, const Elastic_charts& charts, std::vector<Point_2>& places,
             Chart_distortion& distortion) const;
   Chart_outline outline(std::size_t i, const std::vector<Point_2>& places) const;
 
+  double m_strain; // see `Elastic_charts::strain()`
   const Packing_options& m_options;
   const Chart_mapping& m_mapping;
   const std::function<bool()>& m_goes_on;
@@ -193,7 +195,7 @@ inline Elastic_charts Chart_bending::elastic_charts()
 }
 
 // Until they are bent so much, or fill the pages; returns whether there was time for it.
-inline bool Chart_bending::grow(Elastic_charts& charts, double strain) const
+inline bool Chart_bending::grow(Elastic_charts& charts) const
 {
   constexpr int most_steps = 100;
   constexpr double largest = 0.03, least_gain = 0.2; // of the scale, and to what it should be
@@ -210,7 +212,7 @@ inline bool Chart_bending::grow(Elastic_charts& charts, double strain) const
       break;
     if(charts.worst_gap() >= loose)
       continue;
-    const double left = 1. - charts.strain() / strain;
+    const double left = 1. - charts.strain() / m_strain;
     if(left <= 0. || (growth > 0. && charts.scale() < before * (1. + least_gain * growth)))
       break;
     before = charts.scale();
@@ -237,7 +239,6 @@ inline bool Chart_bending::bend(std::size_t i, const Elastic_charts& charts, std
                                 Chart_distortion& distortion) const
 {
   namespace SMP = Surface_mesh_parameterization;
-  constexpr double more = 1.05; // for charts that were beyond the bound before
   const Mapped_chart& map = m_maps[i];
   const Indexed_triangle_mesh& mesh = map.chart.mesh;
   const std::vector<Border_edge> border = map.chart.border_edges();
@@ -249,8 +250,9 @@ inline bool Chart_bending::bend(std::size_t i, const Elastic_charts& charts, std
     SMP::repair_flipped_faces(mesh, places, border_vertices(places.size(), border));
   distortion = measure_chart_distortion(mesh, places);
   const Chart_distortion& given = map.report.distortion;
-  const Distortion_bound allowed = {(std::max)(map.bound.area_scale, more * given.area_scale),
-                                    (std::max)(map.bound.quasi_conformal, more * given.quasi_conformal)};
+  const auto most = [](double bound, double before) { return before > bound ? 1.05 * before : bound; };
+  const Distortion_bound allowed = {most(map.bound.area_scale, given.area_scale),
+                                    most(map.bound.quasi_conformal, given.quasi_conformal)};
   return distortion.flipped_faces + distortion.degenerate_faces == 0
       && (!m_mapping.is_bounded || distortion.is_within(allowed)) && SMP::is_simple_border(border, places);
 }
@@ -275,7 +277,7 @@ inline Chart_outline Chart_bending::outline(std::size_t i, const std::vector<Poi
 // where they are not.
 inline bool Chart_bending::take(Elastic_charts& charts)
 {
-  constexpr double stiffer = 4.;
+  constexpr double stiffer = 4., most = 2.; // of the strain at which charts stopped growing
   const double more = 0.5 * m_sizes.unit;
   std::vector<std::vector<Point_2>> places(m_maps.size());
   std::vector<Chart_distortion> distortions(m_maps.size());
@@ -296,7 +298,7 @@ inline bool Chart_bending::take(Elastic_charts& charts)
   }
   charts.widen_gaps(check.faults(), more);
   const double all = m_sizes.page.x * m_sizes.page.y * double(m_packing.pages);
-  if(!are_valid || !check.faults().empty())
+  if(!are_valid || !check.faults().empty() || charts.strain() > most * m_strain)
     return false;
   if(area <= m_packing.utilisation * all)
     return true; // nothing is gained
@@ -319,6 +321,20 @@ inline bool Chart_bending::take(Elastic_charts& charts)
   m_packing.utilisation = area / all;
   m_packing.texel_utilisation = check.texel_utilisation(m_options);
   return true;
+}
+
+// Bends the charts of a packing so that they are larger, until their lengths are changed by `bending`, as a
+// root mean square, or the pages are full; changes nothing if that comes to nothing. The packing stays one,
+// charts one-to-one and within their bound, or hardly further beyond it than they were. `goes_on` is asked
+// from time to time, and all stays as it was if it says no.
+//
+// Complexity: some 50 steps of Newton's method for control points on a grid of ten squares a page, which do
+// not depend on the mesh, and linear time for the maps.
+inline void bend_charts(double bending, const Packing_options& options, const Chart_mapping& mapping,
+                        const std::function<bool()>& goes_on, std::vector<Mapped_chart>& maps,
+                        Packing_result& packing)
+{
+  Chart_bending(bending, options, mapping, goes_on, maps, packing).run();
 }
 
 } // namespace internal
