@@ -160,7 +160,7 @@ private:
   bool take(Elastic_charts& charts);
   bool bend(std::size_t i, const Elastic_charts& charts, std::vector<Point_2>& places,
             Chart_distortion& distortion) const;
-  Chart_outline outline(std::size_t i, const std::vector<Point_2>& places) const;
+  Chart_outline outline(std::size_t i, const Elastic_charts& charts) const;
 
   double m_strain; // see `Elastic_charts::strain()`
   const Packing_options& m_options;
@@ -257,18 +257,31 @@ inline bool Chart_bending::bend(std::size_t i, const Elastic_charts& charts, std
       && (!m_mapping.is_bounded || distortion.is_within(allowed)) && SMP::is_simple_border(border, places);
 }
 
-inline Chart_outline Chart_bending::outline(std::size_t i, const std::vector<Point_2>& places) const
+// That of a bent chart, whose border vertices stay where they are when flipped triangles are repaired.
+inline Chart_outline Chart_bending::outline(std::size_t i, const Elastic_charts& charts) const
 {
-  const Chart_mesh& chart = m_maps[i].chart;
-  const auto box = bounding_box({places, chart.mesh.triangles});
+  std::vector<std::array<Vector_2d, 2>> edges;
+  for(const Border_edge& e : m_maps[i].chart.border_edges()) {
+    edges.emplace_back();
+    for(int end = 0; end < 2; ++end) {
+      const Plane_vector_d p = m_nets[i].place(e[end], charts.points());
+      edges.back()[end] = {p.x, p.y};
+    }
+  }
+  Vector_2d low = edges[0][0], high = low;
+  for(const auto& e : edges)
+    for(int c = 0; c < 2; ++c) {
+      low[c] = (std::min)(low[c], e[0][c]);
+      high[c] = (std::max)(high[c], e[0][c]);
+    }
   Chart_outline result;
-  result.centre = {0.5 * (box[0][0] + box[1][0]), 0.5 * (box[0][1] + box[1][1])};
-  result.diameter = std::hypot(box[1][0] - box[0][0], box[1][1] - box[0][1]);
-  const auto relative = [&](Vertex_index v) {
-    return Vector_2d{places[v].x() - result.centre[0], places[v].y() - result.centre[1]};
+  result.centre = {0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])};
+  result.diameter = std::hypot(high[0] - low[0], high[1] - low[1]);
+  const auto relative = [&](const Vector_2d& p) {
+    return Vector_2d{p[0] - result.centre[0], p[1] - result.centre[1]};
   };
   result.parts.emplace_back();
-  for(const Border_edge& e : chart.border_edges())
+  for(const auto& e : edges)
     result.parts[0].push_back({relative(e[0]), relative(e[1]), 1});
   return result;
 }
@@ -278,7 +291,12 @@ inline Chart_outline Chart_bending::outline(std::size_t i, const std::vector<Poi
 inline bool Chart_bending::take(Elastic_charts& charts)
 {
   constexpr double stiffer = 4., most = 2.; // of the strain at which charts stopped growing
-  const double more = 0.5 * m_sizes.unit;
+  Page_check check(m_options, m_packing.pages);
+  for(std::size_t i = 0; i < m_maps.size(); ++i)
+    check.add(outline(i, charts), m_packing.placements[i].page);
+  charts.widen_gaps(check.faults(), 0.5 * m_sizes.unit);
+  if(!check.faults().empty() || charts.strain() > most * m_strain)
+    return false;
   std::vector<std::vector<Point_2>> places(m_maps.size());
   std::vector<Chart_distortion> distortions(m_maps.size());
   std::vector<char> is_valid(m_maps.size(), 0);
@@ -286,20 +304,17 @@ inline bool Chart_bending::take(Elastic_charts& charts)
     for(std::size_t i = begin; i < end; ++i)
       is_valid[i] = bend(i, charts, places[i], distortions[i]) ? 1 : 0;
   });
-  Page_check check(m_options, m_packing.pages);
   double area = 0.;
   bool are_valid = true;
   for(std::size_t i = 0; i < m_maps.size(); ++i) {
-    check.add(outline(i, places[i]), m_packing.placements[i].page);
     area += distortions[i].uv_area;
     are_valid = are_valid && is_valid[i];
     if(!is_valid[i])
       charts.stiffen(i, stiffer);
   }
-  charts.widen_gaps(check.faults(), more);
-  const double all = m_sizes.page.x * m_sizes.page.y * double(m_packing.pages);
-  if(!are_valid || !check.faults().empty() || charts.strain() > most * m_strain)
+  if(!are_valid)
     return false;
+  const double all = m_sizes.page.x * m_sizes.page.y * double(m_packing.pages);
   if(area <= m_packing.utilisation * all)
     return true; // nothing is gained
   const double texels = m_packing.texels_per_unit * std::sqrt(area / (m_packing.utilisation * all));
