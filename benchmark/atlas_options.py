@@ -15,7 +15,7 @@ import tempfile
 
 from full_pages import atlas
 
-OPTIONS = ["", "--seam-price inf", "--seam-price 0.02", "--min-used 88", "--cutting-time 2", "--packing-time 2",
+OPTIONS = ["", "--bend 0", "--bend 5", "--seam-price inf", "--seam-price 0.02", "--min-used 88", "--cutting-time 2", "--packing-time 2",
            "--time-limit 0.3", "--smooth-seams", "--hide-seams", "--align", "--method border-first",
            "--max-quasi-conformal 1.5", "--max-area-scale 2"]
 

@@ -485,7 +485,9 @@ def full_pages():
 
 
 ATLAS_OPTIONS = {
-    "": "few charts, cut where that fills the page",
+    "": "few charts, cut and bent where that fills the page",
+    "--bend 0": "rigid charts: exactly the same density for all",
+    "--bend 5": "a fuller page, with more distortion",
     "--seam-price inf": "the fewest charts and shortest seams, to paint on",
     "--seam-price 0.02": "shorter seams on a page less full",
     "--min-used 88": "the fullest page, whatever the seams",

@@ -80,7 +80,7 @@ public:
     m_is_known = false;
   }
 
-  // Sets the stiffness of contacts, of an area, to that of a chart as large as a page.
+  // Sets the stiffness of contacts, for a unit of their length, to that of a chart as large as a page.
   void set_stiffness_of_contacts(double stiffness)
   {
     m_stiffness_of_contacts = stiffness;
@@ -192,7 +192,8 @@ Elastic_charts::penalties(const std::vector<Vector>& points) const
 {
   std::vector<Penalty> result;
   for(const Contact& c : m_contacts.contacts())
-    result.push_back({&c.weights, c.normal, c.wanted - c.gap, m_stiffness_of_contacts * c.length});
+    result.push_back({&c.weights, c.normal, c.wanted - c.gap,
+                      m_stiffness_of_contacts * c.length / m_sizes.unit});
   for(const auto& [weights, stiffness] : m_differences) {
     Vector sum;
     for(const Control_weight& w : weights)

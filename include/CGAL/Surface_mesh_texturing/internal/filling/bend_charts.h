@@ -251,8 +251,8 @@ inline bool Chart_bending::bend(std::size_t i, const Elastic_charts& charts, std
   distortion = measure_chart_distortion(mesh, places);
   const Chart_distortion& given = map.report.distortion;
   const auto most = [](double bound, double before) { return before > bound ? 1.05 * before : bound; };
-  const Distortion_bound allowed = {most(map.bound.area_scale, given.area_scale),
-                                    most(map.bound.quasi_conformal, given.quasi_conformal)};
+  const Distortion_bound allowed = {most(m_mapping.bound.area_scale, given.area_scale),
+                                    most(m_mapping.bound.quasi_conformal, given.quasi_conformal)};
   return distortion.flipped_faces + distortion.degenerate_faces == 0
       && (!m_mapping.is_bounded || distortion.is_within(allowed)) && SMP::is_simple_border(border, places);
 }
