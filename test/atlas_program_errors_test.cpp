@@ -34,7 +34,7 @@ TEST_F(Atlas, has_the_options_that_help_lists)
   const std::vector<Texts> of_both{
       {"--texture", "32", "--padding", "0", "--mip-levels", "1", "--max-area-scale", "2",
        "--max-quasi-conformal", "1.5", "--max-charts", "3", "--seam-price", "0.1",
-       "--min-used", "20", "--bend", "2", "--cutting-time", "0.01", "--pages", "2", "--aspect", "2", "--packer",
+       "--min-used", "20", "--bend", "0", "--cutting-time", "0.01", "--pages", "2", "--aspect", "2", "--packer",
        "horizon", "--method", "spectral", "--threads", "1", "--ply", "--pictures", path("pictures"),
        "--signal", "normals", "--signal-weight", "2", "--symmetric", "--hide-seams"},
       {"--texture", "64", "--charts", "uv", "--packer", "raster", "--packing-time", "0.001",
@@ -84,6 +84,8 @@ TEST_F(Atlas, refuses_what_it_cannot_do)
          {"atlas", {"--method", "best"}},     {"atlas", {"--one-disk", "--charts", "uv"}},
          {"atlas", {"--cutting-time", "-1"}}, {"atlas", {"--one-disk", "--cutting-time", "1"}},
          {"atlas", {"--repack", "--cutting-time", "1"}},
+         {"atlas", {"--bend", "21"}},         {"atlas", {"--bend", "3", "--align"}},
+         {"atlas", {"--bend", "3", "--method", "border-first"}},
          {"atlas", {"--faces", "7"}},         {"bake", {}},
          {"bake", {"--faces", "0"}},          {"bake", {"--faces", "7", "--error", "1%"}},
          {"bake", {"--error", "-1"}},         {"bake", {"--faces", "7", "--bits", "12"}},

@@ -328,7 +328,7 @@ TEST(Chart_bending, keeps_gaps_of_several_pages_and_mip_levels)
 TEST(Chart_bending, is_left_out_where_charts_shall_be_rigid)
 {
   const Indexed_triangle_mesh mesh = torus(24, 10);
-  for(int which = 0; which < 3; ++which) {
+  for(int which = 0; which < 4; ++which) {
     std::array<std::vector<Point_2>, 2> uv;
     for(int k = 0; k < 2; ++k) {
       SMT::Texture_atlas_options options = with_bending(k == 0 ? 0. : 0.05);
@@ -336,6 +336,7 @@ TEST(Chart_bending, is_left_out_where_charts_shall_be_rigid)
       options.has_whole_texels = which == 1;
       options.packing.texels_per_unit = which == 2 ? 1. : 0.;
       options.packing.max_pages = which == 2 ? 0 : 1;
+      options.may_stretch = which != 3;
       const auto built = SMT::build_texture_atlas(mesh, options);
       ASSERT_EQ(built.error, "") << which;
       uv[k] = built.atlas.mesh.uv;

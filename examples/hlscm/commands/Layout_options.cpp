@@ -33,6 +33,17 @@ void check_layout(const CLI::App& app, const Layout_settings& layout)
       }
     }
   }
+  if(app.count("--bend") > 0 && app.get_option("--bend")->as<double>() > 0) {
+    for(const char* other : {"--align", "--lightmap", "--charts", "--one-disk"}) {
+      if(app.get_option_no_throw(other) != nullptr && app.count(other) > 0) {
+        throw CLI::ValidationError("--bend", "charts stay rigid with " + std::string(other)
+                                                 + ", leave one of them out");
+      }
+    }
+    if(app.count("--method") > 0 && app.get_option("--method")->results().back() != "low-stretch") {
+      throw CLI::ValidationError("--bend", "charts stay conformal with that --method, leave one of them out");
+    }
+  }
   if(layout.is_symmetric) {
     for(const char* other : {"--repack", "--separate"}) {
       if(app.count(other) > 0) {

@@ -70,8 +70,9 @@ struct Texture_atlas_options
   /// How far charts bend on their pages so that they fill more of them: the change of lengths, as a root
   /// mean square over all charts and directions. They grow together, and where they touch each other or the
   /// side of a page they give way as elastic bodies do; the gaps stay as they shall be, maps stay
-  /// one-to-one and within `bound`, or no further beyond it than they were. 0 for none. Charts do not bend
-  /// if they are aligned, or have whole texels, nor with a given density of texels.
+  /// one-to-one and within `bound`, or hardly further beyond it than they were. 0 for none. Charts do not bend
+  /// if they are aligned, have whole texels, or are conformal as `may_stretch` or another parameterizer wants
+  /// it, nor for a segmenter that is not bounded, with a given density of texels, or if there are very many.
   double bending = 0.03;
   /// The metric to which charts are adapted, a tensor for each triangle, such as that of
   /// `signal_metric()`. A chart is mapped by `low_stretch_map()` in that metric if that is one-to-one,

@@ -90,8 +90,8 @@ private:
   bool may_stretch() const { return m_options.may_stretch && m_models.may_stretch; }
   bool may_bend() const
   {
-    return m_options.bending > 0. && !m_options.is_aligned && !m_options.has_whole_texels
-        && !m_models.take_maps && m_options.packing.texels_per_unit == 0.;
+    return m_options.bending > 0. && m_models.is_bounded && may_stretch() && !m_options.is_aligned
+        && !m_options.has_whole_texels && !m_models.take_maps && m_options.packing.texels_per_unit == 0.;
   }
   Chart_mapping chart_mapping(const Distortion_bound& bound) const // of any mesh
   {

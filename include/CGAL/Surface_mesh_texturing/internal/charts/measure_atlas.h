@@ -29,7 +29,7 @@ inline void measure_atlas(const Texture_atlas& atlas, Texture_atlas_report& repo
     for(int c = 0; c < 3; ++c) {
       const auto d = mesh.points[mesh.triangles[t][c]] - mesh.points[mesh.triangles[t][0]];
       corner[c] = CGAL::ORIGIN + report.texels_per_unit * d;
-      const Point_2& p = mesh.uv[mesh.wedges[t][c]];
+      const auto& p = mesh.uv[mesh.wedges[t][c]];
       uv[c] = SMP::Uv_point(p.x() * width, p.y() * height);
     }
     area += 0.5 * CGAL::abs((uv[1].x() - uv[0].x()) * (uv[2].y() - uv[0].y())
