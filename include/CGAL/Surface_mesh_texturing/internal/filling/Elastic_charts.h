@@ -115,7 +115,7 @@ public:
 private:
   typedef Surface_mesh_parameterization::Stretch_element<double> Stretch_element;
   typedef Surface_mesh_parameterization::Plane_jacobian<double> Jacobian;
-  typedef std::pair<std::uint32_t, std::uint32_t> Place; // an element or contact, and one of its points
+  typedef std::pair<std::uint32_t, std::uint32_t> Place; // an element or penalty, and one of its points
 
   Jacobian jacobian(const Strain_element& e, const std::vector<Vector>& points) const
   {
@@ -131,7 +131,7 @@ private:
 
   void compute_energies();
   void measure();
-  // A penalty: its half times the square of what is missing along a direction.
+  // Half a stiffness times the square of what is missing along a direction.
   struct Penalty
   {
     const Control_weights* weights; // of the control points in what there is
