@@ -219,7 +219,7 @@ TEST(Elastic_charts, grow_until_they_meet_the_sides)
   }
 }
 
-// Two squares that have `gap` texels between them, or are `beyond` a side by so many.
+// Two squares of ten texels, the second one with its lower left corner at (x + 0.5, y + 0.5).
 TEST(Page_check, finds_charts_that_are_too_near)
 {
   SMT::Packing_options options;

@@ -59,8 +59,8 @@ void add_atlas_options(CLI::App& app, Program_options& o)
   add_number(app, "--min-used", 0, 99, atlas.min_used,
              "cut charts until so many % of the texture are used, or no cut helps any more");
   add_count(app, "--bend", 0., 20., atlas.bending,
-             "let charts bend so that they fill the texture more, until lengths change by so many % in "
-             "the mean (default 3)");
+            "let charts bend so that they fill the texture more, until lengths change by so many % in "
+            "the mean (default 3)");
   app.add_flag("--smooth-seams", atlas.has_smooth_seams,
                "lead seams through faces, which are cut there, so that they are straight");
   app.add_flag("--hide-seams", atlas.hides_seams,

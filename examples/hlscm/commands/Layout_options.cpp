@@ -41,7 +41,8 @@ void check_layout(const CLI::App& app, const Layout_settings& layout)
       }
     }
     if(app.count("--method") > 0 && app.get_option("--method")->results().back() != "low-stretch") {
-      throw CLI::ValidationError("--bend", "charts stay conformal with that --method, leave one of them out");
+      throw CLI::ValidationError("--bend", "charts stay conformal with that --method, leave one of them "
+                                           "out");
     }
   }
   if(layout.is_symmetric) {

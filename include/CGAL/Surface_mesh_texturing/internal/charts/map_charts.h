@@ -114,6 +114,19 @@ inline std::vector<bool> border_vertices(std::size_t n, const std::vector<Border
   return result;
 }
 
+// Repairs what is flipped in the map of a chart whose border moved, and measures it; returns whether it is
+// one-to-one then, by exact predicates, and within the bound.
+inline bool mend_map(const Indexed_triangle_mesh& mesh, const std::vector<Border_edge>& border,
+                     const Distortion_bound& bound, std::vector<Point_2>& uv, Chart_distortion& distortion)
+{
+  namespace SMP = Surface_mesh_parameterization;
+  if(const auto flips = count_flips(mesh.triangles, uv); flips.first + flips.second > 0)
+    SMP::repair_flipped_faces(mesh, uv, border_vertices(uv.size(), border));
+  distortion = measure_chart_distortion(mesh, uv);
+  return distortion.flipped_faces + distortion.degenerate_faces == 0 && distortion.is_within(bound)
+      && SMP::is_simple_border(border, uv);
+}
+
 // Repairs flipped triangles: without moving the border, which could then meet itself, if that is
 // enough. Returns the numbers of those that are left. Where much would have to move, the chart had
 // better be cut.

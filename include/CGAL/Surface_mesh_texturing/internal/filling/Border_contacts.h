@@ -75,7 +75,7 @@ public:
   void set_gaps(const std::vector<Vector>& points);
 
   // Finds the contacts of charts with these control points.
-  const std::vector<Contact>& find(const std::vector<Vector>& points);
+  void find(const std::vector<Vector>& points);
 
   // Those of the last `find()`.
   const std::vector<Contact>& contacts() const { return m_contacts; }
@@ -89,12 +89,12 @@ public:
     return result;
   }
 
-  // The longest way of a point of a border from some control points to others.
-  double longest_way(const std::vector<Vector>& from, const std::vector<Vector>& to) const
+  // The longest way of a point of a border from where it was in the last `find()`.
+  double longest_way(const std::vector<Vector>& points) const
   {
     double result = 0.;
-    for(const Sample& s : m_samples)
-      result = (std::max)(result, (place(s, to) - place(s, from)).squared_length());
+    for(std::size_t i = 0; i < m_samples.size(); ++i)
+      result = (std::max)(result, (place(m_samples[i], points) - m_places[i]).squared_length());
     return std::sqrt(result);
   }
 
@@ -375,7 +375,7 @@ inline void Border_contacts::set_gaps(const std::vector<Vector>& points)
   }
 }
 
-inline const std::vector<Contact>& Border_contacts::find(const std::vector<Vector>& points)
+inline void Border_contacts::find(const std::vector<Vector>& points)
 {
   m_contacts.clear();
   m_places.clear();
@@ -386,7 +386,6 @@ inline const std::vector<Contact>& Border_contacts::find(const std::vector<Vecto
     add_contacts_with_charts(i);
     add_contacts_with_sides(i);
   }
-  return m_contacts;
 }
 
 } // namespace internal

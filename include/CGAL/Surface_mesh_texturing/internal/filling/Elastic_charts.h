@@ -305,7 +305,7 @@ inline bool Elastic_charts::go(const Eigen::VectorXd& direction)
       moved[k] = m_points[k] + Vector{direction[2 * k], direction[2 * k + 1]} * t;
   };
   move(1.);
-  const double way = m_contacts.longest_way(m_points, moved), longest = way > farthest ? farthest / way : 1.;
+  const double way = m_contacts.longest_way(moved), longest = way > farthest ? farthest / way : 1.;
   for(double t = longest; t >= least * longest; t *= 0.5) {
     move(t);
     const double next = value(moved);

@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -238,23 +239,19 @@ inline bool Chart_bending::settle(Elastic_charts& charts) const
 inline bool Chart_bending::bend(std::size_t i, const Elastic_charts& charts, std::vector<Point_2>& places,
                                 Chart_distortion& distortion) const
 {
-  namespace SMP = Surface_mesh_parameterization;
-  const Mapped_chart& map = m_maps[i];
-  const Indexed_triangle_mesh& mesh = map.chart.mesh;
-  const std::vector<Border_edge> border = map.chart.border_edges();
+  constexpr double any = (std::numeric_limits<double>::infinity)();
   for(std::uint32_t v = 0; v < m_rest[i].size(); ++v) {
     const Plane_vector_d p = m_nets[i].place(v, charts.points());
     places.emplace_back(p.x, p.y);
   }
-  if(const auto flips = count_flips(mesh.triangles, places); flips.first + flips.second > 0)
-    SMP::repair_flipped_faces(mesh, places, border_vertices(places.size(), border));
-  distortion = measure_chart_distortion(mesh, places);
-  const Chart_distortion& given = map.report.distortion;
+  const Chart_distortion& given = m_maps[i].report.distortion;
   const auto most = [](double bound, double before) { return before > bound ? 1.05 * before : bound; };
-  const Distortion_bound allowed = {most(m_mapping.bound.area_scale, given.area_scale),
-                                    most(m_mapping.bound.quasi_conformal, given.quasi_conformal)};
-  return distortion.flipped_faces + distortion.degenerate_faces == 0
-      && (!m_mapping.is_bounded || distortion.is_within(allowed)) && SMP::is_simple_border(border, places);
+  Distortion_bound allowed = {any, any};
+  if(m_mapping.is_bounded)
+    allowed = {most(m_mapping.bound.area_scale, given.area_scale),
+               most(m_mapping.bound.quasi_conformal, given.quasi_conformal)};
+  const Chart_mesh& chart = m_maps[i].chart;
+  return mend_map(chart.mesh, chart.border_edges(), allowed, places, distortion);
 }
 
 // That of a bent chart, whose border vertices stay where they are when flipped triangles are repaired.

@@ -112,7 +112,6 @@ inline bool take_chains(const Chart_mapping& mapping, const std::vector<Border_e
                         const std::vector<Straight_chain>& chains, std::vector<Point_2> uv,
                         Mapped_chart& map)
 {
-  namespace SMP = Surface_mesh_parameterization;
   if(chains.empty() || !mapping.has_time())
     return false;
   const Indexed_triangle_mesh& mesh = map.chart.mesh;
@@ -124,11 +123,8 @@ inline bool take_chains(const Chart_mapping& mapping, const std::vector<Border_e
   uv = with_straight_chains(mesh.triangles, fixed_coordinates(chains, uv.size()), uv);
   if(uv.empty())
     return false;
-  if(const auto flips = count_flips(mesh.triangles, uv); flips.first + flips.second > 0)
-    SMP::repair_flipped_faces(mesh, uv, border_vertices(uv.size(), border));
-  Chart_distortion distortion = measure_chart_distortion(mesh, uv);
-  if(distortion.flipped_faces + distortion.degenerate_faces > 0 || !distortion.is_within(allowed)
-     || !SMP::is_simple_border(border, uv))
+  Chart_distortion distortion;
+  if(!mend_map(mesh, border, allowed, uv, distortion))
     return false;
   const double scale = std::sqrt(uv_area / distortion.uv_area);
   for(Point_2& p : uv)
