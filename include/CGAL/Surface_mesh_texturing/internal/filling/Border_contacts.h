@@ -4,7 +4,8 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_FILLING_BORDER_CONTACTS_H
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_FILLING_BORDER_CONTACTS_H
 
-#include <CGAL/Surface_mesh_texturing/internal/filling/Control_net.h>
+#include <CGAL/Surface_mesh_texturing/internal/filling/Border_pieces.h>
+#include <CGAL/Surface_mesh_texturing/internal/packing/Page_check.h>
 
 #include <algorithm>
 #include <array>
@@ -18,13 +19,6 @@
 namespace CGAL {
 namespace Surface_mesh_texturing {
 namespace internal {
-
-// A place on one of the pages.
-struct Page_place
-{
-  std::size_t page;
-  Plane_vector_d place;
-};
 
 // Lengths on pages, in texels.
 struct Contact_sizes
@@ -52,7 +46,7 @@ class Border_contacts
 public:
   typedef Plane_vector_d Vector;
 
-  explicit Border_contacts(const Contact_sizes& sizes) : m_sizes(sizes) {}
+  explicit Border_contacts(const Contact_sizes& sizes) : m_sizes(sizes), m_pieces(sizes.page, reach()) {}
 
   // Adds a loop of a chart's border, which has the chart on its left, at rest.
   void add_loop(std::uint32_t chart, std::uint32_t page, const std::vector<std::uint32_t>& loop,
@@ -63,11 +57,18 @@ public:
   {
     for(std::size_t i = 0; i < m_samples.size(); ++i) {
       const auto is_near = [&](const Page_place& p) {
-        return p.page == m_samples[i].page && (m_places[i] - p.place).squared_length() < reach() * reach();
+        const Vector way = m_places[i] - Vector{p.place[0], p.place[1]};
+        return p.page == m_samples[i].page && way.squared_length() < reach() * reach();
       };
       if(std::any_of(places.begin(), places.end(), is_near))
         m_samples[i].more += more;
     }
+  }
+
+  void widen_nothing()
+  {
+    for(Sample& sample : m_samples)
+      sample.more = 0.;
   }
 
   // Sets the gaps that are wanted by how borders run with these control points: gaps are wanted along rows
@@ -107,15 +108,6 @@ private:
     double length = 0.;
     double wanted = 0., more = 0.; // of a gap there: see `set_gaps()`, and how much more of it
   };
-  // The nearest point of another border: a part of the way from a sample to the next one.
-  struct Nearest
-  {
-    double distance = (std::numeric_limits<double>::infinity)();
-    std::uint32_t sample = 0;
-    double part = 0.;
-    Vector way; // from there
-  };
-
   static Vector place(const Sample& sample, const std::vector<Vector>& points)
   {
     Vector result;
@@ -128,6 +120,7 @@ private:
   static void add(const Control_weights& weights, double factor, Control_weights& sum)
   {
     Control_weights result;
+    result.reserve(sum.size() + weights.size());
     auto a = sum.begin();
     for(const Control_weight& b : weights) {
       for(; a != sum.end() && a->point < b.point; ++a)
@@ -139,36 +132,29 @@ private:
     sum.swap(result);
   }
 
-  // A vector of length 1, or 0.
-  static Vector unit(const Vector& v)
+  // Of what leads along a border: to the outside, of length 1, or 0.
+  static Vector outward(const Vector& along)
   {
-    const double length = std::sqrt(v.squared_length());
-    return length > 0. ? v * (1. / length) : Vector();
+    const double length = std::sqrt(along.squared_length());
+    return length > 0. ? Vector{along.y, -along.x} * (1. / length) : Vector();
   }
-  // Of what leads along a border: to the outside.
-  static Vector outward(const Vector& along) { return unit({along.y, -along.x}); }
 
   double reach() const { return 1.5 * m_sizes.gap + 6. * m_sizes.unit; }
 
   std::vector<std::uint32_t> kept_vertices(const std::vector<std::uint32_t>& loop,
                                            const std::vector<Chart_shape::Point_2>& uv) const;
-  void sort_into_cells();
-  template <class Use>
-  void for_each_near(std::uint32_t i, const Use& use) const;
   void add_contacts_with_charts(std::uint32_t i);
   void add_contacts_with_sides(std::uint32_t i);
-  void add_contact(std::uint32_t i, const Nearest& nearest, const Vector& normal, double gap,
+  void add_contact(std::uint32_t i, const Nearest_on_piece& nearest, const Vector& normal, double gap,
                    double wanted);
 
   Contact_sizes m_sizes;
   std::vector<Sample> m_samples;
   std::vector<Contact> m_contacts;
   std::vector<Vector> m_places; // of the samples
-  // Samples, from each of which a piece of border leads to the next one, by cells of the pages
-  std::vector<std::uint32_t> m_begin, m_in_cell;
-  int m_columns = 0, m_rows = 0;
+  Border_pieces m_pieces;       // from each of which to the next one
   std::size_t m_pages = 1;
-  std::vector<std::pair<std::uint32_t, Nearest>> m_nearest; // of other charts
+  std::vector<Nearest_on_piece> m_nearest; // of other charts
 };
 
 // Vertices at which pieces of about half the distance of samples begin, from which those between differ
@@ -238,62 +224,12 @@ inline void Border_contacts::add_loop(std::uint32_t chart, std::uint32_t page,
   m_pages = (std::max)(m_pages, std::size_t(page) + 1);
 }
 
-// By the cells of a grid whose sides are the reach; what is beyond the pages is in their outermost cells.
-inline void Border_contacts::sort_into_cells()
-{
-  m_columns = int(m_sizes.page.x / reach()) + 1;
-  m_rows = int(m_sizes.page.y / reach()) + 1;
-  m_begin.assign(m_pages * std::size_t(m_columns) * std::size_t(m_rows) + 2, 0);
-  const auto for_each_cell = [&](std::uint32_t i, const auto& use) {
-    const Vector &a = m_places[i], &b = m_places[m_samples[i].next];
-    const auto cell = [&](double x, int n) { return std::clamp(int(x / reach()), 0, n - 1); };
-    for(int y = cell((std::min)(a.y, b.y), m_rows); y <= cell((std::max)(a.y, b.y), m_rows); ++y)
-      for(int x = cell((std::min)(a.x, b.x), m_columns); x <= cell((std::max)(a.x, b.x), m_columns); ++x)
-        use((std::size_t(m_samples[i].page) * m_rows + y) * m_columns + x);
-  };
-  for(std::uint32_t i = 0; i < m_samples.size(); ++i)
-    for_each_cell(i, [&](std::size_t cell) { ++m_begin[cell + 2]; });
-  for(std::size_t cell = 1; cell < m_begin.size(); ++cell)
-    m_begin[cell] += m_begin[cell - 1];
-  m_in_cell.resize(m_begin.back());
-  for(std::uint32_t i = 0; i < m_samples.size(); ++i)
-    for_each_cell(i, [&](std::size_t cell) { m_in_cell[m_begin[cell + 1]++] = i; });
-}
-
-// Calls use(point of a border) for those within reach of a sample, some of them several times.
-template <class Use>
-void Border_contacts::for_each_near(std::uint32_t i, const Use& use) const
-{
-  const Vector& p = m_places[i];
-  const int column = std::clamp(int(p.x / reach()), 0, m_columns - 1);
-  const int row = std::clamp(int(p.y / reach()), 0, m_rows - 1);
-  for(int y = (std::max)(0, row - 1); y <= (std::min)(m_rows - 1, row + 1); ++y)
-    for(int x = (std::max)(0, column - 1); x <= (std::min)(m_columns - 1, column + 1); ++x) {
-      const std::size_t cell = (std::size_t(m_samples[i].page) * m_rows + y) * m_columns + x;
-      for(std::uint32_t k = m_begin[cell]; k < m_begin[cell + 1]; ++k) {
-        const std::uint32_t j = m_in_cell[k];
-        if(j == i || m_samples[j].next == i)
-          continue;
-        const Vector& a = m_places[j];
-        const Vector way = m_places[m_samples[j].next] - a;
-        const double squared = way.squared_length();
-        Nearest nearest;
-        nearest.sample = j;
-        nearest.part = squared > 0. ? std::clamp((p - a).dot(way) / squared, 0., 1.) : 0.;
-        nearest.way = p - (a + way * nearest.part);
-        nearest.distance = std::sqrt(nearest.way.squared_length());
-        if(nearest.distance <= reach())
-          use(nearest);
-      }
-    }
-}
-
-inline void Border_contacts::add_contact(std::uint32_t i, const Nearest& nearest, const Vector& normal,
-                                         double gap, double wanted)
+inline void Border_contacts::add_contact(std::uint32_t i, const Nearest_on_piece& nearest,
+                                         const Vector& normal, double gap, double wanted)
 {
   Contact contact;
   contact.weights = m_samples[i].weights;
-  const Sample& there = m_samples[nearest.sample];
+  const Sample& there = m_samples[nearest.piece->sample];
   add(there.weights, nearest.part - 1., contact.weights);
   add(m_samples[there.next].weights, -nearest.part, contact.weights);
   contact.normal = normal;
@@ -310,45 +246,55 @@ inline void Border_contacts::add_contacts_with_charts(std::uint32_t i)
   constexpr double facing = 0.3, kept = 0.7; // a cosine; of a gap within a chart
   const Sample& sample = m_samples[i];
   const Vector out = outward(m_places[sample.next] - m_places[sample.previous]);
-  Nearest own;
+  Nearest_on_piece own;
+  own.squared_distance = (sample.wanted + sample.more) * (sample.wanted + sample.more);
   m_nearest.clear();
-  for_each_near(i, [&](const Nearest& near) {
-    const Sample& there = m_samples[near.sample];
-    if(there.chart == sample.chart) {
-      const Vector normal = outward(m_places[there.next] - m_places[near.sample]);
-      if(near.distance < own.distance && out.dot(near.way) < -facing * near.distance
-         && normal.dot(near.way) > facing * near.distance)
+  // Two that face each other are turned to each other
+  constexpr double turned = 0.82; // > cos(pi - 2 acos(facing))
+  const auto matters = [&](const Border_piece& piece) {
+    return piece.chart != sample.chart
+        || (piece.outward.dot(out) < turned && piece.sample != i && piece.sample != sample.previous);
+  };
+  m_pieces.for_each_near(sample.page, m_places[i], matters, [&](const Nearest_on_piece& near) {
+    const Border_piece& piece = *near.piece;
+    if(piece.chart == sample.chart) {
+      const auto faces = [&](double cosine) { // times the distance
+        return cosine > 0. && cosine * cosine > facing * facing * near.squared_distance;
+      };
+      if(near.squared_distance < own.squared_distance && faces(piece.outward.dot(near.way))
+         && faces(-out.dot(near.way)))
         own = near;
       return;
     }
-    const auto of_chart = std::find_if(m_nearest.begin(), m_nearest.end(),
-                                       [&](const auto& n) { return n.first == there.chart; });
+    const auto of_chart = std::find_if(m_nearest.begin(), m_nearest.end(), [&](const auto& n) {
+      return n.piece->chart == piece.chart;
+    });
     if(of_chart == m_nearest.end())
-      m_nearest.push_back({there.chart, near});
-    else if(near.distance < of_chart->second.distance)
-      of_chart->second = near;
+      m_nearest.push_back(near);
+    else if(near.squared_distance < of_chart->squared_distance)
+      *of_chart = near;
   });
-  if(own.distance > 0. && own.distance <= reach()) {
-    const Sample& there = m_samples[own.sample];
+  if(own.piece != nullptr && own.squared_distance > 0.) {
+    const Sample& there = m_samples[own.piece->sample];
     const Vector rest = there.rest * (1. - own.part) + m_samples[there.next].rest * own.part;
-    const double at_rest = std::sqrt((sample.rest - rest).squared_length());
-    const Vector normal = own.way * (1. / own.distance);
-    const double least = (std::min)(sample.wanted + sample.more, kept * at_rest);
-    if(own.distance < least)
-      add_contact(i, own, normal, own.distance, least);
+    const double distance = std::sqrt(own.squared_distance);
+    const double least = (std::min)(sample.wanted + sample.more,
+                                    kept * std::sqrt((sample.rest - rest).squared_length()));
+    if(distance < least)
+      add_contact(i, own, own.way * (1. / distance), distance, least);
   }
-  for(const auto& [chart, near] : m_nearest) {
-    const Sample& there = m_samples[near.sample];
-    const Vector along = unit(m_places[there.next] - m_places[near.sample]);
-    Vector sum = along; // of the directions of the pieces that meet there
+  for(const Nearest_on_piece& near : m_nearest) {
+    const std::uint32_t j = near.piece->sample, next = m_samples[j].next;
+    const double distance = std::sqrt(near.squared_distance);
+    Vector sum = near.piece->outward; // of the pieces that meet there
     if(near.part <= 0.)
-      sum = along + unit(m_places[near.sample] - m_places[there.previous]);
+      sum = sum + outward(m_places[j] - m_places[m_samples[j].previous]);
     else if(near.part >= 1.)
-      sum = along + unit(m_places[m_samples[there.next].next] - m_places[there.next]);
-    const bool is_outside = outward(sum).dot(near.way) > 0.;
-    const Vector normal = near.distance > 1e-6 * m_sizes.unit
-                          ? near.way * ((is_outside ? 1. : -1.) / near.distance) : outward(along);
-    const double gap = is_outside ? near.distance : -near.distance;
+      sum = sum + outward(m_places[m_samples[next].next] - m_places[next]);
+    const bool is_outside = sum.dot(near.way) > 0.;
+    const Vector normal = distance > 1e-6 * m_sizes.unit ? near.way * ((is_outside ? 1. : -1.) / distance)
+                                                         : near.piece->outward;
+    const double gap = is_outside ? distance : -distance;
     if(gap < sample.wanted + sample.more)
       add_contact(i, near, normal, gap, sample.wanted + sample.more);
   }
@@ -381,7 +327,12 @@ inline void Border_contacts::find(const std::vector<Vector>& points)
   m_places.clear();
   for(const Sample& sample : m_samples)
     m_places.push_back(place(sample, points));
-  sort_into_cells();
+  std::vector<Border_piece> pieces;
+  pieces.reserve(m_samples.size());
+  for(std::uint32_t i = 0; i < m_samples.size(); ++i)
+    pieces.push_back({i, m_samples[i].chart, m_samples[i].page, m_places[i],
+                      m_places[m_samples[i].next] - m_places[i]});
+  m_pieces.assign(pieces, m_pages);
   for(std::uint32_t i = 0; i < m_samples.size(); ++i) {
     add_contacts_with_charts(i);
     add_contacts_with_sides(i);

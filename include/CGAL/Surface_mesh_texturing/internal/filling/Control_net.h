@@ -44,7 +44,7 @@ struct Strain_element
 // lie such that this is the identity.
 //
 // A chart of few vertices without thin triangles has them as control points. Another one has those of
-// uniform cubic B-splines on a grid of squares around it, or, if it is not larger than a square, the
+// uniform quadratic B-splines on a grid of squares around it, or, if it is not larger than a square, the
 // corners of a triangle around it, so that it is mapped linearly.
 class Control_net
 {
@@ -67,7 +67,7 @@ public:
     const Vector extent = high - low;
     m_columns = (std::max)(1, int(std::ceil(extent.x / size)));
     m_rows = (std::max)(1, int(std::ceil(extent.y / size)));
-    const std::size_t splines = std::size_t(m_columns + 3) * std::size_t(m_rows + 3);
+    const std::size_t splines = std::size_t(m_columns + 2) * std::size_t(m_rows + 2);
     if(uv.size() <= splines && has_no_thin_triangle()) {
       m_kind = Kind::VERTICES;
       for(const auto& p : uv)
@@ -81,9 +81,9 @@ public:
     } else {
       m_kind = Kind::SPLINES;
       m_origin = low - Vector{m_columns * size - extent.x, m_rows * size - extent.y} * 0.5;
-      for(int y = -1; y < m_rows + 2; ++y)
-        for(int x = -1; x < m_columns + 2; ++x)
-          points.push_back(m_origin + Vector{x * size, y * size});
+      for(int y = 0; y < m_rows + 2; ++y)
+        for(int x = 0; x < m_columns + 2; ++x)
+          points.push_back(m_origin + Vector{(x - 0.5) * size, (y - 0.5) * size});
     }
   }
 
@@ -127,7 +127,7 @@ public:
     std::vector<Control_weights> result;
     if(m_kind != Kind::SPLINES)
       return result;
-    const std::uint32_t columns = std::uint32_t(m_columns + 3), rows = std::uint32_t(m_rows + 3);
+    const std::uint32_t columns = std::uint32_t(m_columns + 2), rows = std::uint32_t(m_rows + 2);
     for(std::uint32_t y = 0; y < rows; ++y)
       for(std::uint32_t x = 0; x < columns; ++x) {
         const std::uint32_t i = m_first + y * columns + x;
@@ -144,13 +144,12 @@ public:
 private:
   enum class Kind { VERTICES, LINEAR, SPLINES };
 
-  // The four cubic B-splines of a cell and their derivatives.
-  static void splines(double t, std::array<double, 4>& b, std::array<double, 4>& d)
+  // The three quadratic B-splines of a cell and their derivatives.
+  static void splines(double t, std::array<double, 3>& b, std::array<double, 3>& d)
   {
     const double u = 1. - t;
-    b = {u * u * u / 6., (3. * t * t * t - 6. * t * t + 4.) / 6.,
-         (3. * u * u * u - 6. * u * u + 4.) / 6., t * t * t / 6.};
-    d = {-0.5 * u * u, 1.5 * t * t - 2. * t, 2. * u - 1.5 * u * u, 0.5 * t * t};
+    b = {0.5 * u * u, 0.5 + t * u, 0.5 * t * t};
+    d = {-u, u - t, t};
   }
 
   double twice_area(const Indexed_mesh::Triangle_indices& t) const
@@ -196,12 +195,12 @@ private:
       return;
     }
     const int column = std::clamp(int(q.x), 0, m_columns - 1), row = std::clamp(int(q.y), 0, m_rows - 1);
-    std::array<double, 4> x, dx, y, dy;
+    std::array<double, 3> x, dx, y, dy;
     splines(q.x - column, x, dx);
     splines(q.y - row, y, dy);
-    for(int j = 0; j < 4; ++j)
-      for(int i = 0; i < 4; ++i)
-        use(m_first + std::uint32_t((row + j) * (m_columns + 3) + column + i), x[i] * y[j],
+    for(int j = 0; j < 3; ++j)
+      for(int i = 0; i < 3; ++i)
+        use(m_first + std::uint32_t((row + j) * (m_columns + 2) + column + i), x[i] * y[j],
             Vector{dx[i] * y[j], x[i] * dy[j]} * (1. / m_size));
   }
 

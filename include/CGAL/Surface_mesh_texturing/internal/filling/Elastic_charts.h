@@ -4,10 +4,10 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_FILLING_ELASTIC_CHARTS_H
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_FILLING_ELASTIC_CHARTS_H
 
-#include <CGAL/Multigrid/Sparse_cholesky.h>
 #include <CGAL/Surface_mesh_parameterization/Stretch_element.h>
 #include <CGAL/Surface_mesh_parameterization/stretch_energies.h>
 #include <CGAL/Surface_mesh_texturing/internal/filling/Border_contacts.h>
+#include <CGAL/Surface_mesh_texturing/internal/filling/Ordered_cholesky.h>
 
 #include <algorithm>
 #include <array>
@@ -33,7 +33,7 @@ public:
   // Control points at rest, and borders of all charts.
   Elastic_charts(std::vector<Vector> points, Border_contacts contacts, const Contact_sizes& sizes)
     : m_points(std::move(points)), m_contacts(std::move(contacts)), m_sizes(sizes)
-    , m_elements_at(m_points.size())
+    , m_elements_at(m_points.size()), m_solver(m_points.size())
   {
     m_contacts.set_gaps(m_points);
   }
@@ -60,6 +60,22 @@ public:
   }
 
   const std::vector<Vector>& points() const { return m_points; }
+
+  // Where the control points are, at which scale. What was learned about gaps is forgotten with a change of it.
+  struct State
+  {
+    std::vector<Vector> points;
+    double scale;
+  };
+  State state() const { return {m_points, m_scale}; }
+  void restore(const State& state)
+  {
+    m_points = state.points;
+    m_scale = state.scale;
+    m_contacts.set_gaps(m_points);
+    m_contacts.widen_nothing();
+    m_is_known = false;
+  }
 
   // How much larger the charts are than at rest, and how much they are bent beside that: the mean of the
   // squares of the relative changes of length along both principal directions together, to first order.
@@ -90,10 +106,13 @@ public:
   // Makes those charts stiffer of which some part is stretched more than that in one direction to another.
   void stiffen_bent(double ratio, double factor);
 
+  // How far a border may go in a step: a small chart that goes further may pass through another one.
+  void set_farthest(double length) { m_farthest = length; }
+
   // Makes a chart stiffer, up to a limit.
   void stiffen(std::size_t chart, double factor)
   {
-    constexpr double most = 32.;
+    constexpr double most = 1024.;
     double& stiffer = m_stiffer[chart];
     const double before = stiffer;
     stiffer = (std::min)(most, stiffer * factor);
@@ -116,6 +135,7 @@ private:
   typedef Surface_mesh_parameterization::Stretch_element<double> Stretch_element;
   typedef Surface_mesh_parameterization::Plane_jacobian<double> Jacobian;
   typedef std::pair<std::uint32_t, std::uint32_t> Place; // an element or penalty, and one of its points
+  typedef Ordered_cholesky::Matrix Matrix;
 
   Jacobian jacobian(const Strain_element& e, const std::vector<Vector>& points) const
   {
@@ -139,8 +159,7 @@ private:
     double missing, stiffness;
   };
   std::vector<Penalty> penalties(const std::vector<Vector>& points) const;
-  void add_rows(const std::vector<Penalty>& penalties, Eigen::SparseMatrix<double>& matrix,
-                Eigen::VectorXd& right) const;
+  void add_columns(const std::vector<Penalty>& penalties, Matrix& matrix, Eigen::VectorXd& right) const;
   double value(const std::vector<Vector>& points);
   bool go(const Eigen::VectorXd& direction);
 
@@ -156,9 +175,11 @@ private:
   std::vector<Stretch_element> m_energies;       // of the elements
   double m_stiffness_of_contacts = 1.;
   double m_scale = 1., m_worst = 0.;
+  double m_farthest = (std::numeric_limits<double>::infinity)();
   double m_value = 0.;                     // what is minimized
   bool m_is_known = false;                 // that, and the contacts
   std::array<double, 3> m_sums = {1., 1., 1.}; // of I, I / D^2 and 1 over the area
+  Ordered_cholesky m_solver;
 };
 
 inline void Elastic_charts::compute_energies()
@@ -204,12 +225,13 @@ Elastic_charts::penalties(const std::vector<Vector>& points) const
   return result;
 }
 
-// The lower triangle of the second derivative, column by column, and minus the first.
-inline void Elastic_charts::add_rows(const std::vector<Penalty>& penalties,
-                                     Eigen::SparseMatrix<double>& matrix, Eigen::VectorXd& right) const
+// The upper triangle of the second derivative, by the order of the control points, and minus the first.
+inline void Elastic_charts::add_columns(const std::vector<Penalty>& penalties, Matrix& matrix,
+                                        Eigen::VectorXd& right) const
 {
   constexpr double least = 1e-3; // what charts that touch nothing are held by
   typedef Surface_mesh_parameterization::Plane_matrix<double> Block;
+  const std::vector<std::uint32_t>&order = m_solver.order(), &rank = m_solver.rank();
   const std::size_t n = m_points.size();
   std::vector<std::vector<Place>> penalties_at(n);
   for(std::uint32_t i = 0; i < penalties.size(); ++i)
@@ -227,49 +249,53 @@ inline void Elastic_charts::add_rows(const std::vector<Penalty>& penalties,
     sum[row] = {sum[row].xx + b.xx, sum[row].xy + b.xy, sum[row].yx + b.yx, sum[row].yy + b.yy};
   };
   const double inverse = 1. / m_scale;
-  int* const begin = matrix.outerIndexPtr();
-  std::vector<int> inner;
+  Eigen::Index* const begin = matrix.outerIndexPtr();
+  std::vector<Eigen::Index> inner;
   std::vector<double> values;
   for(std::uint32_t column = 0; column < n; ++column) {
+    const std::uint32_t point = order[column];
     rows.clear();
     add(column, {least, 0., 0., least});
     Vector force;
-    for(const auto& [e, k] : m_elements_at[column]) {
+    for(const auto& [e, k] : m_elements_at[point]) {
       const auto& points = m_elements[e].half_gradients;
       const Vector g = points[k].second * inverse;
       force = force - m_energies[e].gradient(g);
-      for(std::size_t j = k; j < points.size(); ++j)
-        add(points[j].first, m_energies[e].block(points[j].second * inverse, g));
+      for(const auto& [other, gradient] : points)
+        if(rank[other] <= column)
+          add(rank[other], m_energies[e].block(gradient * inverse, g));
     }
-    for(const auto& [i, k] : penalties_at[column]) {
+    for(const auto& [i, k] : penalties_at[point]) {
       const Control_weights& weights = *penalties[i].weights;
       const Vector& normal = penalties[i].normal;
       const double w = penalties[i].stiffness * weights[k].weight;
       force = force + normal * (w * penalties[i].missing);
-      for(std::size_t j = k; j < weights.size(); ++j) {
-        const double f = w * weights[j].weight, xy = f * normal.x * normal.y;
-        add(weights[j].point, {f * normal.x * normal.x, xy, xy, f * normal.y * normal.y});
-      }
+      const double xx = w * normal.x * normal.x, xy = w * normal.x * normal.y, yy = w * normal.y * normal.y;
+      for(const Control_weight& other : weights)
+        if(rank[other.point] <= column) {
+          const double f = other.weight;
+          add(rank[other.point], {f * xx, f * xy, f * xy, f * yy});
+        }
     }
     right[2 * column] = force.x;
     right[2 * column + 1] = force.y;
     std::sort(rows.begin(), rows.end());
     for(int side = 0; side < 2; ++side) {
-      begin[2 * column + side] = int(inner.size());
+      begin[2 * column + side] = Eigen::Index(inner.size());
       for(const std::uint32_t row : rows) {
         const Block& b = sum[row];
-        if(row > column || side == 0) {
-          inner.push_back(int(2 * row));
-          values.push_back(side == 0 ? b.xx : b.xy);
+        inner.push_back(2 * row);
+        values.push_back(side == 0 ? b.xx : b.xy);
+        if(row < column || side == 1) {
+          inner.push_back(2 * row + 1);
+          values.push_back(side == 0 ? b.yx : b.yy);
         }
-        inner.push_back(int(2 * row + 1));
-        values.push_back(side == 0 ? b.yx : b.yy);
       }
     }
     for(const std::uint32_t row : rows)
       is_there[row] = 0;
   }
-  begin[2 * n] = int(inner.size());
+  begin[2 * n] = Eigen::Index(inner.size());
   matrix.resizeNonZeros(Eigen::Index(inner.size()));
   std::copy(inner.begin(), inner.end(), matrix.innerIndexPtr());
   std::copy(values.begin(), values.end(), matrix.valuePtr());
@@ -298,14 +324,13 @@ inline double Elastic_charts::value(const std::vector<Vector>& points)
 inline bool Elastic_charts::go(const Eigen::VectorXd& direction)
 {
   constexpr double least = 1. / 64.;
-  const double farthest = 12. * m_sizes.unit;
   std::vector<Vector> moved(m_points.size());
   const auto move = [&](double t) {
     for(std::size_t k = 0; k < moved.size(); ++k)
       moved[k] = m_points[k] + Vector{direction[2 * k], direction[2 * k + 1]} * t;
   };
   move(1.);
-  const double way = m_contacts.longest_way(moved), longest = way > farthest ? farthest / way : 1.;
+  const double way = m_contacts.longest_way(moved), longest = way > m_farthest ? m_farthest / way : 1.;
   for(double t = longest; t >= least * longest; t *= 0.5) {
     move(t);
     const double next = value(moved);
@@ -339,15 +364,10 @@ inline bool Elastic_charts::step()
     m_value = value(m_points);
   m_worst = m_contacts.worst();
   compute_energies();
-  const Eigen::Index n = Eigen::Index(2 * m_points.size());
-  Eigen::SparseMatrix<double> matrix(n, n);
-  Eigen::VectorXd right(n), direction;
-  add_rows(penalties(m_points), matrix, right);
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> factorization;
-  if(!Multigrid::factorize_sparse(factorization, matrix))
-    return false;
-  Multigrid::solve_sparse(factorization, right, direction);
-  const bool is_moved = direction.allFinite() && go(direction);
+  const std::vector<Penalty> all = penalties(m_points);
+  const auto assemble = [&](Matrix& matrix, Eigen::VectorXd& right) { add_columns(all, matrix, right); };
+  Eigen::VectorXd direction;
+  const bool is_moved = m_solver.solve(assemble, direction) && go(direction);
   measure();
   return is_moved;
 }

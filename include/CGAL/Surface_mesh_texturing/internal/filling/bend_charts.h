@@ -7,7 +7,7 @@
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_texturing/internal/filling/Elastic_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/mapped_charts/Straight_chains.h>
-#include <CGAL/Surface_mesh_texturing/internal/packing/Chart_raster.h>
+#include <CGAL/Surface_mesh_texturing/internal/packing/Page_check.h>
 
 #include <algorithm>
 #include <array>
@@ -22,81 +22,6 @@
 namespace CGAL {
 namespace Surface_mesh_texturing {
 namespace internal {
-
-// Puts charts on the raster of a page each, and finds where they are not a packing: beyond the sides, or
-// without their padding between them.
-class Page_check
-{
-public:
-  Page_check(const Packing_options& options, std::size_t pages)
-    : m_raster(exact_raster(options)), m_pages(pages, Texel_mask(m_raster.width, m_raster.height))
-  {}
-
-  // `outline` is relative to its centre, which is in texels on the page.
-  void add(const Chart_outline& outline, std::size_t page)
-  {
-    const double cells = 1. / m_raster.cell;
-    const auto box = bounding_box(outline, Rotation_and_scale(0., cells));
-    std::array<int, 2> low, high;
-    Vector_2d centre;
-    for(int c = 0; c < 2; ++c) {
-      centre[c] = (outline.centre[c] - m_raster.origin[c]) * cells;
-      low[c] = int(std::floor(centre[c] + box[0][c] - touching_tolerance));
-      high[c] = int(std::floor(centre[c] + box[1][c] + touching_tolerance)) + 1;
-      centre[c] -= low[c];
-    }
-    Texel_mask mask(high[0] - low[0], high[1] - low[1]);
-    add_outline(outline, Rotation_and_scale(0., cells), centre, mask);
-    const int padding = m_raster.padding;
-    for(const Cell_run& run : dilated(mask, padding).runs())
-      if(const int x = first_in_page(page, run, low[0] - padding, low[1] - padding); x >= 0)
-        add_fault(page, x, run.y + low[1] - padding);
-    for(const Cell_run& run : mask.runs()) {
-      const Cell_run moved = {run.y + low[1], run.begin + low[0], run.end + low[0]};
-      m_pages[page].add(moved);
-      if(moved.y < 0 || moved.y >= m_raster.height || moved.begin < 0)
-        add_fault(page, moved.begin, moved.y);
-      if(moved.y < 0 || moved.y >= m_raster.height || moved.end > m_raster.width)
-        add_fault(page, moved.end, moved.y);
-    }
-  }
-
-  const std::vector<Page_place>& faults() const { return m_faults; }
-
-  // The part of all texels of the pages that charts touch.
-  double texel_utilisation(const Packing_options& options) const
-  {
-    double touched = 0.;
-    for(const Texel_mask& page : m_pages)
-      touched += double(page.count()) * m_raster.cell * m_raster.cell;
-    return touched / (double(options.width) * double(options.height) * double(m_pages.size()));
-  }
-
-private:
-  // The first cell of a run, moved by (x, y), that a chart has already, or -1.
-  int first_in_page(std::size_t page, const Cell_run& run, int x, int y) const
-  {
-    const int row = run.y + y, end = (std::min)(m_raster.width, run.end + x);
-    if(row < 0 || row >= m_raster.height)
-      return -1;
-    for(int i = (std::max)(0, run.begin + x); i < end; i = (i | 63) + 1) {
-      const Word word = m_pages[page].row(row)[i >> 6] & ~Word(0) << (i & 63);
-      if(word != 0)
-        return (i & ~63) + lowest_bit(word) < end ? (i & ~63) + lowest_bit(word) : -1;
-    }
-    return -1;
-  }
-
-  void add_fault(std::size_t page, int x, int y)
-  {
-    m_faults.push_back({page, {m_raster.origin[0] + (x + 0.5) * m_raster.cell,
-                               m_raster.origin[1] + (y + 0.5) * m_raster.cell}});
-  }
-
-  Packing_raster m_raster;
-  std::vector<Texel_mask> m_pages;
-  std::vector<Page_place> m_faults;
-};
 
 // Lets charts grow and bend on their pages; see `bend_charts()`.
 class Chart_bending
@@ -127,25 +52,28 @@ public:
     if(m_maps.empty() || m_maps.size() > most_charts
        || !std::all_of(m_maps.begin(), m_maps.end(), is_bendable))
       return;
-    Elastic_charts charts = elastic_charts();
-    if(!grow(charts))
+    std::vector<Plane_vector_d> points;
+    Border_contacts contacts(m_sizes);
+    add_nets(points, contacts);
+    Elastic_charts charts(std::move(points), std::move(contacts), m_sizes);
+    for(const Control_net& net : m_nets)
+      charts.add_chart(net.elements(), net.differences());
+    std::vector<Elastic_charts::State> states;
+    if(!grow(charts, states))
       return;
-    double stiffness = first_stiffness;
-    for(int i = 0; i < attempts && charts.scale() > 1.; ++i) {
-      if(!settle(charts) || take(charts))
+    for(int i = 0; i < most_states && !states.empty() && charts.scale() > 1.; ++i) {
+      if(try_to_take(charts))
         return;
-      stiffness *= harder;
-      charts.set_stiffness_of_contacts(stiffness);
-      if(i > attempts / 2)
-        charts.grow(less);
+      charts.restore(states.back());
+      states.pop_back();
     }
   }
 
 private:
   static constexpr double margin = 0.4; // of gaps, in units: for what samples of borders do not tell
   static constexpr double squares = 10.; // along a page
-  static constexpr int attempts = 16;
-  static constexpr double less = 0.99; // growth after half of them
+  static constexpr int most_states = 4; // that are tried
+  static constexpr double most = 2.7;   // strain, to that at which charts stop growing
   static constexpr double first_stiffness = 40., harder = 1.3; // of contacts, and with each attempt
   static constexpr std::size_t most_charts = 100; // more are bent hardly at all, and that takes seconds
 
@@ -155,12 +83,14 @@ private:
         && map.report.distortion.flipped_faces + map.report.distortion.degenerate_faces == 0;
   }
 
-  Elastic_charts elastic_charts();
-  bool grow(Elastic_charts& charts) const;
+  void add_nets(std::vector<Plane_vector_d>& points, Border_contacts& contacts);
+  bool grow(Elastic_charts& charts, std::vector<Elastic_charts::State>& states) const;
+  bool try_to_take(Elastic_charts& charts);
   bool settle(Elastic_charts& charts) const;
-  bool take(Elastic_charts& charts);
+  std::size_t take(Elastic_charts& charts);
   bool bend(std::size_t i, const Elastic_charts& charts, std::vector<Point_2>& places,
             Chart_distortion& distortion) const;
+  double changes_of_length(std::size_t i, const std::vector<Point_2>& places, double scale) const;
   Chart_outline outline(std::size_t i, const Elastic_charts& charts) const;
 
   double m_strain; // see `Elastic_charts::strain()`
@@ -175,10 +105,9 @@ private:
   std::vector<Control_net> m_nets;
 };
 
-inline Elastic_charts Chart_bending::elastic_charts()
+// Adds the control points and borders of the charts.
+inline void Chart_bending::add_nets(std::vector<Plane_vector_d>& points, Border_contacts& contacts)
 {
-  std::vector<Plane_vector_d> points;
-  Border_contacts contacts(m_sizes);
   m_rest.resize(m_maps.size());
   m_nets.reserve(m_maps.size());
   for(std::size_t i = 0; i < m_maps.size(); ++i) {
@@ -189,38 +118,82 @@ inline Elastic_charts Chart_bending::elastic_charts()
     for(const auto& loop : border_loops(map.chart.border_edges(), m_rest[i].size()))
       contacts.add_loop(std::uint32_t(i), m_packing.placements[i].page, loop, m_rest[i], m_nets[i]);
   }
-  Elastic_charts charts(std::move(points), std::move(contacts), m_sizes);
-  for(const Control_net& net : m_nets)
-    charts.add_chart(net.elements(), net.differences());
-  return charts;
 }
 
-// Until they are bent so much, or fill the pages; returns whether there was time for it.
-inline bool Chart_bending::grow(Elastic_charts& charts) const
+// Until they are bent so much, or fill the pages; adds the states before they grew further, the first of
+// which is that at rest. Returns whether there was time for it.
+inline bool Chart_bending::grow(Elastic_charts& charts, std::vector<Elastic_charts::State>& states) const
 {
-  constexpr int most_steps = 100;
-  constexpr double largest = 0.03, least_gain = 0.2; // of the scale, and to what it should be
+  constexpr int most_steps = 100, patience = 4, steps_to_relax = 2; // in all, and without better gaps
+  constexpr double least_gain = 0.2;                 // of the scale, to what it should be
   constexpr double most_bent = 1.5, stiffer = 2.;    // a ratio of lengths, and what comes of it
+  constexpr double any = (std::numeric_limits<double>::infinity)(), better = 0.98;
+  constexpr double far = 12., near = 3.;             // for a step, in units
   const double loose = 3. * m_sizes.unit;
-  double growth = 0., before = 1.;
+  const double largest = (std::min)(0.03, std::sqrt(0.5 * m_strain)); // growth
+  double growth = 0., before = 1., best_gap = any;
+  bool is_careful = false;
   charts.set_stiffness_of_contacts(first_stiffness);
-  for(int i = 0; i < most_steps; ++i) {
+  charts.set_farthest(far * m_sizes.unit);
+  states.push_back(charts.state());
+  for(int i = 0, since = 0, in_vain = 0; i < most_steps; ++i) {
     if(!m_goes_on())
       return false;
     const bool is_moved = charts.step();
+    ++since;
     charts.stiffen_bent(most_bent, stiffer);
-    if(!is_moved && charts.worst_gap() >= loose)
-      break;
-    if(charts.worst_gap() >= loose)
-      continue;
-    const double left = 1. - charts.strain() / m_strain;
-    if(left <= 0. || (growth > 0. && charts.scale() < before * (1. + least_gain * growth)))
-      break;
-    before = charts.scale();
-    growth = largest * (std::max)(0.25, left);
+    if(charts.worst_gap() >= loose) {
+      in_vain = charts.worst_gap() < better * best_gap ? 0 : in_vain + 1;
+      best_gap = (std::min)(best_gap, charts.worst_gap());
+      if(is_moved && in_vain <= patience)
+        continue;
+      // Some charts are entangled
+      charts.restore(states.back());
+      if(is_careful) {
+        states.pop_back();
+        break;
+      }
+      is_careful = true;
+      charts.set_farthest(near * m_sizes.unit);
+    } else {
+      const double left = 1. - charts.strain() / m_strain;
+      if(left <= 0. && since < steps_to_relax)
+        continue;
+      if(left <= 0. || (growth > 0. && charts.scale() < before * (1. + least_gain * growth)))
+        break;
+      before = charts.scale();
+      growth = largest * (std::max)(0.25, left);
+      states.push_back(charts.state());
+    }
     charts.grow(1. + growth);
+    since = in_vain = 0;
+    best_gap = any;
   }
   return true;
+}
+
+// Presses the charts apart until they are a packing, which then is taken; returns whether there is nothing
+// more to be tried.
+inline bool Chart_bending::try_to_take(Elastic_charts& charts)
+{
+  constexpr int attempts = 12, patience = 4;
+  double stiffness = first_stiffness;
+  std::size_t fewest = (std::numeric_limits<std::size_t>::max)();
+  charts.set_stiffness_of_contacts(stiffness);
+  for(int i = 0, in_vain = 0; i < attempts && in_vain < patience; ++i) {
+    if(!settle(charts))
+      return true;
+    if(charts.strain() > most * m_strain)
+      return false;
+    const std::size_t faults = take(charts);
+    if(faults == 0)
+      return true;
+    in_vain = faults < fewest ? 0 : in_vain + 1;
+    fewest = (std::min)(fewest, faults);
+    stiffness *= harder;
+    charts.set_stiffness_of_contacts(stiffness);
+  }
+  return false;
 }
 
 // Until gaps are about what they shall be; returns whether there was time for it.
@@ -254,6 +227,31 @@ inline bool Chart_bending::bend(std::size_t i, const Elastic_charts& charts, std
   return mend_map(chart.mesh, chart.border_edges(), allowed, places, distortion);
 }
 
+// The squares of the relative changes of length of a chart with these places, along both principal directions
+// of its triangles, integrated over it at rest: those of thin triangles can be more than those of elements.
+inline double Chart_bending::changes_of_length(std::size_t i, const std::vector<Point_2>& places,
+                                               double scale) const
+{
+  double sum = 0.;
+  for(const auto& t : m_maps[i].chart.mesh.triangles) {
+    const auto side = [&t](const std::vector<Point_2>& p, int k) {
+      return vector_of(p[t[k]]) - vector_of(p[t[0]]);
+    };
+    const Plane_vector_d a = side(m_rest[i], 1), b = side(m_rest[i], 2);
+    const double twice = a.cross(b);
+    if(!(twice > 0.))
+      continue;
+    const double factor = 1. / (scale * twice);
+    const Plane_vector_d p = side(places, 1) * factor, q = side(places, 2) * factor;
+    // Twice alpha and beta, see `Plane_jacobian`
+    const Plane_vector_d x = p * b.y - q * a.y, y = q * a.x - p * b.x;
+    const double alpha = std::hypot(x.x + y.y, x.y - y.x), beta = std::hypot(x.x - y.y, x.y + y.x);
+    const double larger = 0.5 * (alpha + beta) - 1., smaller = 0.5 * (alpha - beta) - 1.;
+    sum += 0.5 * twice * (larger * larger + smaller * smaller);
+  }
+  return sum;
+}
+
 // That of a bent chart, whose border vertices stay where they are when flipped triangles are repaired.
 inline Chart_outline Chart_bending::outline(std::size_t i, const Elastic_charts& charts) const
 {
@@ -283,38 +281,52 @@ inline Chart_outline Chart_bending::outline(std::size_t i, const Elastic_charts&
   return result;
 }
 
-// Returns whether the bent charts are a packing, which then is that of the charts. Otherwise they give way
-// where they are not.
-inline bool Chart_bending::take(Elastic_charts& charts)
+// Returns what speaks against the bent charts: places where they are no packing, and charts whose maps are
+// not valid, which give way there, or become stiffer. If there is nothing, they are those of the packing,
+// unless that uses more of the pages already.
+inline std::size_t Chart_bending::take(Elastic_charts& charts)
 {
-  constexpr double stiffer = 4., most = 2.; // of the strain at which charts stopped growing
+  constexpr double stiffer = 8.;
   Page_check check(m_options, m_packing.pages);
   for(std::size_t i = 0; i < m_maps.size(); ++i)
     check.add(outline(i, charts), m_packing.placements[i].page);
   charts.widen_gaps(check.faults(), 0.5 * m_sizes.unit);
-  if(!check.faults().empty() || charts.strain() > most * m_strain)
-    return false;
+  if(!check.faults().empty())
+    return check.faults().size();
   std::vector<std::vector<Point_2>> places(m_maps.size());
   std::vector<Chart_distortion> distortions(m_maps.size());
+  std::vector<double> changes(m_maps.size());
   std::vector<char> is_valid(m_maps.size(), 0);
   Blocked_execution::blocked_for(m_maps.size(), 1, [&](std::size_t begin, std::size_t end) {
     for(std::size_t i = begin; i < end; ++i)
+{
       is_valid[i] = bend(i, charts, places[i], distortions[i]) ? 1 : 0;
+      changes[i] = changes_of_length(i, places[i], charts.scale());
+    }
   });
-  double area = 0.;
-  bool are_valid = true;
+  const double all = m_sizes.page.x * m_sizes.page.y * double(m_packing.pages);
+  const double before = m_packing.utilisation * all;
+  double area = 0., changed = 0.;
+  std::size_t invalid = 0;
   for(std::size_t i = 0; i < m_maps.size(); ++i) {
     area += distortions[i].uv_area;
-    are_valid = are_valid && is_valid[i];
-    if(!is_valid[i])
+    changed += changes[i];
+    if(!is_valid[i]) {
       charts.stiffen(i, stiffer);
+      ++invalid;
+    }
   }
-  if(!are_valid)
-    return false;
-  const double all = m_sizes.page.x * m_sizes.page.y * double(m_packing.pages);
-  if(area <= m_packing.utilisation * all)
-    return true; // nothing is gained
-  const double texels = m_packing.texels_per_unit * std::sqrt(area / (m_packing.utilisation * all));
+  const double mean = changed / before;
+  for(std::size_t i = 0; i < m_maps.size() && mean > most * m_strain; ++i)
+    if(is_valid[i] && changes[i] / distortions[i].uv_area * (area / before) >= mean) {
+      charts.stiffen(i, stiffer);
+      ++invalid;
+    }
+  if(invalid > 0)
+    return invalid;
+  if(area <= before)
+    return 0; // nothing is gained
+  const double texels = m_packing.texels_per_unit * std::sqrt(area / before);
   for(std::size_t i = 0; i < m_maps.size(); ++i) {
     Mapped_chart& map = m_maps[i];
     map.uv.clear();
@@ -332,7 +344,7 @@ inline bool Chart_bending::take(Elastic_charts& charts)
   m_packing.texels_per_unit = texels;
   m_packing.utilisation = area / all;
   m_packing.texel_utilisation = check.texel_utilisation(m_options);
-  return true;
+  return 0;
 }
 
 // Bends the charts of a packing so that they are larger, until their lengths are changed by `bending`, as a
