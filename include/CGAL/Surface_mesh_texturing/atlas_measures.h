@@ -240,8 +240,6 @@ inline Texel_measures measure_texels(const Textured_triangle_mesh& mesh, const F
     return result;
   result.density_range = densest / least_dense;
   result.compactness = compactness / uv_area;
-  std::sort(ratios.begin(), ratios.end());
-  std::sort(scales.begin(), scales.end());
   for(std::size_t i = 0; i < result.parts.size(); ++i) {
     result.quasi_conformal[i] = internal::weighted_quantile(ratios, result.parts[i]);
     result.area_scale[i]

@@ -148,6 +148,56 @@ inline std::pair<std::size_t, std::size_t> repair_flips(const Indexed_triangle_m
   return count_flips(mesh.triangles, uv);
 }
 
+constexpr std::size_t large_chart = 50000; // triangles, of which a coarser version tells something
+
+// A coarser version of a chart.
+inline Chart_mesh coarse_version(const Indexed_triangle_mesh& chart)
+{
+  Chart_mesh result;
+  Segmentation_options options;
+  options.coarse_faces = 5000;
+  segment_coarse_to_fine(chart, options, [&](const Indexed_triangle_mesh& coarse) {
+    std::vector<Triangle_index> all(coarse.triangles.size());
+    std::iota(all.begin(), all.end(), Triangle_index(0));
+    const Triangle_adjacency adjacency(coarse.triangles);
+    result = Chart_cutter<Triangle_adjacency>(coarse, adjacency)(std::move(all));
+    Segmentation_result no_charts;
+    no_charts.cancel();
+    return no_charts;
+  });
+  return result;
+}
+
+// The map with little stretch of a large chart that will need one, as a coarser version of it tells, and
+// its distortion; nothing if it is not within the bound, or better made as for other charts.
+inline std::vector<Point_2> stretch_large_chart(const Indexed_triangle_mesh& mesh,
+                                                const std::vector<Border_edge>& border,
+                                                const Distortion_bound& bound,
+                                                const Chart_mapping& mapping, Chart_distortion& distortion)
+{
+  constexpr double clearly = 1.1; // the power of the bound
+  if(mesh.triangles.size() < large_chart || !mapping.may_stretch || !mapping.has_time())
+    return {};
+  const Chart_mesh coarse = coarse_version(mesh);
+  const std::vector<Point_2> conformal = mapping.parameterize(coarse.mesh);
+  if(conformal.size() != coarse.mesh.points.size())
+    return {};
+  const Chart_distortion coarse_distortion = measure_chart_distortion(coarse.mesh, conformal);
+  const Distortion_bound exceeded = {std::pow(bound.area_scale, clearly), bound.quasi_conformal};
+  if(coarse_distortion.is_within(exceeded) || !is_worth_stretching(coarse_distortion, bound))
+    return {};
+  const std::vector<Border_edge> coarse_border = coarse.border_edges();
+  const std::vector<Point_2> free = stretch_map(coarse.mesh, {}, bound);
+  if(free.empty() || !measure_chart_distortion(coarse.mesh, free).is_within(bound))
+    return {};
+  const bool overlaps = !Surface_mesh_parameterization::is_simple_border(coarse_border, free);
+  std::vector<Point_2> uv
+    = stretch_map(mesh, border, bound, [&mapping](double) { return mapping.has_time(); }, overlaps);
+  if(!uv.empty())
+    distortion = measure_chart_distortion(mesh, uv);
+  return distortion.is_within(bound) ? uv : std::vector<Point_2>();
+}
+
 // Maps a chart and says whether the map is one-to-one and within the bound.
 inline Mapped_chart map_chart(Chart_mesh chart, const Distortion_bound& bound,
                               const Chart_mapping& mapping)
@@ -166,24 +216,27 @@ inline Mapped_chart map_chart(Chart_mesh chart, const Distortion_bound& bound,
     return result;
   }
   result.report.is_one_to_one = false;
-  result.uv = mapping.parameterize(mesh);
-  if(result.uv.size() != mesh.points.size())
-    return result;
-  result.report.distortion = measure_chart_distortion(mesh, result.uv);
   const auto is_allowed = [&](const Chart_distortion& distortion) {
     return !mapping.is_bounded || distortion.is_within(result.bound) || !mapping.has_time();
   };
-  if(mesh.triangles.size() >= mapping.least_rough_faces && !is_allowed(result.report.distortion))
-    result.bound = higher_bound(bound, rough_bound(mesh, mapping.parameterize, mapping.bound));
-  if(mapping.may_stretch && mapping.has_time()
-     && is_worth_stretching(result.report.distortion, result.bound)) {
-    const std::vector<Point_2> uv = stretch_map(mesh, border, result.bound,
-                                                [&mapping](double) { return mapping.has_time(); });
-    const Chart_distortion distortion
-      = uv.empty() ? result.report.distortion : measure_chart_distortion(mesh, uv);
-    if(distortion.is_within(result.bound)) {
-      result.uv = uv;
-      result.report.distortion = distortion;
+  result.uv = stretch_large_chart(mesh, border, result.bound, mapping, result.report.distortion);
+  if(result.uv.empty()) {
+    result.uv = mapping.parameterize(mesh);
+    if(result.uv.size() != mesh.points.size())
+      return result;
+    result.report.distortion = measure_chart_distortion(mesh, result.uv);
+    if(mesh.triangles.size() >= mapping.least_rough_faces && !is_allowed(result.report.distortion))
+      result.bound = higher_bound(bound, rough_bound(mesh, mapping.parameterize, mapping.bound));
+    if(mapping.may_stretch && mapping.has_time()
+       && is_worth_stretching(result.report.distortion, result.bound)) {
+      const std::vector<Point_2> uv = stretch_map(mesh, border, result.bound,
+                                                  [&mapping](double) { return mapping.has_time(); });
+      const Chart_distortion distortion
+        = uv.empty() ? result.report.distortion : measure_chart_distortion(mesh, uv);
+      if(distortion.is_within(result.bound)) {
+        result.uv = uv;
+        result.report.distortion = distortion;
+      }
     }
   }
   if(!scale_to_surface(result.report.distortion, result.uv)
@@ -235,26 +288,10 @@ inline std::vector<Mapped_chart> map_each(std::vector<Chart_mesh> charts,
 // Whether a large chart can hardly have a valid map: a coarser version of it, which is mapped soon, has none.
 inline bool is_hopeless(const Indexed_triangle_mesh& chart, const Chart_mapping& mapping)
 {
-  constexpr std::size_t coarse_faces = 5000, least_faces = 50000;
   constexpr double margin = 1.1; // the power of the bound
-  if(chart.triangles.size() < least_faces)
-    return false;
-  bool result = false;
-  Segmentation_options options;
-  options.coarse_faces = coarse_faces;
-  segment_coarse_to_fine(chart, options, [&](const Indexed_triangle_mesh& coarse) {
-    const Distortion_bound bound = {std::pow(mapping.bound.area_scale, margin),
-                                    std::pow(mapping.bound.quasi_conformal, margin)};
-    std::vector<Triangle_index> all(coarse.triangles.size());
-    std::iota(all.begin(), all.end(), Triangle_index(0));
-    const Triangle_adjacency adjacency(coarse.triangles);
-    Chart_cutter<Triangle_adjacency> cut_out(coarse, adjacency);
-    result = !map_chart(cut_out(std::move(all)), bound, mapping).is_valid;
-    Segmentation_result no_charts;
-    no_charts.cancel();
-    return no_charts;
-  });
-  return result;
+  const Distortion_bound bound = {std::pow(mapping.bound.area_scale, margin),
+                                  std::pow(mapping.bound.quasi_conformal, margin)};
+  return chart.triangles.size() >= large_chart && !map_chart(coarse_version(chart), bound, mapping).is_valid;
 }
 
 // Cuts a chart that may not stay as it is into smaller ones, given as parts of the whole mesh.

@@ -42,18 +42,20 @@ public:
     const Eigen::Index n = Eigen::Index(2 * m_order.size());
     Matrix matrix(n, n);
     Eigen::VectorXd right(n);
-    const auto size_of_factor = [&] {
+    const auto factorize = [&] {
       assemble(matrix, right);
-      m_factorization.analyzePattern(matrix);
-      return m_factorization.matrixL().nestedExpression().nonZeros();
+      m_factorization.compute(matrix);
+      return m_factorization.info() == Eigen::Success;
     };
+    const auto size_of_factor = [&] { return m_factorization.matrixL().nestedExpression().nonZeros(); };
+    if(!factorize())
+      return false;
     if(double(size_of_factor()) > too_many * double(m_smallest)) {
       find_order(matrix);
+      if(!factorize())
+        return false;
       m_smallest = size_of_factor();
     }
-    m_factorization.factorize(matrix);
-    if(m_factorization.info() != Eigen::Success)
-      return false;
     const Eigen::VectorXd ordered = m_factorization.solve(right);
     solution.resize(n);
     for(std::size_t i = 0; i < m_order.size(); ++i)
