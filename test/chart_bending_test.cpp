@@ -286,6 +286,9 @@ TEST(Chart_bending, fills_pages_more_and_keeps_what_charts_promise)
     if(shape.name == "disk") { // from pi / 4
       EXPECT_GT(bent.report.utilisation, rigid.report.utilisation + 0.04) << seed_text;
     }
+    if(shape.name == "star") { // among small charts that could slip through others, and with thin triangles
+      EXPECT_GT(bent.report.utilisation, rigid.report.utilisation + 0.02) << seed_text;
+    }
   }
 }
 

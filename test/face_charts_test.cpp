@@ -1,7 +1,8 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Charts of faces: their topology against that of the charts as meshes, and cuts to disks.
+// Charts of faces: their topology against that of the charts as meshes, cuts to disks, and quantiles of what
+// is measured of them.
 
 #include <support/chart_properties.h>
 #include <support/mesh_generators.h>
@@ -252,6 +253,28 @@ TEST(Charts_of_texture, are_between_the_discontinuities)
     EXPECT_EQ(error_in_disks(surface, SMT::cut_to_disks(surface, charts)), "")
       << name << seed_text;
   }
+}
+
+// With whole weights, whose sums are exact in any order
+TEST(Weighted_quantile, is_that_of_the_sorted_values)
+{
+  Random random(seed);
+  for(const std::size_t n : {0u, 1u, 2u, 63u, 64u, 65u, 200u, 5000u})
+    for(const double part : {0., 0.01, 0.5, 0.99, 1.}) {
+      std::vector<std::pair<float, float>> values;
+      for(std::size_t i = 0; i < n; ++i)
+        values.push_back({float(uniform_index(random, 50)), float(uniform_index(random, 4))});
+      std::vector<std::pair<float, float>> sorted = values;
+      std::sort(sorted.begin(), sorted.end());
+      double all = 0., below = 0.;
+      for(const auto& v : sorted)
+        all += v.second;
+      double expected = n == 0 ? 1. : sorted.back().first;
+      for(std::size_t i = sorted.size(); i-- > 0; below += sorted[i].second)
+        if(all - below >= part * all) // up to this one
+          expected = sorted[i].first;
+      EXPECT_EQ(SMT::internal::weighted_quantile(values, part), expected) << n << ", " << part << seed_text;
+    }
 }
 
 } // namespace face_charts_test

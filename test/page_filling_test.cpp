@@ -375,6 +375,14 @@ TEST(Page_filling, large_charts_are_mapped_only_if_there_is_hope)
   EXPECT_TRUE(charts_of(cap).empty());
   mapping.most_charts = parts.size();
   EXPECT_EQ(charts_of(cap).size(), parts.size());
+  // What needs little stretch is not mapped conformally before, what does not need it is
+  mapping.may_stretch = true;
+  EXPECT_EQ(charts_of(flat).size(), 1u);
+  EXPECT_EQ(large_maps, 2u);
+  const auto stretched = charts_of(on_sphere(round_disk(100), 1.9));
+  ASSERT_EQ(stretched.size(), 1u);
+  EXPECT_TRUE(stretched[0].is_valid && stretched[0].report.distortion.is_within(mapping.bound));
+  EXPECT_EQ(large_maps, 2u);
 }
 
 // --- Measures

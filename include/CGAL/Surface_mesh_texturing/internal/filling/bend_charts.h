@@ -352,7 +352,7 @@ inline std::size_t Chart_bending::take(Elastic_charts& charts)
 // charts one-to-one and within their bound, or hardly further beyond it than they were. `goes_on` is asked
 // from time to time, and all stays as it was if it says no.
 //
-// Complexity: some 50 steps of Newton's method for control points on a grid of ten squares a page, which do
+// Complexity: some 30 steps of Newton's method for control points on a grid of ten squares a page, which do
 // not depend on the mesh, and linear time for the maps.
 inline void bend_charts(double bending, const Packing_options& options, const Chart_mapping& mapping,
                         const std::function<bool()>& goes_on, std::vector<Mapped_chart>& maps,
