@@ -314,8 +314,8 @@ inline bool Texture_atlas_builder::pack()
       };
   Filled_packing::Bend bend;
   if(may_bend())
-    bend = [&](std::vector<Mapped_chart>& charts, Packing_result& packed) {
-      bend_charts(m_options.bending, packing, mapping,
+    bend = [&](std::vector<Mapped_chart>& charts, Packing_result& packed, double factor) {
+      bend_charts(factor * m_options.bending, packing, mapping,
                   [&] { return !is_over() && proceed(0.8, 1., 1. - 0.5 * left); }, charts, packed);
     };
   std::vector<std::vector<Mapped_chart>> sets

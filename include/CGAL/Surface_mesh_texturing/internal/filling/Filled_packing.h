@@ -23,9 +23,9 @@ class Filled_packing
 {
 public:
   typedef std::function<Packing_result(const std::vector<Chart_shape>&)> Pack;
-  typedef std::function<void(std::vector<Mapped_chart>&, Packing_result&)> Bend;
+  typedef std::function<void(std::vector<Mapped_chart>&, Packing_result&, double factor)> Bend;
 
-  // All of these must outlive this. `bend` may be empty.
+  // All of these must outlive this. `bend`, which may be empty, bends by a multiple of what is usual.
   Filled_packing(const Texture_atlas_options& options, const Packing_options& pages,
                  const Chart_mapping& mapping, const Pack& pack, const Bend& bend,
                  std::vector<Mapped_chart>& charts)
@@ -113,7 +113,7 @@ private:
   }
 
   // Bends the charts; if then less is used than shall be, cuts them as they were before to where they are
-  // fuller by what is missing, and bends these.
+  // fuller by what is missing, and bends these. Where no more cuts help they are bent further.
   void bend()
   {
     constexpr int rounds = 3;
@@ -121,21 +121,34 @@ private:
     for(int i = 1; m_packing.is_ok(); ++i) {
       std::vector<Mapped_chart> rigid = may_cut_more ? m_charts : std::vector<Mapped_chart>();
       const Packing_result rigid_packing = m_packing;
-      m_bend(m_charts, m_packing);
+      m_bend(m_charts, m_packing, 1.);
       const double missing = m_options.min_used - m_packing.utilisation;
-      if(!may_cut_more || missing <= 0. || i == rounds || !m_mapping.has_time())
+      if(!may_cut_more || missing <= 0. || !m_mapping.has_time())
         return;
+      if(i == rounds)
+        return bend_further(std::move(rigid), rigid_packing);
       m_goal = rigid_packing.utilisation + missing;
       std::vector<Mapped_chart> bent = std::exchange(m_charts, std::move(rigid));
       Packing_result bent_packing = std::exchange(m_packing, rigid_packing);
       Page_filler filler(m_charts, m_pages, m_mapping);
       cut_until_used(filler);
       if(m_packing.is_ok() && m_packing.utilisation <= rigid_packing.utilisation) {
-        m_charts = std::move(bent);
+        rigid = std::exchange(m_charts, std::move(bent));
         m_packing = std::move(bent_packing);
-        return;
+        return bend_further(std::move(rigid), rigid_packing);
       }
     }
+  }
+
+  // Takes rigid charts that are bent twice as much, if these use more.
+  void bend_further(std::vector<Mapped_chart> charts, Packing_result packing)
+  {
+    constexpr double factor = 2.;
+    m_bend(charts, packing, factor);
+    if(!packing.is_ok() || packing.utilisation <= m_packing.utilisation)
+      return;
+    m_charts = std::move(charts);
+    m_packing = std::move(packing);
   }
 
   // The charts without cuts, if they fill the pages as well.
