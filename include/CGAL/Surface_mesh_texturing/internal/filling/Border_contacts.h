@@ -249,8 +249,8 @@ inline void Border_contacts::add_contacts_with_charts(std::uint32_t i)
   Nearest_on_piece own;
   own.squared_distance = (sample.wanted + sample.more) * (sample.wanted + sample.more);
   m_nearest.clear();
-  // Two that face each other are turned to each other
-  constexpr double turned = 0.82; // > cos(pi - 2 acos(facing))
+  // Pieces that face each other are turned to each other
+  constexpr double turned = 0.82; // cos(pi - 2 acos(facing))
   const auto matters = [&](const Border_piece& piece) {
     return piece.chart != sample.chart
         || (piece.outward.dot(out) < turned && piece.sample != i && piece.sample != sample.previous);

@@ -61,7 +61,8 @@ public:
 
   const std::vector<Vector>& points() const { return m_points; }
 
-  // Where the control points are, at which scale. What was learned about gaps is forgotten with a change of it.
+  // Where the control points are, at which scale. What was learned about gaps is forgotten when another one
+  // is restored.
   struct State
   {
     std::vector<Vector> points;

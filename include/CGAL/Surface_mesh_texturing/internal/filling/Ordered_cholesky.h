@@ -21,7 +21,7 @@ namespace internal {
 class Ordered_cholesky
 {
 public:
-  typedef Eigen::SparseMatrix<double, Eigen::ColMajor, Eigen::Index> Matrix; // that is factorized without a copy
+  typedef Eigen::SparseMatrix<double, Eigen::ColMajor, Eigen::Index> Matrix; // no copy is factorized
 
   explicit Ordered_cholesky(std::size_t points) : m_order(points)
   {

@@ -73,7 +73,7 @@ private:
   static constexpr double margin = 0.4; // of gaps, in units: for what samples of borders do not tell
   static constexpr double squares = 10.; // along a page
   static constexpr int most_states = 4; // that are tried
-  static constexpr double most = 2.7;   // strain, to that at which charts stop growing
+  static constexpr double most_strain = 2.7; // to that at which charts stop growing
   static constexpr double first_stiffness = 40., harder = 1.3; // of contacts, and with each attempt
   static constexpr std::size_t most_charts = 100; // more are bent hardly at all, and that takes seconds
 
@@ -183,7 +183,7 @@ inline bool Chart_bending::try_to_take(Elastic_charts& charts)
   for(int i = 0, in_vain = 0; i < attempts && in_vain < patience; ++i) {
     if(!settle(charts))
       return true;
-    if(charts.strain() > most * m_strain)
+    if(charts.strain() > most_strain * m_strain)
       return false;
     const std::size_t faults = take(charts);
     if(faults == 0)
@@ -298,8 +298,7 @@ inline std::size_t Chart_bending::take(Elastic_charts& charts)
   std::vector<double> changes(m_maps.size());
   std::vector<char> is_valid(m_maps.size(), 0);
   Blocked_execution::blocked_for(m_maps.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for(std::size_t i = begin; i < end; ++i)
-{
+    for(std::size_t i = begin; i < end; ++i) {
       is_valid[i] = bend(i, charts, places[i], distortions[i]) ? 1 : 0;
       changes[i] = changes_of_length(i, places[i], charts.scale());
     }
@@ -317,7 +316,7 @@ inline std::size_t Chart_bending::take(Elastic_charts& charts)
     }
   }
   const double mean = changed / before;
-  for(std::size_t i = 0; i < m_maps.size() && mean > most * m_strain; ++i)
+  for(std::size_t i = 0; i < m_maps.size() && mean > most_strain * m_strain; ++i)
     if(is_valid[i] && changes[i] / distortions[i].uv_area * (area / before) >= mean) {
       charts.stiffen(i, stiffer);
       ++invalid;
