@@ -1,7 +1,8 @@
 # Copyright (c) 2026  The HLSCM for CGAL authors.
 # SPDX-License-Identifier: GPL-3.0-or-later
 
-# The target HLSCM_petsc: MPI, and PETSc with complex numbers.
+# The targets HLSCM_petsc, which is MPI, and PETSc with complex numbers, and HLSCM_distributed: what our
+# own programs need of map_distributed_chart.h, compiled once.
 
 set(MPI_CXX_SKIP_MPICXX ON)
 find_package(MPI REQUIRED COMPONENTS CXX)
@@ -14,6 +15,12 @@ pkg_check_modules(HLSCM_PETSC REQUIRED IMPORTED_TARGET PETSc)
 
 add_library(HLSCM_petsc INTERFACE)
 target_link_libraries(HLSCM_petsc INTERFACE PkgConfig::HLSCM_PETSC MPI::MPI_CXX)
+
+hlscm_add_compiled_headers(source MPI_ Surface_mesh_parameterization/map_distributed_chart)
+add_library(HLSCM_distributed STATIC ${source})
+hlscm_set_up(HLSCM_distributed)
+target_link_libraries(HLSCM_distributed PUBLIC HLSCM_petsc ${hlscm_library})
+target_compile_definitions(HLSCM_distributed PUBLIC CGAL_HLSCM_MPI_COMPILED)
 
 # Open MPI may be told to run as root, more ranks than there are processors, and on this machine only,
 # for which it needs no ssh.

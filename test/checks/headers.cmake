@@ -33,13 +33,13 @@ function(find_opening header variable)
 endfunction()
 
 # find_includes(<header> <variable>): what <header> includes whatever is defined: what stands in its
-# guard and in no other condition, but for CGAL_HLSCM_DEFINITIONS, which is defined here.
+# guard and in no other condition, but for those of compile_once.h, which are met here.
 function(find_includes header variable)
   file(STRINGS ${include_dir}/${header} lines REGEX "^ *# *(if|endif|include <)")
   set(includes)
   set(conditions)
   foreach(line IN LISTS lines)
-    if(line MATCHES "# *ifdef CGAL_HLSCM_DEFINITIONS")
+    if(line MATCHES "# *ifdef CGAL_HLSCM_([A-Z]+_)?DEFINITIONS")
       list(APPEND conditions "true")
     elseif(line MATCHES "# *if")
       list(APPEND conditions "unknown")

@@ -9,17 +9,29 @@
 // What keeps the compiler from doing the same work again.
 //
 // The functions that know no mesh type but arrays, and that take it long, are CGAL_HLSCM_INLINE.
-// Usually that is `inline`, and their definitions are part of the headers (CGAL_HLSCM_DEFINITIONS). A
-// program that is linked with the target CGAL::HLSCM_compiled is compiled with CGAL_HLSCM_COMPILED:
-// it sees the declarations only. The library's own file defines CGAL_HLSCM_SOURCE, too.
+// Usually that is `inline`, and their definitions are part of the headers (CGAL_HLSCM_DEFINITIONS, or
+// CGAL_HLSCM_TEXTURING_DEFINITIONS in the package Surface_mesh_texturing). A program that is linked
+// with the target CGAL::HLSCM_compiled is compiled with CGAL_HLSCM_COMPILED: it sees the declarations
+// only. Each of the library's own files defines CGAL_HLSCM_SOURCE or CGAL_HLSCM_TEXTURING_SOURCE, too.
+// What needs MPI is compiled once for our own programs in the same way.
 #if !defined(CGAL_HLSCM_COMPILED)
-#define CGAL_HLSCM_DEFINITIONS
 #define CGAL_HLSCM_INLINE inline
 #else
 #define CGAL_HLSCM_INLINE
-#if defined(CGAL_HLSCM_SOURCE)
+#endif
+#if !defined(CGAL_HLSCM_COMPILED) || defined(CGAL_HLSCM_SOURCE)
 #define CGAL_HLSCM_DEFINITIONS
 #endif
+#if !defined(CGAL_HLSCM_COMPILED) || defined(CGAL_HLSCM_TEXTURING_SOURCE)
+#define CGAL_HLSCM_TEXTURING_DEFINITIONS
+#endif
+#if !defined(CGAL_HLSCM_MPI_COMPILED)
+#define CGAL_HLSCM_MPI_INLINE inline
+#else
+#define CGAL_HLSCM_MPI_INLINE
+#endif
+#if !defined(CGAL_HLSCM_MPI_COMPILED) || defined(CGAL_HLSCM_MPI_SOURCE)
+#define CGAL_HLSCM_MPI_DEFINITIONS
 #endif
 
 namespace CGAL {

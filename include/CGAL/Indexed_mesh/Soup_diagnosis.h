@@ -5,9 +5,12 @@
 #define CGAL_INDEXED_MESH_SOUP_DIAGNOSIS_H
 
 #include <CGAL/Blocked_execution/Progress.h>
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Indexed_mesh/Polygon_soup.h>
+#ifdef CGAL_HLSCM_DEFINITIONS
 #include <CGAL/Indexed_mesh/internal/Edge_table.h>
 #include <CGAL/Indexed_mesh/internal/Parity_sets.h>
+#endif
 
 #include <algorithm>
 #include <array>
@@ -74,6 +77,22 @@ struct Soup_diagnosis
     return faces > 0 && is_manifold() && !not_finite && !not_triangular && !isolated && !misoriented;
   }
 };
+
+/*!
+\ingroup PkgHLSCMIndexedMesh
+
+Examines a soup without `soup_error()`; points that are not finite are counted.
+
+\param soup the soup
+\param progress told the part done in [0, 1] from time to time; returning `false` cancels, and the
+       result makes no sense then
+
+Time \f$ O(n \log d) \f$ for degrees up to \f$ d \f$; about 60 bytes a triangle of temporary memory.
+*/
+CGAL_HLSCM_INLINE Soup_diagnosis diagnose_soup(const Polygon_soup& soup,
+                                    const std::function<bool(double)>& progress = {});
+
+#ifdef CGAL_HLSCM_DEFINITIONS
 
 namespace internal {
 
@@ -310,23 +329,14 @@ private:
 
 } // namespace internal
 
-/*!
-\ingroup PkgHLSCMIndexedMesh
-
-Examines a soup without `soup_error()`; points that are not finite are counted.
-
-\param soup the soup
-\param progress told the part done in [0, 1] from time to time; returning `false` cancels, and the
-       result makes no sense then
-
-Time \f$ O(n \log d) \f$ for degrees up to \f$ d \f$; about 60 bytes a triangle of temporary memory.
-*/
-inline Soup_diagnosis diagnose_soup(const Polygon_soup& soup,
-                                    const std::function<bool(double)>& progress = {})
+CGAL_HLSCM_INLINE Soup_diagnosis diagnose_soup(const Polygon_soup& soup,
+                                    const std::function<bool(double)>& progress)
 {
   Blocked_execution::Progress told(progress);
   return internal::Soup_examination(soup, told).run();
 }
+
+#endif // CGAL_HLSCM_DEFINITIONS
 
 } // namespace Indexed_mesh
 } // namespace CGAL

@@ -4,9 +4,12 @@
 #ifndef CGAL_INDEXED_MESH_SURFACE_OF_SOUP_H
 #define CGAL_INDEXED_MESH_SURFACE_OF_SOUP_H
 
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Indexed_mesh/Soup_diagnosis.h>
+#ifdef CGAL_HLSCM_DEFINITIONS
 #include <CGAL/Indexed_mesh/internal/Soup_sides.h>
 #include <CGAL/Indexed_mesh/internal/Soup_triangles.h>
+#endif
 
 #include <algorithm>
 #include <cstddef>
@@ -120,9 +123,9 @@ inline Vertex_index vertex_of_surface(const Surface_of_soup& surface, std::size_
          ? Vertex_index(found - surface.vertex.begin()) : no_vertex;
 }
 
-// ---------------------------------------------------------------------------------------------
+#ifdef CGAL_HLSCM_DEFINITIONS
 
-inline std::vector<std::string> Soup_repairs::sentences() const
+CGAL_HLSCM_INLINE std::vector<std::string> Soup_repairs::sentences() const
 {
   std::vector<std::string> all;
   const auto say = [&all](const Soup_finding& finding, const std::string& one,
@@ -202,7 +205,7 @@ inline void tell_turned_faces(const Soup_triangles& triangles, Soup_repairs& rep
 
 } // namespace internal
 
-inline Surface_of_soup surface_of_soup(const Polygon_soup& soup)
+CGAL_HLSCM_INLINE Surface_of_soup surface_of_soup(const Polygon_soup& soup)
 {
   Surface_of_soup result;
   if(result.fail(Mesh_status::BAD_MESH, soup_error(soup)))
@@ -310,12 +313,12 @@ inline void give_to_others(const Polygon_soup& soup, const Surface_of_soup& surf
 
 } // namespace internal
 
-inline Surface_of_soup surface_of_soup(const Polygon_soup& soup, const Soup_diagnosis& diagnosis)
+CGAL_HLSCM_INLINE Surface_of_soup surface_of_soup(const Polygon_soup& soup, const Soup_diagnosis& diagnosis)
 {
   return diagnosis.is_surface() ? internal::copy_surface(soup) : surface_of_soup(soup);
 }
 
-inline std::vector<std::uint32_t> uv_corners_of_soup(const Polygon_soup& soup,
+CGAL_HLSCM_INLINE std::vector<std::uint32_t> uv_corners_of_soup(const Polygon_soup& soup,
                                                      const Surface_of_soup& surface,
                                                      const std::vector<Triangle_indices>& wedges)
 {
@@ -324,7 +327,7 @@ inline std::vector<std::uint32_t> uv_corners_of_soup(const Polygon_soup& soup,
   return uv;
 }
 
-inline std::vector<std::uint32_t> cut_faces(const Polygon_soup& soup,
+CGAL_HLSCM_INLINE std::vector<std::uint32_t> cut_faces(const Polygon_soup& soup,
                                             const Surface_of_soup& surface,
                                             const std::vector<Triangle_indices>& wedges)
 {
@@ -338,6 +341,8 @@ inline std::vector<std::uint32_t> cut_faces(const Polygon_soup& soup,
   }
   return result;
 }
+
+#endif // CGAL_HLSCM_DEFINITIONS
 
 } // namespace Indexed_mesh
 } // namespace CGAL

@@ -6,6 +6,7 @@
 
 #include <CGAL/Blocked_execution/Progress.h>
 #include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Blocked_execution/sort_and_select.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh_cursor.h>
@@ -239,7 +240,12 @@ Returns the levels of a hierarchy, the coarsest first; the last is `mesh` itself
 
 Linear time.
 */
-inline std::vector<Mesh_level> build_hierarchy(Indexed_triangle_mesh mesh,
+CGAL_HLSCM_INLINE std::vector<Mesh_level> build_hierarchy(Indexed_triangle_mesh mesh,
+                                               const Progressive_mesh& pm,
+                                               const Hierarchy_options& options);
+
+#ifdef CGAL_HLSCM_DEFINITIONS
+CGAL_HLSCM_INLINE std::vector<Mesh_level> build_hierarchy(Indexed_triangle_mesh mesh,
                                                const Progressive_mesh& pm,
                                                const Hierarchy_options& options)
 {
@@ -274,6 +280,7 @@ inline std::vector<Mesh_level> build_hierarchy(Indexed_triangle_mesh mesh,
   std::reverse(levels.begin(), levels.end());
   return levels;
 }
+#endif // CGAL_HLSCM_DEFINITIONS
 
 } // namespace Surface_mesh_multiresolution
 } // namespace CGAL

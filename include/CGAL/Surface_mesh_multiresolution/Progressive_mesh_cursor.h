@@ -6,6 +6,7 @@
 
 #include <CGAL/Blocked_execution/Uninitialized_vector.h>
 #include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
 
 #include <CGAL/Iterator_range.h>
@@ -153,7 +154,9 @@ private:
   std::vector<Corner> m_first, m_last, m_next;
 };
 
-inline Vsplit_table::Vsplit_table(const Progressive_mesh& pm)
+#ifdef CGAL_HLSCM_DEFINITIONS
+
+CGAL_HLSCM_INLINE Vsplit_table::Vsplit_table(const Progressive_mesh& pm)
   : m_death(pm.triangles.size(), never), m_triangles(pm.triangles)
 {
   Descent descent(pm);
@@ -189,7 +192,7 @@ inline Vsplit_table::Vsplit_table(const Progressive_mesh& pm)
 }
 
 // The triangle that shares the edge from the kept to the third vertex with the ear that has died.
-inline void Vsplit_table::add_guard(const Descent& descent, const Progressive_mesh& pm,
+CGAL_HLSCM_INLINE void Vsplit_table::add_guard(const Descent& descent, const Progressive_mesh& pm,
                                     std::size_t i)
 {
   const Vertex_index removed = pm.collapses[i].removed, kept = pm.collapses[i].kept;
@@ -206,6 +209,8 @@ inline void Vsplit_table::add_guard(const Descent& descent, const Progressive_me
     });
   }
 }
+
+#endif // CGAL_HLSCM_DEFINITIONS
 
 /*!
 \ingroup PkgHLSCMMultiresolution

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_PROGRESSIVE_MESH_DECODER_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_PROGRESSIVE_MESH_DECODER_H
 
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh_stream.h>
 #include <CGAL/Surface_mesh_multiresolution/Textured_progressive_mesh.h>
 
@@ -58,7 +59,9 @@ private:
   void set_collapses(Progressive_mesh& pm) const;
 };
 
-inline void Progressive_mesh_decoder::set_coordinates(Textured_progressive_mesh& mesh) const
+#ifdef CGAL_HLSCM_DEFINITIONS
+
+CGAL_HLSCM_INLINE void Progressive_mesh_decoder::set_coordinates(Textured_progressive_mesh& mesh) const
 {
   const std::vector<Vertex_index>& vertex = grown().vertex;
   mesh.uv.reserve(has_texture() ? vertex.size() : 0);
@@ -71,7 +74,7 @@ inline void Progressive_mesh_decoder::set_coordinates(Textured_progressive_mesh&
   });
 }
 
-inline void Progressive_mesh_decoder::set_collapses(Progressive_mesh& pm) const
+CGAL_HLSCM_INLINE void Progressive_mesh_decoder::set_collapses(Progressive_mesh& pm) const
 {
   const std::size_t splits = number_of_splits(), missing = number_of_splits_in_file() - splits;
   const Vertex_index base = m_header.base.wedges;
@@ -83,6 +86,8 @@ inline void Progressive_mesh_decoder::set_collapses(Progressive_mesh& pm) const
     if(end > missing || missing == 0)
       pm.batch_ends.push_back(end - missing);
 }
+
+#endif // CGAL_HLSCM_DEFINITIONS
 
 } // namespace Surface_mesh_multiresolution
 } // namespace CGAL

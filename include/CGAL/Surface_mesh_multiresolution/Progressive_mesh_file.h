@@ -4,10 +4,13 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_PROGRESSIVE_MESH_FILE_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_PROGRESSIVE_MESH_FILE_H
 
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh_decoder.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_surface.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/file/Progressive_mesh_encoder.h>
 #include <CGAL/Surface_mesh_multiresolution/sort_batches.h>
+#ifdef CGAL_HLSCM_DEFINITIONS
+#include <CGAL/Surface_mesh_multiresolution/internal/file/Progressive_mesh_encoder.h>
+#endif
 
 #include <array>
 #include <istream>
@@ -74,6 +77,31 @@ struct Read_progressive_mesh
   double uv_error = 0.;                ///< the same of a texture coordinate
 };
 
+/*!
+\ingroup PkgHLSCMLevelsOfDetail
+
+Returns `mesh` as a progressive mesh file (extension `.pm`): the coarsest mesh and the splits,
+coarse to fine, so that any beginning of the file that has the coarsest mesh is a coarser model.
+
+What is read back has the connectivity of `mesh`, or if quantized by default that of
+`sort_batches(mesh)`, all numberings, the order of triangles and corners and `batch_ends` included;
+`source_vertex` is not written. Where the sorted mesh would not be a manifold at some level, the order is kept. A mesh
+without texture stays without. If lossless, coordinates have the same bits; if quantized, distinct
+ones may become equal, and tiny triangles may flip.
+
+A mesh that is not what the invariants of `Textured_progressive_mesh` say, has a chart that is not a
+manifold, a wedge of more than 16384 neighbours at some level, more than 2^29 triangles, or a
+coordinate that is not a finite number, is refused with an error.
+
+\f$ O(n \log n) \f$ time, linear if the order is kept. Memory: about 160 bytes a wedge beside the
+mesh, and a second mesh if it is sorted.
+*/
+CGAL_HLSCM_INLINE Progressive_mesh_bytes
+encode_progressive_mesh(const Textured_progressive_mesh& mesh,
+                        const Progressive_mesh_write_options& options = {});
+
+#ifdef CGAL_HLSCM_DEFINITIONS
+
 namespace internal {
 
 inline bool is_float(const Textured_progressive_mesh& mesh)
@@ -138,28 +166,9 @@ inline File_header header_for(const Textured_progressive_mesh& mesh,
 
 } // namespace internal
 
-/*!
-\ingroup PkgHLSCMLevelsOfDetail
-
-Returns `mesh` as a progressive mesh file (extension `.pm`): the coarsest mesh and the splits,
-coarse to fine, so that any beginning of the file that has the coarsest mesh is a coarser model.
-
-What is read back has the connectivity of `mesh`, or if quantized by default that of
-`sort_batches(mesh)`, all numberings, the order of triangles and corners and `batch_ends` included;
-`source_vertex` is not written. Where the sorted mesh would not be a manifold at some level, the order is kept. A mesh
-without texture stays without. If lossless, coordinates have the same bits; if quantized, distinct
-ones may become equal, and tiny triangles may flip.
-
-A mesh that is not what the invariants of `Textured_progressive_mesh` say, has a chart that is not a
-manifold, a wedge of more than 16384 neighbours at some level, more than 2^29 triangles, or a
-coordinate that is not a finite number, is refused with an error.
-
-\f$ O(n \log n) \f$ time, linear if the order is kept. Memory: about 160 bytes a wedge beside the
-mesh, and a second mesh if it is sorted.
-*/
-inline Progressive_mesh_bytes
+CGAL_HLSCM_INLINE Progressive_mesh_bytes
 encode_progressive_mesh(const Textured_progressive_mesh& mesh,
-                        const Progressive_mesh_write_options& options = {})
+                        const Progressive_mesh_write_options& options)
 {
   Progressive_mesh_bytes file;
   const auto is_possible = [](int bits) { return bits >= 1 && bits <= 30; };
@@ -190,6 +199,8 @@ encode_progressive_mesh(const Textured_progressive_mesh& mesh,
   return file;
 }
 
+#endif // CGAL_HLSCM_DEFINITIONS
+
 /// \ingroup PkgHLSCMLevelsOfDetail
 /// Writes `mesh` as a progressive mesh file; see `encode_progressive_mesh()`. `FAILED`: the stream
 /// did not take it all.
@@ -219,6 +230,13 @@ write_progressive_mesh(std::ostream& to, const Progressive_surface& surface,
   return write_progressive_mesh(to, coarse_first(surface), options);
 }
 
+/// \ingroup PkgHLSCMLevelsOfDetail
+/// Reads a progressive mesh file in memory, of which any beginning will do. Bytes behind its end
+/// are ignored. For a file that arrives bit by bit see `Progressive_mesh_decoder`.
+CGAL_HLSCM_INLINE Read_progressive_mesh decode_progressive_mesh(const char* data, std::size_t size);
+
+#ifdef CGAL_HLSCM_DEFINITIONS
+
 namespace internal {
 
 inline Read_progressive_mesh what_was_read(Progressive_mesh_decoder&& decoder)
@@ -235,19 +253,21 @@ inline Read_progressive_mesh what_was_read(Progressive_mesh_decoder&& decoder)
 
 } // namespace internal
 
-/// \ingroup PkgHLSCMLevelsOfDetail
-/// Reads a progressive mesh file in memory, of which any beginning will do. Bytes behind its end
-/// are ignored. For a file that arrives bit by bit see `Progressive_mesh_decoder`.
-inline Read_progressive_mesh decode_progressive_mesh(const char* data, std::size_t size)
+CGAL_HLSCM_INLINE Read_progressive_mesh decode_progressive_mesh(const char* data, std::size_t size)
 {
   Progressive_mesh_decoder decoder;
   decoder.push(data, size);
   return internal::what_was_read(std::move(decoder));
 }
 
+#endif // CGAL_HLSCM_DEFINITIONS
+
 /// \ingroup PkgHLSCMLevelsOfDetail
 /// Reads a progressive mesh file; see `decode_progressive_mesh()`.
-inline Read_progressive_mesh read_progressive_mesh(std::istream& from)
+CGAL_HLSCM_INLINE Read_progressive_mesh read_progressive_mesh(std::istream& from);
+
+#ifdef CGAL_HLSCM_DEFINITIONS
+CGAL_HLSCM_INLINE Read_progressive_mesh read_progressive_mesh(std::istream& from)
 {
   Progressive_mesh_decoder decoder;
   std::vector<char> piece(std::size_t(1) << 20);
@@ -257,6 +277,7 @@ inline Read_progressive_mesh read_progressive_mesh(std::istream& from)
   }
   return internal::what_was_read(std::move(decoder));
 }
+#endif // CGAL_HLSCM_DEFINITIONS
 
 } // namespace Surface_mesh_multiresolution
 } // namespace CGAL

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_MULTIRESOLUTION_PROGRESSIVE_MESH_STREAM_H
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_PROGRESSIVE_MESH_STREAM_H
 
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/file/Section_decoder.h>
 #include <CGAL/Surface_mesh_multiresolution/internal/file/progressive_mesh_format.h>
 
@@ -140,7 +141,9 @@ private:
   internal::Section_decoder m_sections;
 };
 
-inline void Progressive_mesh_stream::push(const char* data, std::size_t size)
+#ifdef CGAL_HLSCM_DEFINITIONS
+
+CGAL_HLSCM_INLINE void Progressive_mesh_stream::push(const char* data, std::size_t size)
 {
   if(m_part == Part::HEADER)
     check_beginning(data, size);
@@ -161,7 +164,7 @@ inline void Progressive_mesh_stream::push(const char* data, std::size_t size)
 }
 
 // Other formats are known by their first bytes, and later versions may have another header.
-inline void Progressive_mesh_stream::check_beginning(const char* data, std::size_t size)
+CGAL_HLSCM_INLINE void Progressive_mesh_stream::check_beginning(const char* data, std::size_t size)
 {
   for(std::size_t i = 0; i < size && !is_over(); ++i) {
     const std::size_t at = m_pending.size() + i;
@@ -176,7 +179,7 @@ inline void Progressive_mesh_stream::check_beginning(const char* data, std::size
   }
 }
 
-inline void Progressive_mesh_stream::take_part(const char* data)
+CGAL_HLSCM_INLINE void Progressive_mesh_stream::take_part(const char* data)
 {
   if(m_part == Part::HEADER)
     take_header(data);
@@ -186,7 +189,7 @@ inline void Progressive_mesh_stream::take_part(const char* data)
     take_section(data);
 }
 
-inline void Progressive_mesh_stream::take_header(const char* data)
+CGAL_HLSCM_INLINE void Progressive_mesh_stream::take_header(const char* data)
 {
   const std::size_t crc_at = internal::file_header_size - 4;
   const internal::File_header header = internal::header_of(data);
@@ -198,7 +201,7 @@ inline void Progressive_mesh_stream::take_header(const char* data)
   expect(Part::SECTION_HEADER, internal::section_header_size);
 }
 
-inline void Progressive_mesh_stream::take_section_header(const char* data)
+CGAL_HLSCM_INLINE void Progressive_mesh_stream::take_section_header(const char* data)
 {
   m_splits = std::uint32_t(internal::load_little_endian(data, 4));
   m_wanted_crc = std::uint32_t(internal::load_little_endian(data + 8, 4));
@@ -215,7 +218,7 @@ inline void Progressive_mesh_stream::take_section_header(const char* data)
   expect(Part::SECTION, size);
 }
 
-inline void Progressive_mesh_stream::take_section(const char* data)
+CGAL_HLSCM_INLINE void Progressive_mesh_stream::take_section(const char* data)
 {
   m_crc = internal::section_crc(m_splits, data, m_part_size, m_crc);
   if(m_crc != m_wanted_crc)
@@ -235,7 +238,7 @@ inline void Progressive_mesh_stream::take_section(const char* data)
   expect(Part::SECTION_HEADER, internal::section_header_size);
 }
 
-inline std::string Progressive_mesh_stream::message() const
+CGAL_HLSCM_INLINE std::string Progressive_mesh_stream::message() const
 {
   const std::string splits = std::to_string(number_of_splits()) + " of its "
                            + std::to_string(number_of_splits_in_file()) + " splits";
@@ -257,6 +260,8 @@ inline std::string Progressive_mesh_stream::message() const
          + std::to_string(internal::latest_version);
   }
 }
+
+#endif // CGAL_HLSCM_DEFINITIONS
 
 } // namespace Surface_mesh_multiresolution
 } // namespace CGAL

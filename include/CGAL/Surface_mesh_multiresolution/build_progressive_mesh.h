@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_BUILD_PROGRESSIVE_MESH_H
 
 #include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_surface.h>
 #include <CGAL/Indexed_mesh/mesh_arrays.h>
@@ -91,6 +92,10 @@ void decimate_normalized(const Progressive_mesh_options& options, const Run& run
              run, result);
 }
 
+// With the default policies, to the target of `options`.
+CGAL_HLSCM_INLINE void decimate_to_target(const Progressive_mesh_options& options,
+                                          Progressive_surface& result);
+
 // With given policies, which see the coordinates of the mesh.
 template <class Cost, class Filter, class Run>
 void decimate_as_it_is(const Progressive_mesh_options& options, const Cost& cost,
@@ -108,6 +113,14 @@ inline auto to_target(const Progressive_mesh_options& options)
 {
   return [&options](auto& engine, const Prepared_mesh&) { return engine.run(options); };
 }
+
+#ifdef CGAL_HLSCM_DEFINITIONS
+CGAL_HLSCM_INLINE void decimate_to_target(const Progressive_mesh_options& options,
+                                          Progressive_surface& result)
+{
+  decimate_normalized(options, to_target(options), result);
+}
+#endif // CGAL_HLSCM_DEFINITIONS
 
 } // namespace internal
 
@@ -140,7 +153,7 @@ build_progressive_mesh(const TriangleMesh& mesh,
 {
   const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   Progressive_surface result = internal::copy_surface_of(mesh, np);
-  internal::decimate_normalized(options, internal::to_target(options), result);
+  internal::decimate_to_target(options, result);
   return result;
 }
 
@@ -154,7 +167,7 @@ build_progressive_mesh(const Indexed_triangle_mesh& mesh,
 {
   const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
   Progressive_surface result = internal::copy_surface(mesh);
-  internal::decimate_normalized(options, internal::to_target(options), result);
+  internal::decimate_to_target(options, result);
   return result;
 }
 

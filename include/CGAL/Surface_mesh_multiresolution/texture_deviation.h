@@ -5,13 +5,16 @@
 #define CGAL_SURFACE_MESH_MULTIRESOLUTION_TEXTURE_DEVIATION_H
 
 #include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Surface_mesh_multiresolution/Level_extractor.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/deviation/Deviation_meter.h>
-#include <CGAL/Surface_mesh_multiresolution/internal/deviation/Uv_walk.h>
 #include <CGAL/Surface_mesh_multiresolution/Textured_progressive_mesh.h>
 
 #include <CGAL/assertions.h>
 #include <CGAL/number_utils.h>
+#ifdef CGAL_HLSCM_DEFINITIONS
+#include <CGAL/Surface_mesh_multiresolution/internal/deviation/Deviation_meter.h>
+#include <CGAL/Surface_mesh_multiresolution/internal/deviation/Uv_walk.h>
+#endif
 
 #include <algorithm>
 #include <cmath>
@@ -85,6 +88,140 @@ enum class Level_error
   DISTANCE           ///< `distance`, a length in space
 };
 
+namespace internal {
+
+// As the public functions, by the threads of the caller.
+CGAL_HLSCM_INLINE Texture_deviation deviation_of(const Textured_progressive_mesh& mesh, std::size_t k);
+CGAL_HLSCM_INLINE Texture_deviation deviation_of(const Wedge_mesh& fine, const Wedge_mesh& coarse);
+CGAL_HLSCM_INLINE bool is_within(const Textured_progressive_mesh& mesh, std::size_t k,
+                                 Level_error kind, double bound);
+CGAL_HLSCM_INLINE std::size_t coarsest_within(const Textured_progressive_mesh& mesh,
+                                              Level_error kind, double bound);
+
+} // namespace internal
+
+/*!
+\ingroup PkgHLSCMLevelsOfDetail
+
+Returns the errors of the level of `mesh` after `k` collapses. The result has a status and a sentence
+if the mesh has no texture, or `mesh.is_whole(k)` does not hold.
+
+The points of equal uv are found by walks in the texture that start at the ancestor of a wedge. So
+nothing is asked of the map: where it covers the texture twice, the walk is on the right sheet. The
+nearest points are found by two descents on the surface, from the ancestor and from the point of
+equal uv. They end in local minima; the nearer one is no farther than either start.
+
+Expected linear time. The result is the same to the bit for any number of threads.
+
+\tparam ConcurrencyTag `Sequential_tag`, `Parallel_tag` (`threads`, 0: as many as there are
+        processors) or `Default` for the threads of the caller's `Blocked_execution::Thread_scope`; so
+        for the functions that follow
+
+\pre every wedge of the level has a triangle.
+*/
+template <class ConcurrencyTag = Default>
+Texture_deviation measure_texture_deviation(const Textured_progressive_mesh& mesh, std::size_t k,
+                                            unsigned int threads = 0)
+{
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> scope(threads);
+  return internal::deviation_of(mesh, k);
+}
+
+/*!
+\ingroup PkgHLSCMLevelsOfDetail
+
+Returns the errors of any textured mesh `coarse` for another one, `fine`, in the same texture.
+
+Walks start at the triangle of `coarse` that is nearest in space, found in an `AABB_tree`, or where
+the neighbours of a vertex are if that leads out of the chart. `uv_change` is measured from the
+nearest point of the chart around, `distance` from the nearest point of all. The vertices of
+`coarse` count in the maximum of `deviation` as far as they lie in the charts of `fine`.
+
+The result has a status and a sentence if one of them has no texture, no triangle with an area,
+indices out of range or coordinates that are not finite.
+
+Time \f$ O(n \log n) \f$ as a rule.
+*/
+template <class ConcurrencyTag = Default>
+Texture_deviation measure_texture_deviation(const Wedge_mesh& fine, const Wedge_mesh& coarse,
+                                            unsigned int threads = 0)
+{
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> scope(threads);
+  return internal::deviation_of(fine, coarse);
+}
+
+/// \ingroup PkgHLSCMLevelsOfDetail
+/// Returns whether `measure_texture_deviation(mesh, k).deviation.maximum <= bound`; faster, above
+/// all if it is not. False if that has an error.
+template <class ConcurrencyTag = Default>
+bool is_within_texture_deviation(const Textured_progressive_mesh& mesh, std::size_t k,
+                                 double bound, unsigned int threads = 0)
+{
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> scope(threads);
+  return internal::is_within(mesh, k, Level_error::TEXTURE_DEVIATION, bound);
+}
+
+/// \ingroup PkgHLSCMLevelsOfDetail
+/// Returns whether `measure_texture_deviation(mesh, k).distance.maximum <= bound`; faster, above
+/// all if it is not. False if that has an error.
+template <class ConcurrencyTag = Default>
+bool is_within_distance(const Textured_progressive_mesh& mesh, std::size_t k, double bound,
+                        unsigned int threads = 0)
+{
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> scope(threads);
+  return internal::is_within(mesh, k, Level_error::DISTANCE, bound);
+}
+
+/*!
+\ingroup PkgHLSCMLevelsOfDetail
+
+Returns a position \f$ k \f$, whole, at which the maximum of an error is within `bound`, with about
+as few triangles as possible.
+
+It is found by bisection on the logarithm of the number of triangles, down to 1 %, and what is
+returned was measured. The errors grow with \f$ k \f$ on the whole but not from collapse to
+collapse, so that a coarser level may be within the bound too. The finest level, 0, always is, and
+the only one of a mesh without texture.
+
+\param mesh a mesh all of whose whole levels satisfy the precondition of
+       `measure_texture_deviation()`
+\param kind which error
+\param bound its greatest value, a length in space, not negative
+\param threads with a parallel tag; 0: as many as there are processors
+
+Time of about ten calls of the predicate `is_within_texture_deviation()` or `is_within_distance()`.
+*/
+template <class ConcurrencyTag = Default>
+std::size_t coarsest_level_within(const Textured_progressive_mesh& mesh, Level_error kind,
+                                  double bound, unsigned int threads = 0)
+{
+  const Blocked_execution::Tagged_threads<ConcurrencyTag> scope(threads);
+  return internal::coarsest_within(mesh, kind, bound);
+}
+
+/// \ingroup PkgHLSCMLevelsOfDetail
+/// Returns how many pixels a length in space spans in a picture, seen at a right angle in the
+/// middle.
+///
+/// \param length a length in space
+/// \param distance from the eye, in the same unit, positive
+/// \param height of the picture in pixels
+/// \param field_of_view the angle between its upper and lower side seen from the eye, in radians
+inline double pixels(double length, double distance, double height, double field_of_view)
+{
+  CGAL_precondition(distance > 0. && field_of_view > 0. && field_of_view < CGAL_PI);
+  return length * height / (2. * distance * std::tan(0.5 * field_of_view));
+}
+
+/// \ingroup PkgHLSCMLevelsOfDetail
+/// Returns the length in space that spans this many pixels: the inverse of `pixels()`.
+inline double length_of_pixels(double pixels, double distance, double height, double field_of_view)
+{
+  CGAL_precondition(height > 0. && field_of_view > 0. && field_of_view < CGAL_PI);
+  return pixels * 2. * distance * std::tan(0.5 * field_of_view) / height;
+}
+
+#ifdef CGAL_HLSCM_DEFINITIONS
 namespace internal {
 
 inline Surface_error surface_error(const Error_sum& sum, double area)
@@ -161,180 +298,78 @@ inline bool is_within(const Fine_surface& fine, const Textured_progressive_mesh&
   return meter.locate_wedges(bound).maximum <= bound && meter.deviation(bound).maximum <= bound;
 }
 
-} // namespace internal
-
-/*!
-\ingroup PkgHLSCMLevelsOfDetail
-
-Returns the errors of the level of `mesh` after `k` collapses. The result has a status and a sentence
-if the mesh has no texture, or `mesh.is_whole(k)` does not hold.
-
-The points of equal uv are found by walks in the texture that start at the ancestor of a wedge. So
-nothing is asked of the map: where it covers the texture twice, the walk is on the right sheet. The
-nearest points are found by two descents on the surface, from the ancestor and from the point of
-equal uv. They end in local minima; the nearer one is no farther than either start.
-
-Expected linear time. The result is the same to the bit for any number of threads.
-
-\tparam ConcurrencyTag `Sequential_tag`, `Parallel_tag` (`threads`, 0: as many as there are
-        processors) or `Default` for the threads of the caller's `Blocked_execution::Thread_scope`; so
-        for the functions that follow
-
-\pre every wedge of the level has a triangle.
-*/
-template <class ConcurrencyTag = Default>
-Texture_deviation measure_texture_deviation(const Textured_progressive_mesh& mesh, std::size_t k,
-                                            unsigned int threads = 0)
+CGAL_HLSCM_INLINE Texture_deviation deviation_of(const Textured_progressive_mesh& mesh, std::size_t k)
 {
-  const Blocked_execution::Tagged_threads<ConcurrencyTag> scope(threads);
   Texture_deviation result;
-  if(result.fail(internal::deviation_error(mesh, k)))
+  if(result.fail(deviation_error(mesh, k)))
     return result;
-  const internal::Textured_view view = internal::fine_view(mesh);
-  const internal::Fine_surface fine(view);
-  const internal::Level_start level(mesh, k);
-  internal::Deviation_meter<internal::Level_start> meter(fine, level.view(), level);
+  const Textured_view view = fine_view(mesh);
+  const Fine_surface fine(view);
+  const Level_start level(mesh, k);
+  Deviation_meter<Level_start> meter(fine, level.view(), level);
   meter.locate_wedges();
-  return internal::all_errors(meter, fine, level.view());
+  return all_errors(meter, fine, level.view());
 }
 
-/*!
-\ingroup PkgHLSCMLevelsOfDetail
-
-Returns the errors of any textured mesh `coarse` for another one, `fine`, in the same texture.
-
-Walks start at the triangle of `coarse` that is nearest in space, found in an `AABB_tree`, or where
-the neighbours of a vertex are if that leads out of the chart. `uv_change` is measured from the
-nearest point of the chart around, `distance` from the nearest point of all. The vertices of
-`coarse` count in the maximum of `deviation` as far as they lie in the charts of `fine`.
-
-The result has a status and a sentence if one of them has no texture, no triangle with an area,
-indices out of range or coordinates that are not finite.
-
-Time \f$ O(n \log n) \f$ as a rule.
-*/
-template <class ConcurrencyTag = Default>
-Texture_deviation measure_texture_deviation(const Wedge_mesh& fine, const Wedge_mesh& coarse,
-                                            unsigned int threads = 0)
+CGAL_HLSCM_INLINE Texture_deviation deviation_of(const Wedge_mesh& fine, const Wedge_mesh& coarse)
 {
-  const Blocked_execution::Tagged_threads<ConcurrencyTag> scope(threads);
   Texture_deviation result;
-  if(result.fail(internal::deviation_error(fine, "the fine mesh"))
-     || result.fail(internal::deviation_error(coarse, "the coarse mesh")))
+  if(result.fail(deviation_error(fine, "the fine mesh"))
+     || result.fail(deviation_error(coarse, "the coarse mesh")))
     return result;
-  const internal::Textured_view fine_view(fine), coarse_view(coarse);
-  const internal::Fine_surface fine_surface(fine_view), coarse_surface(coarse_view);
-  const internal::Nearest_start to_coarse(fine_view, coarse_view), to_fine(coarse_view, fine_view);
-  typedef internal::Deviation_meter<internal::Nearest_start> Meter;
+  const Textured_view fine_view(fine), coarse_view(coarse);
+  const Fine_surface fine_surface(fine_view), coarse_surface(coarse_view);
+  const Nearest_start to_coarse(fine_view, coarse_view), to_fine(coarse_view, fine_view);
+  typedef Deviation_meter<Nearest_start> Meter;
   Meter meter(fine_surface, coarse_view, to_coarse), back(coarse_surface, fine_view, to_fine);
   meter.locate_wedges();
   meter.relocate_outside();
-  result = internal::all_errors(meter, fine_surface, coarse_view);
+  result = all_errors(meter, fine_surface, coarse_view);
   result.deviation.maximum
     = (std::max)(result.deviation.maximum, back.locate_wedges().maximum);
   return result;
 }
 
-/// \ingroup PkgHLSCMLevelsOfDetail
-/// Returns whether `measure_texture_deviation(mesh, k).deviation.maximum <= bound`; faster, above
-/// all if it is not. False if that has an error.
-template <class ConcurrencyTag = Default>
-bool is_within_texture_deviation(const Textured_progressive_mesh& mesh, std::size_t k,
-                                 double bound, unsigned int threads = 0)
+CGAL_HLSCM_INLINE bool is_within(const Textured_progressive_mesh& mesh, std::size_t k,
+                                 Level_error kind, double bound)
 {
-  const Blocked_execution::Tagged_threads<ConcurrencyTag> scope(threads);
-  if(!internal::deviation_error(mesh, k).is_ok())
+  if(!deviation_error(mesh, k).is_ok())
     return false;
-  const internal::Textured_view view = internal::fine_view(mesh);
-  return internal::is_within(internal::Fine_surface(view), mesh, k,
-                             Level_error::TEXTURE_DEVIATION, bound);
+  const Textured_view view = fine_view(mesh);
+  return is_within(Fine_surface(view), mesh, k, kind, bound);
 }
 
-/// \ingroup PkgHLSCMLevelsOfDetail
-/// Returns whether `measure_texture_deviation(mesh, k).distance.maximum <= bound`; faster, above
-/// all if it is not. False if that has an error.
-template <class ConcurrencyTag = Default>
-bool is_within_distance(const Textured_progressive_mesh& mesh, std::size_t k, double bound,
-                        unsigned int threads = 0)
+CGAL_HLSCM_INLINE std::size_t coarsest_within(const Textured_progressive_mesh& mesh,
+                                              Level_error kind, double bound)
 {
-  const Blocked_execution::Tagged_threads<ConcurrencyTag> scope(threads);
-  if(!internal::deviation_error(mesh, k).is_ok())
-    return false;
-  const internal::Textured_view view = internal::fine_view(mesh);
-  return internal::is_within(internal::Fine_surface(view), mesh, k, Level_error::DISTANCE, bound);
-}
-
-/*!
-\ingroup PkgHLSCMLevelsOfDetail
-
-Returns a position \f$ k \f$, whole, at which the maximum of an error is within `bound`, with about
-as few triangles as possible.
-
-It is found by bisection on the logarithm of the number of triangles, down to 1 %, and what is
-returned was measured. The errors grow with \f$ k \f$ on the whole but not from collapse to
-collapse, so that a coarser level may be within the bound too. The finest level, 0, always is, and
-the only one of a mesh without texture.
-
-\param mesh a mesh all of whose whole levels satisfy the precondition of
-       `measure_texture_deviation()`
-\param kind which error
-\param bound its greatest value, a length in space, not negative
-\param threads with a parallel tag; 0: as many as there are processors
-
-Time of about ten calls of the predicate `is_within_texture_deviation()` or `is_within_distance()`.
-*/
-template <class ConcurrencyTag = Default>
-std::size_t coarsest_level_within(const Textured_progressive_mesh& mesh, Level_error kind,
-                                  double bound, unsigned int threads = 0)
-{
-  const Blocked_execution::Tagged_threads<ConcurrencyTag> scope(threads);
   CGAL_precondition(bound >= 0.);
   constexpr double precision = 1.01; // of the number of triangles
-  const std::vector<std::uint32_t> numbers = internal::triangle_numbers(mesh);
+  const std::vector<std::uint32_t> numbers = triangle_numbers(mesh);
   const auto triangles = [&](std::size_t k) {
     return double(numbers[mesh.number_of_wedges_after(k)]);
   };
   if(!mesh.has_texture())
     return 0;
-  const internal::Textured_view view = internal::fine_view(mesh);
-  const internal::Fine_surface fine(view);
-  const auto is_within = [&](std::size_t k) {
-    return k == 0 || internal::is_within(fine, mesh, k, kind, bound);
+  const Textured_view view = fine_view(mesh);
+  const Fine_surface fine(view);
+  const auto is_good = [&](std::size_t k) {
+    return k == 0 || is_within(fine, mesh, k, kind, bound);
   };
   std::size_t within = 0, beyond = mesh.number_of_collapses();
-  if(is_within(beyond))
+  if(is_good(beyond))
     return beyond;
   while(triangles(within) > precision * triangles(beyond)) {
     const double middle = std::sqrt(triangles(within) * triangles(beyond));
-    const std::size_t k = internal::position_with(mesh, numbers, std::size_t(middle));
+    const std::size_t k = position_with(mesh, numbers, std::size_t(middle));
     if(k <= within || k >= beyond)
       break;
-    (is_within(k) ? within : beyond) = k;
+    (is_good(k) ? within : beyond) = k;
   }
   return within;
 }
 
-/// \ingroup PkgHLSCMLevelsOfDetail
-/// Returns how many pixels a length in space spans in a picture, seen at a right angle in the
-/// middle.
-///
-/// \param length a length in space
-/// \param distance from the eye, in the same unit, positive
-/// \param height of the picture in pixels
-/// \param field_of_view the angle between its upper and lower side seen from the eye, in radians
-inline double pixels(double length, double distance, double height, double field_of_view)
-{
-  CGAL_precondition(distance > 0. && field_of_view > 0. && field_of_view < CGAL_PI);
-  return length * height / (2. * distance * std::tan(0.5 * field_of_view));
-}
-
-/// \ingroup PkgHLSCMLevelsOfDetail
-/// Returns the length in space that spans this many pixels: the inverse of `pixels()`.
-inline double length_of_pixels(double pixels, double distance, double height, double field_of_view)
-{
-  CGAL_precondition(height > 0. && field_of_view > 0. && field_of_view < CGAL_PI);
-  return pixels * 2. * distance * std::tan(0.5 * field_of_view) / height;
-}
+} // namespace internal
+#endif // CGAL_HLSCM_DEFINITIONS
 
 } // namespace Surface_mesh_multiresolution
 } // namespace CGAL

@@ -5,8 +5,11 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_MAP_DISTRIBUTED_CHART_H
 
 #include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Surface_mesh_parameterization/Very_large_chart_options.h>
+#ifdef CGAL_HLSCM_MPI_DEFINITIONS
 #include <CGAL/Surface_mesh_parameterization/internal/distributed/Distributed_run.h>
+#endif
 
 #include <algorithm>
 #include <array>
@@ -20,6 +23,7 @@
 #include <vector>
 
 #include <mpi.h>
+#include <petscsys.h>
 #include <sys/resource.h>
 
 namespace CGAL {
@@ -56,6 +60,53 @@ struct Distributed_chart_report
 {
   std::vector<Rank_report> ranks; ///< what each of them did
 };
+
+/*!
+\ingroup PkgHLSCMParameterizer
+
+Computes the least squares conformal map of a chart that is distributed over the ranks of MPI: that
+of `conformal_map()` with its two far border pins, or without pins if the method is
+`Conformal_method::SPECTRAL`, to the same tolerance, moved into the unit square. All ranks decimate
+blocks of the surface and share the finer levels, on which PETSc iterates; rank 0 has the coarser
+ones.
+
+\param comm the ranks, all of which call this
+\param chart what this rank has of a connected surface of genus 0 with one or more borders
+\param uv becomes where the vertices of this rank are; (0, 0) for vertices without a face
+\param options of these count: of `solver` what `Very_large_chart_options` says, `progress` that of
+       rank 0, and 0 `threads` are one; `block_vertices` (0: 100000); `gathered_vertices`, up to
+       which a level is rank 0's (0: 300000, or `memory` / 1300 if that is less); `work_folder`, where
+       each rank keeps the levels that are finished, or none if it is empty; and `resumes`: whether
+       such files of as many ranks are gone on from, if all of them see theirs
+
+Blocks do not depend on the number of ranks: levels are the same but for ties that rounding decides,
+and the map differs within the tolerance. Bad data on any rank is an error on all of them, in one
+sentence; what `progress` throws is thrown on rank 0, and ends the others as if it had said stop. A
+rank that ends, or has no memory left while others wait for it, ends all, as errors of PETSc do.
+
+PETSc, with complex numbers, is begun on all ranks of MPI if it was not: if `comm` has not all of
+them, begin it before. Who calls this ends it, before MPI.
+
+Linear time but for the iterations, about 800 bytes for each vertex of a rank.
+*/
+CGAL_HLSCM_MPI_INLINE Distributed_chart_report
+map_distributed_chart(MPI_Comm comm, const Distributed_chart& chart,
+                      std::vector<std::array<double, 2>>& uv,
+                      const Very_large_chart_options& options = Very_large_chart_options());
+
+/*!
+\ingroup PkgHLSCMParameterizer
+
+The same for a file, as `map_very_large_chart()`: of the binary PLY file `input`, which all ranks
+see, each reads its part; `put` and `options.finish` are called on rank 0, the latter with what
+will be returned.
+*/
+CGAL_HLSCM_MPI_INLINE Distributed_chart_report
+map_distributed_chart(MPI_Comm comm, const std::string& input,
+                      const std::function<void(std::string_view)>& put,
+                      const Very_large_chart_options& options = Very_large_chart_options());
+
+#ifdef CGAL_HLSCM_MPI_DEFINITIONS
 
 namespace internal {
 
@@ -114,55 +165,20 @@ Distributed_chart_report map_parts(MPI_Comm comm, const Very_large_chart_options
 
 } // namespace internal
 
-/*!
-\ingroup PkgHLSCMParameterizer
-
-Computes the least squares conformal map of a chart that is distributed over the ranks of MPI: that
-of `conformal_map()` with its two far border pins, or without pins if the method is
-`Conformal_method::SPECTRAL`, to the same tolerance, moved into the unit square. All ranks decimate
-blocks of the surface and share the finer levels, on which PETSc iterates; rank 0 has the coarser
-ones.
-
-\param comm the ranks, all of which call this
-\param chart what this rank has of a connected surface of genus 0 with one or more borders
-\param uv becomes where the vertices of this rank are; (0, 0) for vertices without a face
-\param options of these count: of `solver` what `Very_large_chart_options` says, `progress` that of
-       rank 0, and 0 `threads` are one; `block_vertices` (0: 100000); `gathered_vertices`, up to
-       which a level is rank 0's (0: 300000, or `memory` / 1300 if that is less); `work_folder`, where
-       each rank keeps the levels that are finished, or none if it is empty; and `resumes`: whether
-       such files of as many ranks are gone on from, if all of them see theirs
-
-Blocks do not depend on the number of ranks: levels are the same but for ties that rounding decides,
-and the map differs within the tolerance. Bad data on any rank is an error on all of them, in one
-sentence; what `progress` throws is thrown on rank 0, and ends the others as if it had said stop. A
-rank that ends, or has no memory left while others wait for it, ends all, as errors of PETSc do.
-
-PETSc, with complex numbers, is begun on all ranks of MPI if it was not: if `comm` has not all of
-them, begin it before. Who calls this ends it, before MPI.
-
-Linear time but for the iterations, about 800 bytes for each vertex of a rank.
-*/
-inline Distributed_chart_report
+CGAL_HLSCM_MPI_INLINE Distributed_chart_report
 map_distributed_chart(MPI_Comm comm, const Distributed_chart& chart,
                       std::vector<std::array<double, 2>>& uv,
-                      const Very_large_chart_options& options = Very_large_chart_options())
+                      const Very_large_chart_options& options)
 {
   return internal::map_parts(comm, options, [&](internal::Ranks& ranks, const auto& map) {
     uv = map(internal::checked_part(ranks, chart.points, chart.triangles));
   });
 }
 
-/*!
-\ingroup PkgHLSCMParameterizer
-
-The same for a file, as `map_very_large_chart()`: of the binary PLY file `input`, which all ranks
-see, each reads its part; `put` and `options.finish` are called on rank 0, the latter with what
-will be returned.
-*/
-inline Distributed_chart_report
+CGAL_HLSCM_MPI_INLINE Distributed_chart_report
 map_distributed_chart(MPI_Comm comm, const std::string& input,
                       const std::function<void(std::string_view)>& put,
-                      const Very_large_chart_options& options = Very_large_chart_options())
+                      const Very_large_chart_options& options)
 {
   return internal::map_parts(comm, options, [&](internal::Ranks& ranks, const auto& map) {
     std::optional<internal::Ply_records> ply;
@@ -172,6 +188,8 @@ map_distributed_chart(MPI_Comm comm, const std::string& input,
     internal::write_parts(ranks, *ply, uv, put);
   });
 }
+
+#endif // CGAL_HLSCM_MPI_DEFINITIONS
 
 } // namespace Surface_mesh_parameterization
 } // namespace CGAL

@@ -6,7 +6,7 @@
 
 #include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Surface_mesh_texturing/Chart_packing.h>
-#ifdef CGAL_HLSCM_DEFINITIONS
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
 #include <CGAL/Surface_mesh_texturing/internal/packing/Raster_packing_search.h>
 #include <CGAL/Surface_mesh_texturing/internal/packing/keep_axes.h>
 #endif
@@ -63,7 +63,7 @@ public:
                             const Packing_options& options) const;
 };
 
-#ifdef CGAL_HLSCM_DEFINITIONS
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
 CGAL_HLSCM_INLINE Packing_result Raster_packer::operator()(const std::vector<Chart_shape>& charts,
                                                            const Packing_options& options) const
 {

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_ATLAS_MEASURES_H
 #define CGAL_SURFACE_MESH_TEXTURING_ATLAS_MEASURES_H
 
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 #include <CGAL/Surface_mesh_texturing/Chart_distortion.h>
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
@@ -140,7 +141,12 @@ inline void measure_occlusion(const Indexed_triangle_mesh& mesh,
 Returns what the seams of the charts of a mesh are like; the measures of no seams if there is a
 `charts_error()`. Linear time.
 */
-inline Seam_measures measure_seams(const Indexed_triangle_mesh& mesh,
+CGAL_HLSCM_INLINE Seam_measures measure_seams(const Indexed_triangle_mesh& mesh,
+                                   const Indexed_mesh::Triangle_adjacency& adjacency,
+                                   const Face_charts& charts);
+
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
+CGAL_HLSCM_INLINE Seam_measures measure_seams(const Indexed_triangle_mesh& mesh,
                                    const Indexed_mesh::Triangle_adjacency& adjacency,
                                    const Face_charts& charts)
 {
@@ -178,6 +184,7 @@ inline Seam_measures measure_seams(const Indexed_triangle_mesh& mesh,
   result.jaggedness = between_midpoints > 0. ? along / between_midpoints : 1.;
   return result;
 }
+#endif // CGAL_HLSCM_TEXTURING_DEFINITIONS
 
 /*!
 \ingroup PkgHLSCMTexturing
@@ -187,7 +194,11 @@ charts; triangles without area on the surface or in the texture are left out. Th
 map if there is a `mesh_error()`, a `texture_error()` or a `charts_error()`. Time
 \f$ O(n \log n) \f$.
 */
-inline Texel_measures measure_texels(const Textured_triangle_mesh& mesh, const Face_charts& charts,
+CGAL_HLSCM_INLINE Texel_measures measure_texels(const Textured_triangle_mesh& mesh, const Face_charts& charts,
+                                     std::size_t width, std::size_t height);
+
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
+CGAL_HLSCM_INLINE Texel_measures measure_texels(const Textured_triangle_mesh& mesh, const Face_charts& charts,
                                      std::size_t width, std::size_t height)
 {
   Texel_measures result;
@@ -247,6 +258,7 @@ inline Texel_measures measure_texels(const Textured_triangle_mesh& mesh, const F
   }
   return result;
 }
+#endif // CGAL_HLSCM_TEXTURING_DEFINITIONS
 
 } // namespace Surface_mesh_texturing
 } // namespace CGAL

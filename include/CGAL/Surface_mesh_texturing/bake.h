@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_TEXTURING_BAKE_H
 
 #include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Surface_mesh_texturing/Surface_point.h>
 #include <CGAL/Surface_mesh_texturing/Texture_image.h>
 #include <CGAL/Surface_mesh_texturing/internal/baking/Uv_rasterizer.h>
@@ -220,15 +221,28 @@ struct Sample_counts
   void operator+=(const Sample_counts& other) { *this = *this + other; }
 };
 
+// What `bake()` calls of its models, whatever their types.
+struct Baking_functions
+{
+  Blocked_execution::Function_ref<void(std::size_t, std::vector<Baking_sample>&)> find;
+  Blocked_execution::Function_ref<void(const Surface_point&, const Surface_point&, double*)> shade;
+  Blocked_execution::Function_ref<void(double*)> finish;
+};
+
+CGAL_HLSCM_INLINE Baked_map bake_samples(const Textured_triangle_mesh& light, std::size_t channels,
+                                       const Baking_functions& functions,
+                                       const Baking_options& options);
+
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
+
 // Bakes the rows of texels of one band; see bake().
-template <class Correspondence, class Shader>
 class Band_baker
 {
 public:
-  Band_baker(const Uv_rasterizer& raster, const Correspondence& correspondence,
-             const Shader& shader, std::size_t samples, Baked_map& map)
-    : m_raster(raster), m_correspondence(correspondence), m_shader(shader), m_samples(samples)
-    , m_map(map), m_channels(map.image.channels)
+  Band_baker(const Uv_rasterizer& raster, const Baking_functions& functions, std::size_t samples,
+             Baked_map& map)
+    : m_raster(raster), m_functions(functions), m_samples(samples), m_map(map)
+    , m_channels(map.image.channels)
   {}
 
   // Bits of std::vector<bool> are not written by bands at the same time: is_covered is of bytes.
@@ -248,14 +262,14 @@ public:
         if(t != no_triangle)
           samples.push_back({std::uint32_t(x), m_raster.point(t, x, y), {}, false});
       }
-      m_correspondence.find(y, samples);
+      m_functions.find(y, samples);
       counts.samples += samples.size();
       for(const Baking_sample& sample : samples) {
         counts.beside += sample.is_beside ? 1 : 0;
         counts.without += sample.fine.exists() ? 0 : 1;
         if(!sample.fine.exists())
           continue;
-        m_shader.shade(sample.fine, sample.light, value.data());
+        m_functions.shade(sample.fine, sample.light, value.data());
         const std::size_t x = sample.x / m_samples;
         for(std::size_t c = 0; c < m_channels; ++c)
           sums[x * m_channels + c] += value[c];
@@ -277,7 +291,7 @@ private:
       double* mean = &sums[x * m_channels];
       for(std::size_t c = 0; c < m_channels; ++c)
         mean[c] /= numbers[x];
-      m_shader.finish(mean);
+      m_functions.finish(mean);
       std::copy_n(mean, m_channels, m_map.image.texel(x, y));
       is_covered[y * numbers.size() + x] = 1;
     }
@@ -286,12 +300,50 @@ private:
   }
 
   const Uv_rasterizer& m_raster;
-  const Correspondence& m_correspondence;
-  const Shader& m_shader;
+  const Baking_functions& m_functions;
   std::size_t m_samples;
   Baked_map& m_map;
   std::size_t m_channels;
 };
+
+CGAL_HLSCM_INLINE Baked_map bake_samples(const Textured_triangle_mesh& light, std::size_t channels,
+                                       const Baking_functions& functions,
+                                       const Baking_options& options)
+{
+  const std::size_t texel_rows = 8, bands_between_progress = 16;
+  Baked_map map;
+  if(map.fail(light_error(light, options)))
+    return map;
+  map.image = {options.width, options.height, channels, {}};
+  map.image.texels.assign(options.width * options.height * channels, 0.f);
+  const Uv_rasterizer raster(light.uv, light.wedges, options.width * options.samples,
+                                       options.height * options.samples,
+                                       texel_rows * options.samples);
+  std::vector<std::uint8_t> is_covered(options.width * options.height, 0);
+  const Band_baker baker(raster, functions, options.samples, map);
+  Sample_counts counts;
+  const std::size_t bands = raster.number_of_bands();
+  for(std::size_t first = 0; first < bands; first += bands_between_progress) {
+    if(options.progress && !options.progress(double(first) / double(bands))) {
+      map.cancel();
+      map.image = Texture_image();
+      return map;
+    }
+    const std::size_t n = (std::min)(bands - first, bands_between_progress);
+    counts += Blocked_execution::blocked_sum<Sample_counts>(
+      n, 1, [&](std::size_t band, std::size_t) { return baker.run(first + band, is_covered); });
+  }
+  map.is_covered.assign(is_covered.begin(), is_covered.end());
+  map.number_of_covered_texels
+    = std::size_t(std::count(is_covered.begin(), is_covered.end(), std::uint8_t(1)));
+  map.number_of_samples = counts.samples;
+  map.number_of_samples_beside = counts.beside;
+  map.number_of_samples_without = counts.without;
+  dilate(map, options.dilation);
+  return map;
+}
+
+#endif // CGAL_HLSCM_TEXTURING_DEFINITIONS
 
 } // namespace internal
 
@@ -313,39 +365,15 @@ template <class ConcurrencyTag = Default, class Correspondence, class Shader>
 Baked_map bake(const Textured_triangle_mesh& light, const Correspondence& correspondence,
                const Shader& shader, const Baking_options& options)
 {
-  typedef internal::Band_baker<Correspondence, Shader> Baker;
   const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
-  const std::size_t texel_rows = 8, bands_between_progress = 16;
-  Baked_map map;
-  if(map.fail(internal::light_error(light, options)))
-    return map;
-  map.image = {options.width, options.height, shader.channels(), {}};
-  map.image.texels.assign(options.width * options.height * shader.channels(), 0.f);
-  const internal::Uv_rasterizer raster(light.uv, light.wedges, options.width * options.samples,
-                                       options.height * options.samples,
-                                       texel_rows * options.samples);
-  std::vector<std::uint8_t> is_covered(options.width * options.height, 0);
-  const Baker baker(raster, correspondence, shader, options.samples, map);
-  internal::Sample_counts counts;
-  const std::size_t bands = raster.number_of_bands();
-  for(std::size_t first = 0; first < bands; first += bands_between_progress) {
-    if(options.progress && !options.progress(double(first) / double(bands))) {
-      map.cancel();
-      map.image = Texture_image();
-      return map;
-    }
-    const std::size_t n = (std::min)(bands - first, bands_between_progress);
-    counts += Blocked_execution::blocked_sum<internal::Sample_counts>(
-      n, 1, [&](std::size_t band, std::size_t) { return baker.run(first + band, is_covered); });
-  }
-  map.is_covered.assign(is_covered.begin(), is_covered.end());
-  map.number_of_covered_texels
-    = std::size_t(std::count(is_covered.begin(), is_covered.end(), std::uint8_t(1)));
-  map.number_of_samples = counts.samples;
-  map.number_of_samples_beside = counts.beside;
-  map.number_of_samples_without = counts.without;
-  dilate(map, options.dilation);
-  return map;
+  const auto find = [&correspondence](std::size_t y, std::vector<Baking_sample>& samples) {
+    correspondence.find(y, samples);
+  };
+  const auto shade = [&shader](const Surface_point& fine, const Surface_point& at, double* value) {
+    shader.shade(fine, at, value);
+  };
+  const auto finish = [&shader](double* value) { shader.finish(value); };
+  return internal::bake_samples(light, shader.channels(), {find, shade, finish}, options);
 }
 
 } // namespace Surface_mesh_texturing

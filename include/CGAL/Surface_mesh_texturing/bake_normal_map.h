@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_TEXTURING_BAKE_NORMAL_MAP_H
 
 #include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Surface_mesh_texturing/Equal_uv.h>
 #include <CGAL/Surface_mesh_texturing/bake.h>
 #include <CGAL/Surface_mesh_texturing/internal/mesh_of_graph.h>
@@ -108,6 +109,16 @@ private:
   Normal_space m_space;
 };
 
+namespace internal {
+
+CGAL_HLSCM_INLINE Baked_map normal_map_of(const Textured_triangle_mesh& fine,
+                                          const std::vector<Vector_3>& normals,
+                                          const Textured_triangle_mesh& light,
+                                          const Tangent_frames& frames,
+                                          const Baking_options& options);
+
+} // namespace internal
+
 /*!
 \ingroup PkgHLSCMTexturing
 
@@ -132,15 +143,7 @@ Baked_map bake_normal_map(const Textured_triangle_mesh& fine, const std::vector<
                           const Baking_options& options = Baking_options())
 {
   const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
-  Baked_map result;
-  if(result.fail(internal::baking_error(fine, light, options))
-     || result.fail(internal::size_error(normals.size(), fine.points.size(),
-                                         "normals of the fine mesh"))
-     || result.fail(internal::frame_error(frames, light)))
-    return result;
-  return bake(light, Equal_uv(fine, light, options),
-              Normal_shader(fine.triangles, normals, light.triangles, frames, options.space),
-              options);
+  return internal::normal_map_of(fine, normals, light, frames, options);
 }
 
 /*!
@@ -196,6 +199,29 @@ Baked_map bake_normal_map(const FineMesh& fine, FineUVMap fine_uv,
   return bake_normal_map(internal::textured_arrays_of_graph(fine, fine_uv, np_fine),
                          internal::textured_arrays_of_graph(light, light_uv, np_light), options);
 }
+
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
+namespace internal {
+
+CGAL_HLSCM_INLINE Baked_map normal_map_of(const Textured_triangle_mesh& fine,
+                                          const std::vector<Vector_3>& normals,
+                                          const Textured_triangle_mesh& light,
+                                          const Tangent_frames& frames,
+                                          const Baking_options& options)
+{
+  Baked_map result;
+  if(result.fail(baking_error(fine, light, options))
+     || result.fail(size_error(normals.size(), fine.points.size(),
+                               "normals of the fine mesh"))
+     || result.fail(frame_error(frames, light)))
+    return result;
+  return bake(light, Equal_uv(fine, light, options),
+              Normal_shader(fine.triangles, normals, light.triangles, frames, options.space),
+              options);
+}
+
+} // namespace internal
+#endif // CGAL_HLSCM_TEXTURING_DEFINITIONS
 
 } // namespace Surface_mesh_texturing
 } // namespace CGAL

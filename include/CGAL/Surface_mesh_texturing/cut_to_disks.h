@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_CUT_TO_DISKS_H
 #define CGAL_SURFACE_MESH_TEXTURING_CUT_TO_DISKS_H
 
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
 #include <CGAL/Surface_mesh_texturing/chart_topology.h>
 #include <CGAL/Surface_mesh_texturing/internal/seams/Seam_straightener.h>
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -45,27 +47,10 @@ class Disk_cutter
 public:
   // `avoided`: see Refinable_seam_graph::avoid()
   Disk_cutter(const Indexed_triangle_mesh& mesh, const Disk_cut_options& options,
-              std::vector<std::uint8_t> avoided = {})
-    : m_options(options), m_mesh(mesh.triangles, mesh.points.size())
-    , m_graph(m_mesh, mesh.points, options.creases)
-    , m_plain(mesh.points, plain_weights())
-  {
-    m_graph.avoid(std::move(avoided));
-    m_graph.set_seams(
-      label_charts(m_mesh, std::vector<std::uint8_t>(mesh.triangles.size())).seams);
-    for(Vertex_index v = 0; v < mesh.points.size(); ++v)
-      m_is_closed = m_is_closed && !m_graph.is_on_border(v);
-  }
+              std::vector<std::uint8_t> avoided = {});
 
   // Returns the seams of each triangle.
-  std::vector<std::uint8_t> cut()
-  {
-    add_generators();
-    shorten();
-    if(m_is_closed)
-      add_extremities();
-    return m_graph.seams();
-  }
+  std::vector<std::uint8_t> cut();
 
 private:
   typedef Refinable_seam_graph::Length Length;
@@ -98,7 +83,6 @@ private:
   void add_generators();
   std::size_t add_path(const Forest& forest, Vertex_index v);
   void prune();
-  void shorten() { Seam_straightener(m_graph).run({8, 48, 0, 4}); }
   void add_extremities();
 
   Disk_cut_options m_options;
@@ -107,6 +91,30 @@ private:
   Crease_metric m_plain;
   bool m_is_closed = true;
 };
+
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
+
+CGAL_HLSCM_INLINE Disk_cutter::Disk_cutter(const Indexed_triangle_mesh& mesh,
+                                           const Disk_cut_options& options,
+                                           std::vector<std::uint8_t> avoided)
+  : m_options(options), m_mesh(mesh.triangles, mesh.points.size())
+  , m_graph(m_mesh, mesh.points, options.creases)
+  , m_plain(mesh.points, plain_weights())
+{
+  m_graph.avoid(std::move(avoided));
+  m_graph.set_seams(label_charts(m_mesh, std::vector<std::uint8_t>(mesh.triangles.size())).seams);
+  for(Vertex_index v = 0; v < mesh.points.size(); ++v)
+    m_is_closed = m_is_closed && !m_graph.is_on_border(v);
+}
+
+CGAL_HLSCM_INLINE std::vector<std::uint8_t> Disk_cutter::cut()
+{
+  add_generators();
+  Seam_straightener(m_graph).run({8, 48, 0, 4});
+  if(m_is_closed)
+    add_extremities();
+  return m_graph.seams();
+}
 
 // The paths to the nearest sources, until the first goal.
 template <class EdgeLength, class IsGoal>
@@ -151,7 +159,7 @@ Disk_cutter::Forest Disk_cutter::shortest_paths(const std::vector<Vertex_index>&
   return forest;
 }
 
-inline std::vector<Vertex_index> Disk_cutter::seam_vertices() const
+CGAL_HLSCM_INLINE std::vector<Vertex_index> Disk_cutter::seam_vertices() const
 {
   std::vector<Vertex_index> result;
   for(Vertex_index v = 0; v < m_graph.mesh().number_of_vertices(); ++v)
@@ -160,7 +168,7 @@ inline std::vector<Vertex_index> Disk_cutter::seam_vertices() const
   return result;
 }
 
-inline Vertex_index Disk_cutter::farthest(const std::vector<Vertex_index>& sources,
+CGAL_HLSCM_INLINE Vertex_index Disk_cutter::farthest(const std::vector<Vertex_index>& sources,
                                           Length& distance) const
 {
   const Forest forest = shortest_paths(sources, [this](Halfedge h) { return plain_length(h); },
@@ -174,7 +182,7 @@ inline Vertex_index Disk_cutter::farthest(const std::vector<Vertex_index>& sourc
 }
 
 // Adds the path from a source of the forest to v; returns the number of edges that are new.
-inline std::size_t Disk_cutter::add_path(const Forest& forest, Vertex_index v)
+CGAL_HLSCM_INLINE std::size_t Disk_cutter::add_path(const Forest& forest, Vertex_index v)
 {
   std::size_t number = 0;
   while(forest.arrival[v] != no_halfedge) {
@@ -188,7 +196,7 @@ inline std::size_t Disk_cutter::add_path(const Forest& forest, Vertex_index v)
   return number;
 }
 
-inline void Disk_cutter::add_generators()
+CGAL_HLSCM_INLINE void Disk_cutter::add_generators()
 {
   const Halfedge_triangles& mesh = m_graph.mesh();
   std::vector<Vertex_index> sources = seam_vertices();
@@ -221,7 +229,7 @@ inline void Disk_cutter::add_generators()
 }
 
 // Removes seams that end inside the surface, edge by edge.
-inline void Disk_cutter::prune()
+CGAL_HLSCM_INLINE void Disk_cutter::prune()
 {
   const Halfedge_triangles& mesh = m_graph.mesh();
   for(Vertex_index first = 0; first < mesh.number_of_vertices(); ++first)
@@ -236,7 +244,7 @@ inline void Disk_cutter::prune()
     }
 }
 
-inline void Disk_cutter::add_extremities()
+CGAL_HLSCM_INLINE void Disk_cutter::add_extremities()
 {
   std::vector<Vertex_index> cut = seam_vertices();
   std::size_t number = 0, edges = cut.size();
@@ -264,6 +272,8 @@ inline void Disk_cutter::add_extremities()
   }
 }
 
+#endif // CGAL_HLSCM_TEXTURING_DEFINITIONS
+
 // Cuts charts for which `needs_cut(topology)` to disks. Mesh and charts have been checked; `avoided`
 // may be empty, see Refinable_seam_graph::avoid().
 template <class NeedsCut>
@@ -285,6 +295,18 @@ Face_charts cut_charts(const Indexed_triangle_mesh& mesh, const Triangle_adjacen
       charts.seams[meshes[c].triangles[t]] |= seams[t];
   }
   return charts;
+}
+
+// The mesh as the only chart, uncut, with its own numbers.
+inline Chart_mesh whole_as_chart(const Indexed_triangle_mesh& mesh)
+{
+  Chart_mesh result;
+  result.mesh = mesh;
+  result.vertices.resize(mesh.points.size());
+  result.triangles.resize(mesh.triangles.size());
+  std::iota(result.vertices.begin(), result.vertices.end(), Vertex_index(0));
+  std::iota(result.triangles.begin(), result.triangles.end(), Triangle_index(0));
+  return result;
 }
 
 // As the public one.

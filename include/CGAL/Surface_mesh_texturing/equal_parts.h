@@ -7,7 +7,7 @@
 #include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 #include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Surface_mesh_texturing/Texture_atlas.h>
-#ifdef CGAL_HLSCM_DEFINITIONS
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
 #include <CGAL/Surface_mesh_texturing/internal/mapped_charts/Mirror_finder.h>
 #include <CGAL/Surface_mesh_texturing/internal/mapped_charts/Part_matcher.h>
 #endif
@@ -68,7 +68,7 @@ struct Equal_parts
   }
 };
 
-#ifdef CGAL_HLSCM_DEFINITIONS
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
 namespace internal {
 
 // The components of a surface, in the order of their first triangles; sets the component of each
@@ -159,7 +159,7 @@ inline void part_halves(const std::vector<Triangle_match>& half, std::vector<Tri
 }
 
 } // namespace internal
-#endif // CGAL_HLSCM_DEFINITIONS
+#endif // CGAL_HLSCM_TEXTURING_DEFINITIONS
 
 /*!
 \ingroup PkgHLSCMTexturing
@@ -184,7 +184,7 @@ CGAL_HLSCM_INLINE Equal_parts find_equal_parts(const Indexed_triangle_mesh& mesh
                                                double tolerance = 1e-4,
                                                Mirror_halves halves = Mirror_halves::TOGETHER);
 
-#ifdef CGAL_HLSCM_DEFINITIONS
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
 CGAL_HLSCM_INLINE Equal_parts find_equal_parts(const Indexed_triangle_mesh& mesh, double tolerance,
                                                Mirror_halves halves)
 {

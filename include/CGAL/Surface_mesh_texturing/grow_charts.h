@@ -8,7 +8,7 @@
 #include <CGAL/Indexed_mesh/mesh_error.h>
 #include <CGAL/Surface_mesh_texturing/Chart_distortion.h>
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
-#ifdef CGAL_HLSCM_DEFINITIONS
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
 #include <CGAL/Surface_mesh_texturing/internal/charts/Chart_search.h>
 #endif
 
@@ -88,7 +88,7 @@ namespace internal {
 CGAL_HLSCM_INLINE Chart_growth_result grow_charts_of(const Indexed_triangle_mesh& mesh,
                                                      const Chart_growth_options& options);
 
-#ifdef CGAL_HLSCM_DEFINITIONS
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
 
 inline Mesh_outcome growth_error(const Indexed_triangle_mesh& mesh,
                                  const Chart_growth_options& options)
@@ -175,7 +175,7 @@ CGAL_HLSCM_INLINE Chart_growth_result grow_charts_of(const Indexed_triangle_mesh
   return result;
 }
 
-#endif // CGAL_HLSCM_DEFINITIONS
+#endif // CGAL_HLSCM_TEXTURING_DEFINITIONS
 
 } // namespace internal
 

@@ -5,18 +5,20 @@
 #define CGAL_SURFACE_MESH_TEXTURING_MAP_SURFACE_H
 
 #include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Indexed_mesh/surface_of_soup.h>
 #include <CGAL/Surface_mesh_parameterization/conformal_map.h>
 #include <CGAL/Surface_mesh_texturing/cut_to_disks.h>
+#include <CGAL/Surface_mesh_texturing/segment_coarse_to_fine.h>
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
 #include <CGAL/Surface_mesh_texturing/internal/charts/Closed_mesh_cutter.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/lay_side_by_side.h>
-#include <CGAL/Surface_mesh_texturing/segment_coarse_to_fine.h>
+#endif
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -85,6 +87,11 @@ struct Surface_map
 
 namespace internal {
 
+CGAL_HLSCM_INLINE Surface_map map_surface_of_arrays(const Indexed_triangle_mesh& mesh,
+                                                    const Surface_map_options& options);
+
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
+
 // Maps the components of one mesh, and lays them side by side.
 class Surface_mapper
 {
@@ -101,7 +108,7 @@ public:
     const Triangle_adjacency adjacency(m_mesh.triangles);
     cut(adjacency);
     if(m_result.components.size() == 1 && !m_result.components[0].is_cut)
-      m_parts = {whole()};
+      m_parts = {whole_as_chart(m_mesh)};
     else
       m_parts = cut_out_charts(m_mesh, adjacency, m_result.charts);
     for(std::size_t c = 0; c < m_parts.size() && m_result.is_ok(); ++c)
@@ -138,14 +145,8 @@ private:
     const auto needs_cut = [](const Chart_topology& t) { return t.borders == 0 || t.genus() > 0; };
     Face_charts& charts = m_result.charts;
     charts = charts_between(adjacency, std::vector<std::uint8_t>(m_mesh.triangles.size()));
-    for(const Chart_topology& topology : chart_topologies(adjacency, charts)) {
-      Mapped_component component;
-      component.faces = topology.faces;
-      component.borders = topology.borders;
-      component.genus = topology.genus();
-      component.is_cut = needs_cut(topology);
-      m_result.components.push_back(component);
-    }
+    for(const Chart_topology& t : chart_topologies(adjacency, charts))
+      m_result.components.push_back({t.faces, t.borders, t.genus(), needs_cut(t), true, {}});
     cut_by_trial(adjacency);
     charts = cut_charts(m_mesh, adjacency, std::move(charts), m_options.cut, m_options.no_seams,
                         needs_cut);
@@ -205,18 +206,6 @@ private:
       });
     return cut.is_ok() && cut.charts.number_of_charts == 1 ? cut.charts.seams
                                                            : std::vector<std::uint8_t>();
-  }
-
-  // The mesh as its only component.
-  Chart_mesh whole() const
-  {
-    Chart_mesh part;
-    part.mesh = m_mesh;
-    part.vertices.resize(m_mesh.points.size());
-    part.triangles.resize(m_mesh.triangles.size());
-    std::iota(part.vertices.begin(), part.vertices.end(), Vertex_index(0));
-    std::iota(part.triangles.begin(), part.triangles.end(), Triangle_index(0));
-    return part;
   }
 
   // The pins of a component, in their order: of several vertices on a seam the first has the pin.
@@ -322,6 +311,14 @@ private:
   std::size_t m_faces_done = 0;
 };
 
+CGAL_HLSCM_INLINE Surface_map map_surface_of_arrays(const Indexed_triangle_mesh& mesh,
+                                                    const Surface_map_options& options)
+{
+  return Surface_mapper(mesh, options).run();
+}
+
+#endif // CGAL_HLSCM_TEXTURING_DEFINITIONS
+
 } // namespace internal
 
 /*!
@@ -344,7 +341,7 @@ Surface_map map_surface(const Indexed_triangle_mesh& mesh,
                         const Surface_map_options& options = Surface_map_options())
 {
   const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.solver.threads);
-  return internal::Surface_mapper(mesh, options).run();
+  return internal::map_surface_of_arrays(mesh, options);
 }
 
 /*!

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_REFINE_CHARTS_H
 #define CGAL_SURFACE_MESH_TEXTURING_REFINE_CHARTS_H
 
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
 #include <CGAL/Surface_mesh_texturing/straighten_charts.h>
 
@@ -76,11 +77,18 @@ rest, and whom a check of the collapses would cost more than they do
 
 Time linear in the number of triangles of `pm`.
 */
-inline Face_charts refine_charts(const Progressive_mesh& pm,
+CGAL_HLSCM_INLINE Face_charts refine_charts(const Progressive_mesh& pm,
                                  const std::vector<Indexed_triangle_mesh::Point_3>& points,
                                  std::size_t k, const Face_charts& coarse,
                                  const Straightening_options& options = Straightening_options(),
-                                 const std::vector<float>& occlusion = {})
+                                 const std::vector<float>& occlusion = {});
+
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
+CGAL_HLSCM_INLINE Face_charts refine_charts(const Progressive_mesh& pm,
+                                 const std::vector<Indexed_triangle_mesh::Point_3>& points,
+                                 std::size_t k, const Face_charts& coarse,
+                                 const Straightening_options& options,
+                                 const std::vector<float>& occlusion)
 {
   CGAL_precondition(k <= pm.collapses.size() && points.size() == pm.number_of_vertices);
   internal::Halfedge_triangles mesh(pm.triangles, points.size());
@@ -107,6 +115,7 @@ inline Face_charts refine_charts(const Progressive_mesh& pm,
   straightener.run(last);
   return internal::label_charts(mesh, graph.seams());
 }
+#endif // CGAL_HLSCM_TEXTURING_DEFINITIONS
 
 } // namespace Surface_mesh_texturing
 } // namespace CGAL

@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_TEXTURING_RENDERING_ERROR_H
 
 #include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Surface_mesh_texturing/Surface_point.h>
 #include <CGAL/Surface_mesh_texturing/Texture_image.h>
 #include <CGAL/Surface_mesh_texturing/bake_normal_map.h>
@@ -176,6 +177,12 @@ private:
   const Tangent_frames& m_frames;
 };
 
+CGAL_HLSCM_INLINE Rendering_error rendering_error_of(const Textured_triangle_mesh& original,
+                                                     const Textured_triangle_mesh& light,
+                                                     const Tangent_frames& frames,
+                                                     const Texture_image& map, Normal_space space,
+                                                     std::size_t size);
+
 } // namespace internal
 
 /*!
@@ -203,16 +210,28 @@ Rendering_error rendering_error(const Textured_triangle_mesh& original,
                                 std::size_t size = 512, unsigned int threads = 0)
 {
   const Blocked_execution::Tagged_threads<ConcurrencyTag> scope(threads);
+  return internal::rendering_error_of(original, light, frames, map, space, size);
+}
+
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
+namespace internal {
+
+CGAL_HLSCM_INLINE Rendering_error rendering_error_of(const Textured_triangle_mesh& original,
+                                                     const Textured_triangle_mesh& light,
+                                                     const Tangent_frames& frames,
+                                                     const Texture_image& map, Normal_space space,
+                                                     std::size_t size)
+{
   Rendering_error result;
-  if(result.fail(internal::rendering_input_error(original, light, frames, map, size)))
+  if(result.fail(rendering_input_error(original, light, frames, map, size)))
     return result;
   const std::vector<Vector_3> normals = vertex_normals(original);
-  const internal::Seen_normals seen(light, frames);
+  const Seen_normals seen(light, frames);
   const Bounding_ball ball({&original.points, &light.points});
-  const std::array<Vector_3, 12> directions = internal::icosahedron_directions();
-  std::array<internal::View_error, 12> views;
+  const std::array<Vector_3, 12> directions = icosahedron_directions();
+  std::array<View_error, 12> views;
   Blocked_execution::blocked_for(12, 1, [&](std::size_t i, std::size_t) {
-    const internal::Orthographic_view view(directions[i], ball, size);
+    const Orthographic_view view(directions[i], ball, size);
     const auto fine_pixels = view.visible_points(original.points, original.triangles);
     const auto light_pixels = view.visible_points(light.points, light.triangles);
     for(std::size_t p = 0; p < fine_pixels.size(); ++p) {
@@ -222,23 +241,26 @@ Rendering_error rendering_error(const Textured_triangle_mesh& original,
       if(!f.exists() || !l.exists())
         continue;
       const Vector_3 n = interpolate(f.weights, original.triangles[f.triangle], normals);
-      views[i].with_map.push_back(internal::degrees_between(n, seen.mapped(l, map, space)));
-      views[i].without_map.push_back(internal::degrees_between(n, seen.smooth(l)));
+      views[i].with_map.push_back(degrees_between(n, seen.mapped(l, map, space)));
+      views[i].without_map.push_back(degrees_between(n, seen.smooth(l)));
     }
   });
-  internal::View_error all;
-  for(const internal::View_error& view : views) {
+  View_error all;
+  for(const View_error& view : views) {
     all.with_map.insert(all.with_map.end(), view.with_map.begin(), view.with_map.end());
     all.without_map.insert(all.without_map.end(), view.without_map.begin(),
                            view.without_map.end());
     all.one += view.one;
     all.any += view.any;
   }
-  const auto with = internal::mean_and_quantile(all.with_map);
-  const auto without = internal::mean_and_quantile(all.without_map);
+  const auto with = mean_and_quantile(all.with_map);
+  const auto without = mean_and_quantile(all.without_map);
   return {{}, with[0], with[1], without[0], without[1],
           all.any > 0 ? double(all.one) / double(all.any) : 0., all.with_map.size()};
 }
+
+} // namespace internal
+#endif // CGAL_HLSCM_TEXTURING_DEFINITIONS
 
 } // namespace Surface_mesh_texturing
 } // namespace CGAL

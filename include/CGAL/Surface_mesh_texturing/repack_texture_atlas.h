@@ -7,7 +7,7 @@
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_texturing/Texture_defect.h>
 #include <CGAL/Surface_mesh_texturing/build_texture_atlas.h>
-#ifdef CGAL_HLSCM_DEFINITIONS
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
 #include <CGAL/Surface_mesh_texturing/internal/charts/measure_atlas.h>
 #include <CGAL/Surface_mesh_texturing/internal/mapped_charts/given_maps.h>
 #endif
@@ -53,7 +53,7 @@ inline Texture_atlas with_all_upright(Texture_atlas atlas, const std::vector<Cha
   return atlas;
 }
 
-#ifdef CGAL_HLSCM_DEFINITIONS
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
 
 // Two triangles of one chart with different page sets: what is kept as it is cannot lie on the
 // pages of two. Nothing for sets of another number of triangles.
@@ -119,7 +119,7 @@ repack_atlas(const Textured_triangle_mesh& mesh, const Texture_atlas_options& op
   return result;
 }
 
-#endif // CGAL_HLSCM_DEFINITIONS
+#endif // CGAL_HLSCM_TEXTURING_DEFINITIONS
 
 } // namespace internal
 

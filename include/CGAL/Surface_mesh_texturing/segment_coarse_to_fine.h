@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_TEXTURING_SEGMENT_COARSE_TO_FINE_H
 
 #include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Indexed_mesh/prepare_mesh.h>
 #include <CGAL/Surface_mesh_multiresolution/Flat_collapse_engine.h>
 #include <CGAL/Surface_mesh_multiresolution/build_progressive_mesh.h>
@@ -77,6 +78,23 @@ template <class Result>
 auto occlusion_of(const Result& result, int) -> decltype(result.occlusion) { return result.occlusion; }
 template <class Result>
 std::vector<float> occlusion_of(const Result&, long) { return {}; }
+
+// What was found on the coarse mesh.
+struct Coarse_segmentation
+{
+  Mesh_outcome outcome;
+  Face_charts charts;
+  std::vector<float> occlusion; // of each vertex, or empty
+};
+
+typedef Blocked_execution::Function_ref<Coarse_segmentation(const Indexed_triangle_mesh&)>
+  Segment_coarse_function;
+
+CGAL_HLSCM_INLINE Segmentation_result segment_refined(const Indexed_triangle_mesh& mesh,
+                                                      const Segmentation_options& options,
+                                                      const Segment_coarse_function& segment_coarse);
+
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
 
 // The mesh after the collapses, with the vertices that are left.
 struct Coarse_mesh
@@ -163,12 +181,11 @@ inline Face_charts charts_of_original(const std::vector<Triangle_indices>& origi
 }
 
 // The stages of the segmentation of one mesh.
-template <class SegmentCoarse>
 class Chart_segmentation
 {
 public:
   Chart_segmentation(const Indexed_triangle_mesh& mesh, const Segmentation_options& options,
-                     const SegmentCoarse& segment_coarse)
+                     const Segment_coarse_function& segment_coarse)
     : m_original(mesh), m_options(options), m_segment_coarse(segment_coarse)
   {}
 
@@ -240,20 +257,28 @@ private:
   Face_charts segment(const Indexed_triangle_mesh& coarse)
   {
     m_result.coarse_faces = coarse.triangles.size();
-    const auto found = m_segment_coarse(coarse);
-    if(m_result.fail(outcome_of(found))
-       || m_result.fail(charts_error(coarse, charts_of(found))))
+    Coarse_segmentation found = m_segment_coarse(coarse);
+    if(m_result.fail(found.outcome) || m_result.fail(charts_error(coarse, found.charts)))
       return {};
-    m_result.occlusion = occlusion_of(found, 0);
-    return cut_to_disks(coarse, charts_of(found), m_options.cut);
+    m_result.occlusion = std::move(found.occlusion);
+    return cut_to_disks(coarse, std::move(found.charts), m_options.cut);
   }
 
   const Indexed_triangle_mesh& m_original;
   const Segmentation_options& m_options;
-  const SegmentCoarse& m_segment_coarse;
+  const Segment_coarse_function& m_segment_coarse;
   Segmentation_result m_result;
   Blocked_execution::Stopwatch m_watch;
 };
+
+CGAL_HLSCM_INLINE Segmentation_result segment_refined(const Indexed_triangle_mesh& mesh,
+                                                      const Segmentation_options& options,
+                                                      const Segment_coarse_function& segment_coarse)
+{
+  return Chart_segmentation(mesh, options, segment_coarse).run();
+}
+
+#endif // CGAL_HLSCM_TEXTURING_DEFINITIONS
 
 } // namespace internal
 
@@ -287,7 +312,11 @@ Segmentation_result segment_coarse_to_fine(const Indexed_triangle_mesh& mesh,
                                            const SegmentCoarse& segment_coarse)
 {
   const Blocked_execution::Tagged_threads<ConcurrencyTag> threads(options.threads);
-  return internal::Chart_segmentation<SegmentCoarse>(mesh, options, segment_coarse).run();
+  return internal::segment_refined(mesh, options, [&](const Indexed_triangle_mesh& coarse) {
+    const auto found = segment_coarse(coarse);
+    return internal::Coarse_segmentation{internal::outcome_of(found), internal::charts_of(found),
+                                         internal::occlusion_of(found, 0)};
+  });
 }
 
 } // namespace Surface_mesh_texturing

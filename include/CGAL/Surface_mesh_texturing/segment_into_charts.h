@@ -57,7 +57,7 @@ CGAL_HLSCM_INLINE Segmentation_result segment_arrays(const Indexed_triangle_mesh
                                                      const Segmentation_options& options,
                                                      const Chart_growth_options& growth);
 
-#ifdef CGAL_HLSCM_DEFINITIONS
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
 CGAL_HLSCM_INLINE Segmentation_result segment_arrays(const Indexed_triangle_mesh& mesh,
                                                      const Segmentation_options& options,
                                                      const Chart_growth_options& growth)

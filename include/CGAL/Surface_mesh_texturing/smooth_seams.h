@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_SMOOTH_SEAMS_H
 #define CGAL_SURFACE_MESH_TEXTURING_SMOOTH_SEAMS_H
 
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/seams/Seam_smoother.h>
 
@@ -167,8 +168,12 @@ shortest path on polyhedral surfaces*, 2007).
 Errors: those of `charts_error()`, a mesh that is no manifold, and a number of rings below 0. Time linear in
 the number of triangles, with a small constant, plus that of the seam edges times some hundreds.
 */
-inline Smooth_seams_result smooth_seams(const Indexed_triangle_mesh& mesh, const Face_charts& charts,
-                                        const Smooth_seams_options& options = Smooth_seams_options())
+CGAL_HLSCM_INLINE Smooth_seams_result smooth_seams(const Indexed_triangle_mesh& mesh, const Face_charts& charts,
+                                        const Smooth_seams_options& options = Smooth_seams_options());
+
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
+CGAL_HLSCM_INLINE Smooth_seams_result smooth_seams(const Indexed_triangle_mesh& mesh, const Face_charts& charts,
+                                        const Smooth_seams_options& options)
 {
   Smooth_seams_result result;
   if(result.fail(Mesh_status::BAD_MESH, manifold_error(mesh)) || result.fail(charts_error(mesh, charts)))
@@ -186,6 +191,7 @@ inline Smooth_seams_result smooth_seams(const Indexed_triangle_mesh& mesh, const
   return internal::Triangle_cutter(mesh, Indexed_mesh::Triangle_adjacency(mesh.triangles), seams)
     .run(smoother.seams());
 }
+#endif // CGAL_HLSCM_TEXTURING_DEFINITIONS
 
 } // namespace Surface_mesh_texturing
 } // namespace CGAL

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_STRAIGHTEN_CHARTS_H
 #define CGAL_SURFACE_MESH_TEXTURING_STRAIGHTEN_CHARTS_H
 
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/seams/Seam_straightener.h>
 
@@ -48,8 +49,12 @@ struct Seam_length
 /// \ingroup PkgHLSCMTexturing
 /// Returns the length of the seams of `mesh` inside the surface; 0 if there is a `charts_error()`.
 /// Linear time.
-inline Seam_length measure_seams(const Indexed_triangle_mesh& mesh, const Face_charts& charts,
-                                 const Crease_weights& creases = Crease_weights())
+CGAL_HLSCM_INLINE Seam_length measure_seams(const Indexed_triangle_mesh& mesh, const Face_charts& charts,
+                                 const Crease_weights& creases = Crease_weights());
+
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
+CGAL_HLSCM_INLINE Seam_length measure_seams(const Indexed_triangle_mesh& mesh, const Face_charts& charts,
+                                 const Crease_weights& creases)
 {
   if(!charts_error(mesh, charts).is_ok())
     return {};
@@ -67,12 +72,18 @@ inline Seam_length measure_seams(const Indexed_triangle_mesh& mesh, const Face_c
   }
   return result;
 }
+#endif // CGAL_HLSCM_TEXTURING_DEFINITIONS
 
 namespace internal {
 
 // As the public one, of a mesh and charts that have been checked; `avoided` may be empty, see
 // Refinable_seam_graph::avoid().
-inline Face_charts straighten_charts(const Indexed_triangle_mesh& mesh, const Face_charts& charts,
+CGAL_HLSCM_INLINE Face_charts straighten_charts(const Indexed_triangle_mesh& mesh, const Face_charts& charts,
+                                     const Straightening_options& options,
+                                     std::vector<std::uint8_t> avoided);
+
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
+CGAL_HLSCM_INLINE Face_charts straighten_charts(const Indexed_triangle_mesh& mesh, const Face_charts& charts,
                                      const Straightening_options& options,
                                      std::vector<std::uint8_t> avoided)
 {
@@ -84,6 +95,7 @@ inline Face_charts straighten_charts(const Indexed_triangle_mesh& mesh, const Fa
   Seam_straightener(graph).run(reach_of(options));
   return label_charts(halfedges, graph.seams());
 }
+#endif // CGAL_HLSCM_TEXTURING_DEFINITIONS
 
 } // namespace internal
 

@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_IO_GLB_H
 #define CGAL_SURFACE_MESH_TEXTURING_IO_GLB_H
 
+#include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Surface_mesh_multiresolution/Textured_progressive_mesh.h>
 #include <CGAL/Surface_mesh_texturing/IO/Textured_model.h>
 #include <CGAL/Surface_mesh_texturing/internal/writing/Byte_output.h>
@@ -304,13 +305,17 @@ model does not hold, a number does not fit in a float, or the file would be long
 Linear time; the file is composed in memory. `os` must not change bytes: open files with
 `std::ios::binary`.
 */
-inline bool write_GLB(std::ostream& os, const Textured_model& model)
+CGAL_HLSCM_INLINE bool write_GLB(std::ostream& os, const Textured_model& model);
+
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
+CGAL_HLSCM_INLINE bool write_GLB(std::ostream& os, const Textured_model& model)
 {
   return internal::can_be_written(model) && !model.mesh.triangles.empty()
       && internal::are_within_floats(model.mesh.points, model.mesh.uv)
       && internal::are_within_floats(model.mesh.points, model.base_uv)
       && internal::Glb_of_model(model).write(os);
 }
+#endif // CGAL_HLSCM_TEXTURING_DEFINITIONS
 
 /// \ingroup PkgHLSCMTextureFiles
 /// The same for a mesh without pictures.
@@ -356,7 +361,13 @@ a triangle for every eight pixels of a screen of 1920 x 1080.
 
 \return `false` for the same reasons as above, or if there is no level, or they are not in order.
 */
-inline bool write_GLB(std::ostream& os,
+CGAL_HLSCM_INLINE bool write_GLB(std::ostream& os,
+                      const Surface_mesh_multiresolution::Textured_progressive_mesh& mesh,
+                      const std::vector<std::vector<Triangle_indices>>& levels,
+                      const Texture_file& color);
+
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
+CGAL_HLSCM_INLINE bool write_GLB(std::ostream& os,
                       const Surface_mesh_multiresolution::Textured_progressive_mesh& mesh,
                       const std::vector<std::vector<Triangle_indices>>& levels,
                       const Texture_file& color)
@@ -364,6 +375,7 @@ inline bool write_GLB(std::ostream& os,
   internal::Glb_of_levels file(mesh, levels);
   return file.can_be_written() && file.write(os, color);
 }
+#endif // CGAL_HLSCM_TEXTURING_DEFINITIONS
 
 /*!
 \ingroup PkgHLSCMTextureFiles

@@ -8,7 +8,7 @@
 #include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Surface_mesh_texturing/Chart_packing.h>
 #include <CGAL/Surface_mesh_texturing/Chart_segmenters.h>
-#ifdef CGAL_HLSCM_DEFINITIONS
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
 #include <CGAL/Surface_mesh_texturing/internal/charts/adapt_chart.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/map_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/measure_atlas.h>
@@ -57,7 +57,7 @@ struct Atlas_models
     take_maps;
 };
 
-#ifdef CGAL_HLSCM_DEFINITIONS
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
 
 // The steps of `build_texture_atlas()`.
 class Texture_atlas_builder
@@ -380,7 +380,7 @@ inline void Texture_atlas_builder::fill()
   report.seam_length = report.seams.length;
 }
 
-#endif // CGAL_HLSCM_DEFINITIONS
+#endif // CGAL_HLSCM_TEXTURING_DEFINITIONS
 
 } // namespace internal
 } // namespace Surface_mesh_texturing

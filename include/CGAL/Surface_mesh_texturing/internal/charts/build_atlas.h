@@ -5,7 +5,7 @@
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_CHARTS_BUILD_ATLAS_H
 
 #include <CGAL/Surface_mesh_texturing/internal/charts/Texture_atlas_builder.h>
-#ifdef CGAL_HLSCM_DEFINITIONS
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
 #include <CGAL/Surface_mesh_texturing/smooth_seams.h>
 #endif
 
@@ -36,7 +36,7 @@ inline void add_seconds(const Texture_atlas_report& before, Texture_atlas_report
   report.seconds_total += before.seconds_total;
 }
 
-#ifdef CGAL_HLSCM_DEFINITIONS
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
 
 // The charts of an atlas for the triangles into which smooth seams have cut those of its mesh.
 inline Segmentation_result charts_of_pieces(const Smooth_seams_result& smooth, std::vector<float> occlusion)
@@ -208,7 +208,7 @@ CGAL_HLSCM_INLINE Texture_atlas_result build_atlas(const Indexed_triangle_mesh& 
   return result;
 }
 
-#endif // CGAL_HLSCM_DEFINITIONS
+#endif // CGAL_HLSCM_TEXTURING_DEFINITIONS
 
 } // namespace internal
 } // namespace Surface_mesh_texturing

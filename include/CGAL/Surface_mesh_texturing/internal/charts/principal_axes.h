@@ -7,7 +7,7 @@
 #include <CGAL/Blocked_execution/compile_once.h>
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
 
-#ifdef CGAL_HLSCM_DEFINITIONS
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -27,7 +27,7 @@ namespace internal {
 CGAL_HLSCM_INLINE Indexed_mesh::Indexed_triangle_mesh
 along_principal_axes(Indexed_mesh::Indexed_triangle_mesh mesh);
 
-#ifdef CGAL_HLSCM_DEFINITIONS
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
 
 // The area of a surface, its centre, and its second moments about that, to the area.
 struct Area_moments
@@ -167,7 +167,7 @@ along_principal_axes(Indexed_mesh::Indexed_triangle_mesh mesh)
   return mesh;
 }
 
-#endif // CGAL_HLSCM_DEFINITIONS
+#endif // CGAL_HLSCM_TEXTURING_DEFINITIONS
 
 } // namespace internal
 } // namespace Surface_mesh_texturing
