@@ -1,6 +1,7 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include "precompiled.h"
 #include "surface_pictures.h"
 
 #include <CGAL/Indexed_mesh/mesh_arrays.h>
@@ -13,6 +14,11 @@
 #include <cmath>
 #include <iostream>
 #include <utility>
+
+template bool
+CGAL::IO::read_polygon_mesh(const std::string&,
+                            CGAL::Surface_mesh<CGAL::Simple_cartesian<double>::Point_3>&,
+                            const CGAL::parameters::Default_named_parameters&);
 
 namespace surface_pictures {
 

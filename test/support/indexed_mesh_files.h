@@ -5,44 +5,19 @@
 #define HLSCM_TEST_SUPPORT_INDEXED_MESH_FILES_H
 
 #include <support/mesh_generators.h>
-#include <support/real_meshes.h>
 
-#include <CGAL/IO/polygon_soup_io.h>
-
-#include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace test_support {
 
-// The triangles of a file as they are, with the vertices that they use, in the file's order.
-inline Indexed_triangle_mesh read_indexed_mesh(const std::string& file)
-{
-  Indexed_triangle_mesh mesh;
-  std::vector<std::vector<std::size_t>> polygons;
-  if(!CGAL::IO::read_polygon_soup(file, mesh.points, polygons))
-    throw std::runtime_error("cannot read " + file);
-  std::vector<bool> is_used(mesh.points.size(), false);
-  for(const auto& polygon : polygons) {
-    if(polygon.size() != 3)
-      throw std::runtime_error(file + " has a face that is not a triangle");
-    mesh.triangles.push_back(
-      {Vertex_index(polygon[0]), Vertex_index(polygon[1]), Vertex_index(polygon[2])});
-    for(const std::size_t v : polygon)
-      is_used[v] = true;
-  }
-  return without_vertices(mesh, is_used);
-}
+// The triangles of a file as they are, with the vertices that they use, in the file's order. Throws a
+// std::runtime_error.
+Indexed_triangle_mesh read_indexed_mesh(const std::string& file);
 
 // Those of the named meshes that are in the folders that HLSCM_DATA_DIR and HLSCM_EXTRA_DATA_DIR
 // name; none if these are not set.
-inline std::vector<Named_mesh> real_meshes_if_any(const std::vector<std::string>& names)
-{
-  std::vector<Named_mesh> result;
-  for(const auto& folder : {folder_of_environment("HLSCM_DATA_DIR"), extra_meshes()})
-    for(const std::string& name : names)
-      if(!folder.empty() && std::filesystem::is_regular_file(folder / name))
-        result.push_back({name, read_indexed_mesh((folder / name).string())});
-  return result;
-}
+std::vector<Named_mesh> real_meshes_if_any(const std::vector<std::string>& names);
 
 } // namespace test_support
 

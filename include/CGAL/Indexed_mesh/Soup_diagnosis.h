@@ -90,7 +90,7 @@ Examines a soup without `soup_error()`; points that are not finite are counted.
 Time \f$ O(n \log d) \f$ for degrees up to \f$ d \f$; about 60 bytes a triangle of temporary memory.
 */
 CGAL_HLSCM_INLINE Soup_diagnosis diagnose_soup(const Polygon_soup& soup,
-                                    const std::function<bool(double)>& progress = {});
+                                               const std::function<bool(double)>& progress = {});
 
 #ifdef CGAL_HLSCM_DEFINITIONS
 
@@ -330,7 +330,7 @@ private:
 } // namespace internal
 
 CGAL_HLSCM_INLINE Soup_diagnosis diagnose_soup(const Polygon_soup& soup,
-                                    const std::function<bool(double)>& progress)
+                                               const std::function<bool(double)>& progress)
 {
   Blocked_execution::Progress told(progress);
   return internal::Soup_examination(soup, told).run();

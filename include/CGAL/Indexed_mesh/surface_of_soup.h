@@ -313,14 +313,15 @@ inline void give_to_others(const Polygon_soup& soup, const Surface_of_soup& surf
 
 } // namespace internal
 
-CGAL_HLSCM_INLINE Surface_of_soup surface_of_soup(const Polygon_soup& soup, const Soup_diagnosis& diagnosis)
+CGAL_HLSCM_INLINE Surface_of_soup surface_of_soup(const Polygon_soup& soup,
+                                                  const Soup_diagnosis& diagnosis)
 {
   return diagnosis.is_surface() ? internal::copy_surface(soup) : surface_of_soup(soup);
 }
 
-CGAL_HLSCM_INLINE std::vector<std::uint32_t> uv_corners_of_soup(const Polygon_soup& soup,
-                                                     const Surface_of_soup& surface,
-                                                     const std::vector<Triangle_indices>& wedges)
+CGAL_HLSCM_INLINE std::vector<std::uint32_t>
+uv_corners_of_soup(const Polygon_soup& soup, const Surface_of_soup& surface,
+                   const std::vector<Triangle_indices>& wedges)
 {
   std::vector<std::uint32_t> uv = internal::first_wedges(soup, surface, wedges);
   internal::give_to_others(soup, surface, uv);
@@ -328,8 +329,8 @@ CGAL_HLSCM_INLINE std::vector<std::uint32_t> uv_corners_of_soup(const Polygon_so
 }
 
 CGAL_HLSCM_INLINE std::vector<std::uint32_t> cut_faces(const Polygon_soup& soup,
-                                            const Surface_of_soup& surface,
-                                            const std::vector<Triangle_indices>& wedges)
+                                                       const Surface_of_soup& surface,
+                                                       const std::vector<Triangle_indices>& wedges)
 {
   const std::vector<std::uint32_t> uv = internal::first_wedges(soup, surface, wedges);
   std::vector<std::uint32_t> result;

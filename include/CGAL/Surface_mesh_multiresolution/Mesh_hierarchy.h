@@ -241,13 +241,13 @@ Returns the levels of a hierarchy, the coarsest first; the last is `mesh` itself
 Linear time.
 */
 CGAL_HLSCM_INLINE std::vector<Mesh_level> build_hierarchy(Indexed_triangle_mesh mesh,
-                                               const Progressive_mesh& pm,
-                                               const Hierarchy_options& options);
+                                                          const Progressive_mesh& pm,
+                                                          const Hierarchy_options& options);
 
 #ifdef CGAL_HLSCM_DEFINITIONS
 CGAL_HLSCM_INLINE std::vector<Mesh_level> build_hierarchy(Indexed_triangle_mesh mesh,
-                                               const Progressive_mesh& pm,
-                                               const Hierarchy_options& options)
+                                                          const Progressive_mesh& pm,
+                                                          const Hierarchy_options& options)
 {
   const std::vector<std::size_t> cuts = level_cuts(pm, options);
   std::vector<Mesh_level> levels(1);

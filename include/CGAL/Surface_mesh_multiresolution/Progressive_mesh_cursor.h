@@ -193,7 +193,7 @@ CGAL_HLSCM_INLINE Vsplit_table::Vsplit_table(const Progressive_mesh& pm)
 
 // The triangle that shares the edge from the kept to the third vertex with the ear that has died.
 CGAL_HLSCM_INLINE void Vsplit_table::add_guard(const Descent& descent, const Progressive_mesh& pm,
-                                    std::size_t i)
+                                               std::size_t i)
 {
   const Vertex_index removed = pm.collapses[i].removed, kept = pm.collapses[i].kept;
   for(std::size_t d = m_begin[i]; d < m_corners.size(); ++d) {

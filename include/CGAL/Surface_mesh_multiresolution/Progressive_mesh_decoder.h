@@ -61,7 +61,8 @@ private:
 
 #ifdef CGAL_HLSCM_DEFINITIONS
 
-CGAL_HLSCM_INLINE void Progressive_mesh_decoder::set_coordinates(Textured_progressive_mesh& mesh) const
+CGAL_HLSCM_INLINE void
+Progressive_mesh_decoder::set_coordinates(Textured_progressive_mesh& mesh) const
 {
   const std::vector<Vertex_index>& vertex = grown().vertex;
   mesh.uv.reserve(has_texture() ? vertex.size() : 0);

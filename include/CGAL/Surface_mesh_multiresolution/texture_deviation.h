@@ -91,7 +91,8 @@ enum class Level_error
 namespace internal {
 
 // As the public functions, by the threads of the caller.
-CGAL_HLSCM_INLINE Texture_deviation deviation_of(const Textured_progressive_mesh& mesh, std::size_t k);
+CGAL_HLSCM_INLINE Texture_deviation deviation_of(const Textured_progressive_mesh& mesh,
+                                                 std::size_t k);
 CGAL_HLSCM_INLINE Texture_deviation deviation_of(const Wedge_mesh& fine, const Wedge_mesh& coarse);
 CGAL_HLSCM_INLINE bool is_within(const Textured_progressive_mesh& mesh, std::size_t k,
                                  Level_error kind, double bound);
@@ -298,7 +299,8 @@ inline bool is_within(const Fine_surface& fine, const Textured_progressive_mesh&
   return meter.locate_wedges(bound).maximum <= bound && meter.deviation(bound).maximum <= bound;
 }
 
-CGAL_HLSCM_INLINE Texture_deviation deviation_of(const Textured_progressive_mesh& mesh, std::size_t k)
+CGAL_HLSCM_INLINE Texture_deviation deviation_of(const Textured_progressive_mesh& mesh,
+                                                 std::size_t k)
 {
   Texture_deviation result;
   if(result.fail(deviation_error(mesh, k)))

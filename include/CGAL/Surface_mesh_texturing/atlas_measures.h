@@ -142,13 +142,13 @@ Returns what the seams of the charts of a mesh are like; the measures of no seam
 `charts_error()`. Linear time.
 */
 CGAL_HLSCM_INLINE Seam_measures measure_seams(const Indexed_triangle_mesh& mesh,
-                                   const Indexed_mesh::Triangle_adjacency& adjacency,
-                                   const Face_charts& charts);
+                                              const Indexed_mesh::Triangle_adjacency& adjacency,
+                                              const Face_charts& charts);
 
 #ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
 CGAL_HLSCM_INLINE Seam_measures measure_seams(const Indexed_triangle_mesh& mesh,
-                                   const Indexed_mesh::Triangle_adjacency& adjacency,
-                                   const Face_charts& charts)
+                                              const Indexed_mesh::Triangle_adjacency& adjacency,
+                                              const Face_charts& charts)
 {
   constexpr double crease = 30., concavity = 10.; // degrees
   Seam_measures result;
@@ -194,12 +194,14 @@ charts; triangles without area on the surface or in the texture are left out. Th
 map if there is a `mesh_error()`, a `texture_error()` or a `charts_error()`. Time
 \f$ O(n \log n) \f$.
 */
-CGAL_HLSCM_INLINE Texel_measures measure_texels(const Textured_triangle_mesh& mesh, const Face_charts& charts,
-                                     std::size_t width, std::size_t height);
+CGAL_HLSCM_INLINE Texel_measures measure_texels(const Textured_triangle_mesh& mesh,
+                                                const Face_charts& charts, std::size_t width,
+                                                std::size_t height);
 
 #ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
-CGAL_HLSCM_INLINE Texel_measures measure_texels(const Textured_triangle_mesh& mesh, const Face_charts& charts,
-                                     std::size_t width, std::size_t height)
+CGAL_HLSCM_INLINE Texel_measures measure_texels(const Textured_triangle_mesh& mesh,
+                                                const Face_charts& charts, std::size_t width,
+                                                std::size_t height)
 {
   Texel_measures result;
   if(!mesh_error(mesh).empty() || !texture_error(mesh).empty()

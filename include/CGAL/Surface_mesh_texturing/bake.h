@@ -230,8 +230,8 @@ struct Baking_functions
 };
 
 CGAL_HLSCM_INLINE Baked_map bake_samples(const Textured_triangle_mesh& light, std::size_t channels,
-                                       const Baking_functions& functions,
-                                       const Baking_options& options);
+                                         const Baking_functions& functions,
+                                         const Baking_options& options);
 
 #ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
 
@@ -307,8 +307,8 @@ private:
 };
 
 CGAL_HLSCM_INLINE Baked_map bake_samples(const Textured_triangle_mesh& light, std::size_t channels,
-                                       const Baking_functions& functions,
-                                       const Baking_options& options)
+                                         const Baking_functions& functions,
+                                         const Baking_options& options)
 {
   const std::size_t texel_rows = 8, bands_between_progress = 16;
   Baked_map map;
@@ -317,8 +317,7 @@ CGAL_HLSCM_INLINE Baked_map bake_samples(const Textured_triangle_mesh& light, st
   map.image = {options.width, options.height, channels, {}};
   map.image.texels.assign(options.width * options.height * channels, 0.f);
   const Uv_rasterizer raster(light.uv, light.wedges, options.width * options.samples,
-                                       options.height * options.samples,
-                                       texel_rows * options.samples);
+                             options.height * options.samples, texel_rows * options.samples);
   std::vector<std::uint8_t> is_covered(options.width * options.height, 0);
   const Band_baker baker(raster, functions, options.samples, map);
   Sample_counts counts;

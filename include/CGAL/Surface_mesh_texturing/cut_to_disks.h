@@ -169,7 +169,7 @@ CGAL_HLSCM_INLINE std::vector<Vertex_index> Disk_cutter::seam_vertices() const
 }
 
 CGAL_HLSCM_INLINE Vertex_index Disk_cutter::farthest(const std::vector<Vertex_index>& sources,
-                                          Length& distance) const
+                                                     Length& distance) const
 {
   const Forest forest = shortest_paths(sources, [this](Halfedge h) { return plain_length(h); },
                                        [](Vertex_index) { return false; });

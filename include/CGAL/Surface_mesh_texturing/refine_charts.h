@@ -77,18 +77,17 @@ rest, and whom a check of the collapses would cost more than they do
 
 Time linear in the number of triangles of `pm`.
 */
-CGAL_HLSCM_INLINE Face_charts refine_charts(const Progressive_mesh& pm,
-                                 const std::vector<Indexed_triangle_mesh::Point_3>& points,
-                                 std::size_t k, const Face_charts& coarse,
-                                 const Straightening_options& options = Straightening_options(),
-                                 const std::vector<float>& occlusion = {});
+CGAL_HLSCM_INLINE Face_charts
+refine_charts(const Progressive_mesh& pm, const std::vector<Indexed_triangle_mesh::Point_3>& points,
+              std::size_t k, const Face_charts& coarse,
+              const Straightening_options& options = Straightening_options(),
+              const std::vector<float>& occlusion = {});
 
 #ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
-CGAL_HLSCM_INLINE Face_charts refine_charts(const Progressive_mesh& pm,
-                                 const std::vector<Indexed_triangle_mesh::Point_3>& points,
-                                 std::size_t k, const Face_charts& coarse,
-                                 const Straightening_options& options,
-                                 const std::vector<float>& occlusion)
+CGAL_HLSCM_INLINE Face_charts
+refine_charts(const Progressive_mesh& pm, const std::vector<Indexed_triangle_mesh::Point_3>& points,
+              std::size_t k, const Face_charts& coarse, const Straightening_options& options,
+              const std::vector<float>& occlusion)
 {
   CGAL_precondition(k <= pm.collapses.size() && points.size() == pm.number_of_vertices);
   internal::Halfedge_triangles mesh(pm.triangles, points.size());

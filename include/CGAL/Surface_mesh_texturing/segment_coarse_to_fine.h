@@ -90,9 +90,9 @@ struct Coarse_segmentation
 typedef Blocked_execution::Function_ref<Coarse_segmentation(const Indexed_triangle_mesh&)>
   Segment_coarse_function;
 
-CGAL_HLSCM_INLINE Segmentation_result segment_refined(const Indexed_triangle_mesh& mesh,
-                                                      const Segmentation_options& options,
-                                                      const Segment_coarse_function& segment_coarse);
+CGAL_HLSCM_INLINE Segmentation_result
+segment_refined(const Indexed_triangle_mesh& mesh, const Segmentation_options& options,
+                const Segment_coarse_function& segment_coarse);
 
 #ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
 

@@ -168,12 +168,14 @@ shortest path on polyhedral surfaces*, 2007).
 Errors: those of `charts_error()`, a mesh that is no manifold, and a number of rings below 0. Time linear in
 the number of triangles, with a small constant, plus that of the seam edges times some hundreds.
 */
-CGAL_HLSCM_INLINE Smooth_seams_result smooth_seams(const Indexed_triangle_mesh& mesh, const Face_charts& charts,
-                                        const Smooth_seams_options& options = Smooth_seams_options());
+CGAL_HLSCM_INLINE Smooth_seams_result
+smooth_seams(const Indexed_triangle_mesh& mesh, const Face_charts& charts,
+             const Smooth_seams_options& options = Smooth_seams_options());
 
 #ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
-CGAL_HLSCM_INLINE Smooth_seams_result smooth_seams(const Indexed_triangle_mesh& mesh, const Face_charts& charts,
-                                        const Smooth_seams_options& options)
+CGAL_HLSCM_INLINE Smooth_seams_result smooth_seams(const Indexed_triangle_mesh& mesh,
+                                                   const Face_charts& charts,
+                                                   const Smooth_seams_options& options)
 {
   Smooth_seams_result result;
   if(result.fail(Mesh_status::BAD_MESH, manifold_error(mesh)) || result.fail(charts_error(mesh, charts)))

@@ -49,12 +49,14 @@ struct Seam_length
 /// \ingroup PkgHLSCMTexturing
 /// Returns the length of the seams of `mesh` inside the surface; 0 if there is a `charts_error()`.
 /// Linear time.
-CGAL_HLSCM_INLINE Seam_length measure_seams(const Indexed_triangle_mesh& mesh, const Face_charts& charts,
-                                 const Crease_weights& creases = Crease_weights());
+CGAL_HLSCM_INLINE Seam_length measure_seams(const Indexed_triangle_mesh& mesh,
+                                            const Face_charts& charts,
+                                            const Crease_weights& creases = Crease_weights());
 
 #ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
-CGAL_HLSCM_INLINE Seam_length measure_seams(const Indexed_triangle_mesh& mesh, const Face_charts& charts,
-                                 const Crease_weights& creases)
+CGAL_HLSCM_INLINE Seam_length measure_seams(const Indexed_triangle_mesh& mesh,
+                                            const Face_charts& charts,
+                                            const Crease_weights& creases)
 {
   if(!charts_error(mesh, charts).is_ok())
     return {};
@@ -78,14 +80,16 @@ namespace internal {
 
 // As the public one, of a mesh and charts that have been checked; `avoided` may be empty, see
 // Refinable_seam_graph::avoid().
-CGAL_HLSCM_INLINE Face_charts straighten_charts(const Indexed_triangle_mesh& mesh, const Face_charts& charts,
-                                     const Straightening_options& options,
-                                     std::vector<std::uint8_t> avoided);
+CGAL_HLSCM_INLINE Face_charts straighten_charts(const Indexed_triangle_mesh& mesh,
+                                                const Face_charts& charts,
+                                                const Straightening_options& options,
+                                                std::vector<std::uint8_t> avoided);
 
 #ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
-CGAL_HLSCM_INLINE Face_charts straighten_charts(const Indexed_triangle_mesh& mesh, const Face_charts& charts,
-                                     const Straightening_options& options,
-                                     std::vector<std::uint8_t> avoided)
+CGAL_HLSCM_INLINE Face_charts straighten_charts(const Indexed_triangle_mesh& mesh,
+                                                const Face_charts& charts,
+                                                const Straightening_options& options,
+                                                std::vector<std::uint8_t> avoided)
 {
   Halfedge_triangles halfedges(mesh.triangles, mesh.points.size());
   Refinable_seam_graph graph(halfedges, mesh.points, options.creases);

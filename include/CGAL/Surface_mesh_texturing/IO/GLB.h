@@ -361,16 +361,14 @@ a triangle for every eight pixels of a screen of 1920 x 1080.
 
 \return `false` for the same reasons as above, or if there is no level, or they are not in order.
 */
-CGAL_HLSCM_INLINE bool write_GLB(std::ostream& os,
-                      const Surface_mesh_multiresolution::Textured_progressive_mesh& mesh,
-                      const std::vector<std::vector<Triangle_indices>>& levels,
-                      const Texture_file& color);
+CGAL_HLSCM_INLINE bool
+write_GLB(std::ostream& os, const Surface_mesh_multiresolution::Textured_progressive_mesh& mesh,
+          const std::vector<std::vector<Triangle_indices>>& levels, const Texture_file& color);
 
 #ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
-CGAL_HLSCM_INLINE bool write_GLB(std::ostream& os,
-                      const Surface_mesh_multiresolution::Textured_progressive_mesh& mesh,
-                      const std::vector<std::vector<Triangle_indices>>& levels,
-                      const Texture_file& color)
+CGAL_HLSCM_INLINE bool
+write_GLB(std::ostream& os, const Surface_mesh_multiresolution::Textured_progressive_mesh& mesh,
+          const std::vector<std::vector<Triangle_indices>>& levels, const Texture_file& color)
 {
   internal::Glb_of_levels file(mesh, levels);
   return file.can_be_written() && file.write(os, color);
