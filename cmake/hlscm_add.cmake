@@ -36,7 +36,7 @@ endfunction()
 # Of the functions that the target and the compiled library both have, the linker takes the first it
 # sees: those of the library, which is optimised more.
 function(hlscm_prefer_compiled target)
-  if(HLSCM_BUILD_COMPILED AND NOT APPLE)
+  if(HLSCM_BUILD_COMPILED AND UNIX AND NOT APPLE)
     target_link_options(${target} PRIVATE
       "LINKER:--whole-archive,$<TARGET_FILE:HLSCM_compiled>,--no-whole-archive")
   endif()
