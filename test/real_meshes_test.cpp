@@ -76,8 +76,6 @@ TEST_P(Debian_chart, comes_out_so_with_the_weights_of_cgal)
 TEST_P(Debian_chart, can_be_repaired)
 {
   for(const auto weights : {Conformal_weights::EXACT, Conformal_weights::CGAL_LSCM}) {
-    if(weights == Conformal_weights::CGAL_LSCM && GetParam() == std::string("blade.off"))
-      continue; // nothing of it can be mended with the others, and to try takes half a minute
     Surface_mesh mesh = read(debian_mesh(GetParam()));
     SMP::HLSCM_options options = with_method(Conformal_method::DIRECT);
     options.weights = weights;

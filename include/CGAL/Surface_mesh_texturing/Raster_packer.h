@@ -65,7 +65,7 @@ public:
 
 #ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
 CGAL_HLSCM_INLINE Packing_result Raster_packer::operator()(const std::vector<Chart_shape>& charts,
-                                                         const Packing_options& options) const
+                                                           const Packing_options& options) const
 {
   double unit = 1.;
   std::vector<internal::Chart_outline> outlines = internal::chart_outlines(charts, unit);
