@@ -20,6 +20,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -114,14 +115,15 @@ TEST(Control_net, reproduces_affine_maps_and_covers_the_chart)
   const auto affine = [](const Vector& p) {
     return Vector{1.2 * p.x - 0.3 * p.y + 7., 0.1 * p.x + 0.9 * p.y - 2.};
   };
-  // Few vertices, a large chart with many, and a small one
-  for(const auto& [n, size] : {std::pair<int, double>{4, 40.}, {40, 20.}, {40, 100.}}) {
+  // Few vertices, a large chart with many, a small one, and one that shall be affine
+  for(const auto& [n, size, is_affine] : {std::tuple<int, double, bool>{4, 40., false}, {40, 20., false},
+                                          {40, 100., false}, {40, 20., true}}) {
     const Indexed_triangle_mesh mesh = with_noise(grid(n, n), 0.2, seed);
     std::vector<Point_2> uv;
     for(const Point_3& p : mesh.points)
       uv.emplace_back(10. + p.x(), 20. + p.y());
     std::vector<Vector> points(3); // of others
-    const Control_net net(uv, mesh.triangles, size, points);
+    const Control_net net(uv, mesh.triangles, size, is_affine, points);
     const std::string where = std::to_string(n) + ", " + std::to_string(points.size()) + seed_text;
     std::vector<Vector> moved;
     for(const Vector& p : points)
@@ -184,7 +186,7 @@ struct Lone_square
     }
     const SMT::internal::Contact_sizes sizes = {{100., 100.}, {1., 1.}, {99., 99.}, 3., 1.};
     std::vector<Vector> points;
-    net.emplace(uv, mesh.triangles, 50., points);
+    net.emplace(uv, mesh.triangles, 50., false, points);
     SMT::internal::Border_contacts contacts(sizes);
     contacts.add_loop(0, 0, loop, uv, *net);
     charts.emplace(points, contacts, sizes);

@@ -282,8 +282,10 @@ public:
   {
     return (*this)(triangles, [&](Halfedge h) {
       const Halfedge o = m_adjacency.opposite(h);
-      return o != no_halfedge
-          && std::binary_search(triangles.begin(), triangles.end(), triangle_of(o));
+      if(o == no_halfedge)
+        return false;
+      const Triangle_index i = m_position[triangle_of(o)]; // of an earlier chart, if not in this one
+      return i < triangles.size() && triangles[i] == triangle_of(o);
     });
   }
 

@@ -315,7 +315,10 @@ inline bool Texture_atlas_builder::pack()
   Filled_packing::Bend bend;
   if(may_bend())
     bend = [&](std::vector<Mapped_chart>& charts, Packing_result& packed, double factor) {
-      bend_charts(factor * m_options.bending, packing, mapping,
+      Bending amount = {factor * m_options.bending};
+      if(m_options.min_used > 0.)
+        amount.squares *= 2.;
+      bend_charts(amount, packing, mapping,
                   [&] { return !is_over() && proceed(0.8, 1., 1. - 0.5 * left); }, charts, packed);
     };
   std::vector<std::vector<Mapped_chart>> sets

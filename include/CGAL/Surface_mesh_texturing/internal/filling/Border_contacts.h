@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_FILLING_BORDER_CONTACTS_H
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_FILLING_BORDER_CONTACTS_H
 
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_texturing/internal/filling/Border_pieces.h>
 #include <CGAL/Surface_mesh_texturing/internal/packing/Page_check.h>
 
@@ -33,7 +34,9 @@ struct Contact_sizes
 // places along the normal.
 struct Contact
 {
-  Control_weights weights; // of the change of the gap, along the normal
+  static constexpr std::uint32_t no_sample = std::uint32_t(-1);
+  std::uint32_t sample, other; // at which the piece with the other point begins, or `no_sample`
+  double part;                 // of the way along that piece
   Plane_vector_d normal;
   double gap, wanted;
   double length; // of the border that it stands for
@@ -81,6 +84,18 @@ public:
   // Those of the last `find()`.
   const std::vector<Contact>& contacts() const { return m_contacts; }
 
+  // Those of the control points in the change of a contact's gap, along its normal.
+  Control_weights weights(const Contact& contact) const
+  {
+    Control_weights result = m_samples[contact.sample].weights;
+    if(contact.other != Contact::no_sample) {
+      const Sample& there = m_samples[contact.other];
+      add(there.weights, contact.part - 1., result);
+      add(m_samples[there.next].weights, -contact.part, result);
+    }
+    return result;
+  }
+
   // By how much the largest gap is too small, after `find()`.
   double worst() const
   {
@@ -95,7 +110,7 @@ public:
   {
     double result = 0.;
     for(std::size_t i = 0; i < m_samples.size(); ++i)
-      result = (std::max)(result, (place(m_samples[i], points) - m_places[i]).squared_length());
+      result = (std::max)(result, (sum_of(m_samples[i].weights, points) - m_places[i]).squared_length());
     return std::sqrt(result);
   }
 
@@ -108,13 +123,6 @@ private:
     double length = 0.;
     double wanted = 0., more = 0.; // of a gap there: see `set_gaps()`, and how much more of it
   };
-  static Vector place(const Sample& sample, const std::vector<Vector>& points)
-  {
-    Vector result;
-    for(const Control_weight& w : sample.weights)
-      result = result + points[w.point] * w.weight;
-    return result;
-  }
 
   // Adds a factor times some weights.
   static void add(const Control_weights& weights, double factor, Control_weights& sum)
@@ -143,10 +151,14 @@ private:
 
   std::vector<std::uint32_t> kept_vertices(const std::vector<std::uint32_t>& loop,
                                            const std::vector<Chart_shape::Point_2>& uv) const;
-  void add_contacts_with_charts(std::uint32_t i);
-  void add_contacts_with_sides(std::uint32_t i);
-  void add_contact(std::uint32_t i, const Nearest_on_piece& nearest, const Vector& normal, double gap,
-                   double wanted);
+  Contact contact(std::uint32_t i, const Nearest_on_piece& nearest, const Vector& normal, double gap,
+                  double wanted) const
+  {
+    return {i, nearest.piece->sample, nearest.part, normal, gap, wanted, m_samples[i].length};
+  }
+  void add_contacts_with_charts(std::uint32_t i, std::vector<Nearest_on_piece>& nearest,
+                                std::vector<Contact>& contacts) const;
+  void add_contacts_with_sides(std::uint32_t i, std::vector<Contact>& contacts) const;
 
   Contact_sizes m_sizes;
   std::vector<Sample> m_samples;
@@ -154,7 +166,6 @@ private:
   std::vector<Vector> m_places; // of the samples
   Border_pieces m_pieces;       // from each of which to the next one
   std::size_t m_pages = 1;
-  std::vector<Nearest_on_piece> m_nearest; // of other charts
 };
 
 // Vertices at which pieces of about half the distance of samples begin, from which those between differ
@@ -224,31 +235,19 @@ inline void Border_contacts::add_loop(std::uint32_t chart, std::uint32_t page,
   m_pages = (std::max)(m_pages, std::size_t(page) + 1);
 }
 
-inline void Border_contacts::add_contact(std::uint32_t i, const Nearest_on_piece& nearest,
-                                         const Vector& normal, double gap, double wanted)
-{
-  Contact contact;
-  contact.weights = m_samples[i].weights;
-  const Sample& there = m_samples[nearest.piece->sample];
-  add(there.weights, nearest.part - 1., contact.weights);
-  add(m_samples[there.next].weights, -nearest.part, contact.weights);
-  contact.normal = normal;
-  contact.gap = gap;
-  contact.wanted = wanted;
-  contact.length = m_samples[i].length;
-  m_contacts.push_back(std::move(contact));
-}
-
 // The nearest point of each other chart, which may be on the wrong side, and that across a bay of its own
-// chart: such gaps stay at least 0.7 of what they are at rest, if they need not be larger.
-inline void Border_contacts::add_contacts_with_charts(std::uint32_t i)
+// chart: such gaps stay at least 0.7 of what they are at rest, if they need not be larger. `nearest` is for
+// those of other charts.
+inline void Border_contacts::add_contacts_with_charts(std::uint32_t i,
+                                                      std::vector<Nearest_on_piece>& nearest,
+                                                      std::vector<Contact>& contacts) const
 {
   constexpr double facing = 0.3, kept = 0.7; // a cosine; of a gap within a chart
   const Sample& sample = m_samples[i];
   const Vector out = outward(m_places[sample.next] - m_places[sample.previous]);
   Nearest_on_piece own;
   own.squared_distance = (sample.wanted + sample.more) * (sample.wanted + sample.more);
-  m_nearest.clear();
+  nearest.clear();
   // Pieces that face each other are turned to each other
   constexpr double turned = 0.82; // cos(pi - 2 acos(facing))
   const auto matters = [&](const Border_piece& piece) {
@@ -266,11 +265,11 @@ inline void Border_contacts::add_contacts_with_charts(std::uint32_t i)
         own = near;
       return;
     }
-    const auto of_chart = std::find_if(m_nearest.begin(), m_nearest.end(), [&](const auto& n) {
+    const auto of_chart = std::find_if(nearest.begin(), nearest.end(), [&](const auto& n) {
       return n.piece->chart == piece.chart;
     });
-    if(of_chart == m_nearest.end())
-      m_nearest.push_back(near);
+    if(of_chart == nearest.end())
+      nearest.push_back(near);
     else if(near.squared_distance < of_chart->squared_distance)
       *of_chart = near;
   });
@@ -281,9 +280,9 @@ inline void Border_contacts::add_contacts_with_charts(std::uint32_t i)
     const double least = (std::min)(sample.wanted + sample.more,
                                     kept * std::sqrt((sample.rest - rest).squared_length()));
     if(distance < least)
-      add_contact(i, own, own.way * (1. / distance), distance, least);
+      contacts.push_back(contact(i, own, own.way * (1. / distance), distance, least));
   }
-  for(const Nearest_on_piece& near : m_nearest) {
+  for(const Nearest_on_piece& near : nearest) {
     const std::uint32_t j = near.piece->sample, next = m_samples[j].next;
     const double distance = std::sqrt(near.squared_distance);
     Vector sum = near.piece->outward; // of the pieces that meet there
@@ -296,11 +295,11 @@ inline void Border_contacts::add_contacts_with_charts(std::uint32_t i)
                                                          : near.piece->outward;
     const double gap = is_outside ? distance : -distance;
     if(gap < sample.wanted + sample.more)
-      add_contact(i, near, normal, gap, sample.wanted + sample.more);
+      contacts.push_back(contact(i, near, normal, gap, sample.wanted + sample.more));
   }
 }
 
-inline void Border_contacts::add_contacts_with_sides(std::uint32_t i)
+inline void Border_contacts::add_contacts_with_sides(std::uint32_t i, std::vector<Contact>& contacts) const
 {
   const Vector& p = m_places[i];
   const std::array<std::pair<Vector, double>, 4> sides
@@ -308,35 +307,42 @@ inline void Border_contacts::add_contacts_with_sides(std::uint32_t i)
         {{0., 1.}, p.y - m_sizes.low.y}, {{0., -1.}, m_sizes.high.y - p.y}}};
   for(const auto& [normal, gap] : sides)
     if(gap < m_samples[i].more)
-      m_contacts.push_back(
-        {m_samples[i].weights, normal, gap, m_samples[i].more, m_samples[i].length});
+      contacts.push_back({i, Contact::no_sample, 0., normal, gap, m_samples[i].more, m_samples[i].length});
 }
 
 inline void Border_contacts::set_gaps(const std::vector<Vector>& points)
 {
   for(Sample& sample : m_samples) {
     const Vector out
-      = outward(place(m_samples[sample.next], points) - place(m_samples[sample.previous], points));
+      = outward(sum_of(m_samples[sample.next].weights, points)
+                - sum_of(m_samples[sample.previous].weights, points));
     sample.wanted = m_sizes.gap / (std::max)({std::abs(out.x), std::abs(out.y), 0.7});
   }
 }
 
 inline void Border_contacts::find(const std::vector<Vector>& points)
 {
-  m_contacts.clear();
+  constexpr std::size_t block = 128; // of samples
   m_places.clear();
   for(const Sample& sample : m_samples)
-    m_places.push_back(place(sample, points));
+    m_places.push_back(sum_of(sample.weights, points));
   std::vector<Border_piece> pieces;
   pieces.reserve(m_samples.size());
   for(std::uint32_t i = 0; i < m_samples.size(); ++i)
     pieces.push_back({i, m_samples[i].chart, m_samples[i].page, m_places[i],
                       m_places[m_samples[i].next] - m_places[i]});
   m_pieces.assign(pieces, m_pages);
-  for(std::uint32_t i = 0; i < m_samples.size(); ++i) {
-    add_contacts_with_charts(i);
-    add_contacts_with_sides(i);
-  }
+  std::vector<std::vector<Contact>> found(Blocked_execution::number_of_blocks(m_samples.size(), block));
+  Blocked_execution::blocked_for(m_samples.size(), block, [&](std::size_t begin, std::size_t end) {
+    std::vector<Nearest_on_piece> nearest;
+    for(std::uint32_t i = std::uint32_t(begin); i < end; ++i) {
+      add_contacts_with_charts(i, nearest, found[begin / block]);
+      add_contacts_with_sides(i, found[begin / block]);
+    }
+  });
+  m_contacts.clear();
+  for(const std::vector<Contact>& some : found)
+    m_contacts.insert(m_contacts.end(), some.begin(), some.end());
 }
 
 } // namespace internal

@@ -75,6 +75,9 @@ public:
 
   std::vector<Chart_cut> find();
 
+  // That of the chart, once cuts have been found.
+  std::unique_ptr<Triangle_adjacency> take_adjacency() { return std::move(m_adjacency); }
+
 private:
   typedef std::vector<Vertex_index> Vertices;
 

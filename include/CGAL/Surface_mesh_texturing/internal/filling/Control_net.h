@@ -31,6 +31,14 @@ struct Control_weight
 };
 typedef std::vector<Control_weight> Control_weights;
 
+inline Plane_vector_d sum_of(const Control_weights& weights, const std::vector<Plane_vector_d>& points)
+{
+  Plane_vector_d result;
+  for(const Control_weight& w : weights)
+    result = result + points[w.point] * w.weight;
+  return result;
+}
+
 // A part of a chart with about one strain: the map has the Jacobian alpha = sum conj(g_k) p_k and beta =
 // sum g_k p_k of the control points p_k, see `Plane_jacobian`.
 struct Strain_element
@@ -44,8 +52,8 @@ struct Strain_element
 // lie such that this is the identity.
 //
 // A chart of few vertices without thin triangles has them as control points. Another one has those of
-// uniform quadratic B-splines on a grid of squares around it, or, if it is not larger than a square, the
-// corners of a triangle around it, so that it is mapped linearly.
+// uniform quadratic B-splines on a grid of squares around it, or, if it is not larger than a square, or shall
+// be affine, the corners of a triangle around it, so that it is mapped linearly.
 class Control_net
 {
 public:
@@ -55,7 +63,7 @@ public:
   // Adds the control points, at rest, to `points`; `size` is that of the squares. The chart must outlive
   // this, and have a triangle.
   Control_net(const std::vector<Chart_shape::Point_2>& uv, const Triangles& triangles, double size,
-              std::vector<Vector>& points)
+              bool is_affine, std::vector<Vector>& points)
     : m_uv(uv), m_triangles(triangles), m_first(std::uint32_t(points.size())), m_size(size)
   {
     Vector low = vector_of(uv[triangles[0][0]]), high = low;
@@ -68,11 +76,11 @@ public:
     m_columns = (std::max)(1, int(std::ceil(extent.x / size)));
     m_rows = (std::max)(1, int(std::ceil(extent.y / size)));
     const std::size_t splines = std::size_t(m_columns + 2) * std::size_t(m_rows + 2);
-    if(uv.size() <= splines && has_no_thin_triangle()) {
+    if(!is_affine && uv.size() <= splines && has_no_thin_triangle()) {
       m_kind = Kind::VERTICES;
       for(const auto& p : uv)
         points.push_back(vector_of(p));
-    } else if(m_columns == 1 && m_rows == 1) {
+    } else if(is_affine || (m_columns == 1 && m_rows == 1)) {
       m_kind = Kind::LINEAR;
       m_origin = low;
       m_size = (std::max)(extent.x, extent.y);

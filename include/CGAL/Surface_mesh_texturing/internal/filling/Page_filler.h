@@ -6,14 +6,16 @@
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/map_charts.h>
-#include <CGAL/Surface_mesh_texturing/internal/filling/Chart_cuts.h>
+#include <CGAL/Surface_mesh_texturing/internal/filling/Chart_parts.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <memory>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -57,7 +59,10 @@ private:
   bool cut_twice(const Terms& terms);
   std::vector<Candidate> candidates();
   void estimate(const Terms& terms, std::vector<Candidate>& candidates) const;
-  std::vector<Mapped_chart> parts_of(const Chart_cut& cut, const Mapped_chart& whole) const;
+  std::vector<Mapped_chart> parts_of(const Cut_sides& sides, const Mapped_chart& whole,
+                                     const Triangle_adjacency& adjacency) const;
+  std::optional<int> level_with(const Terms& terms, const Chart_cut& cut, std::size_t chart,
+                                const std::vector<Packable>& parts, std::vector<Packable>& shapes) const;
   bool apply(const Terms& terms, const Candidate& candidate);
 
   // The length of a cut in sides of a page.
@@ -67,8 +72,13 @@ private:
   const Chart_mapping& m_mapping;
   double m_unit, m_side; // of the outlines; of a page, in texels
   std::vector<Packable> m_shapes;
-  std::vector<std::vector<Chart_cut>> m_cuts; // of each chart
-  std::vector<bool> m_has_cuts;
+  struct Cuts
+  {
+    std::vector<Chart_cut> cuts;
+    std::unique_ptr<Triangle_adjacency> adjacency; // of the chart, if there are any
+    bool are_known = false;
+  };
+  std::vector<Cuts> m_cuts; // of each chart
   Packing_estimate m_estimate;
   int m_level = 0;      // of the packing so far
   double m_paid = 0.;   // for seams, in parts of the pages
@@ -116,7 +126,7 @@ inline Page_filler::Page_filler(std::vector<Mapped_chart>& charts, const Packing
                                 const Chart_mapping& mapping)
   : m_charts(charts), m_mapping(mapping), m_unit(extent_of(charts)),
     m_side(std::sqrt(double(packing.width) * double(packing.height))),
-    m_shapes(shapes_of(charts, m_unit)), m_cuts(charts.size()), m_has_cuts(charts.size(), false),
+    m_shapes(shapes_of(charts, m_unit)), m_cuts(charts.size()),
     m_estimate(packing, area_of(m_shapes), charts.size())
 {
   constexpr int lowest = -64 * 8, step = 16;
@@ -165,8 +175,8 @@ inline bool Page_filler::cut_twice(const Terms& terms)
   }
   m_charts = charts;
   m_shapes = shapes;
-  m_cuts.assign(charts.size(), {});
-  m_has_cuts.assign(charts.size(), false);
+  m_cuts.clear();
+  m_cuts.resize(charts.size());
   m_paid = paid;
   m_level = level;
   return false;
@@ -175,7 +185,7 @@ inline bool Page_filler::cut_twice(const Terms& terms)
 // The cuts of the charts with the largest diameters.
 inline std::vector<Page_filler::Candidate> Page_filler::candidates()
 {
-  constexpr std::size_t most_charts = 6;
+  constexpr std::size_t most_charts = 4;
   std::vector<std::size_t> largest(m_charts.size());
   std::iota(largest.begin(), largest.end(), std::size_t(0));
   std::stable_sort(largest.begin(), largest.end(), [this](std::size_t i, std::size_t j) {
@@ -184,18 +194,17 @@ inline std::vector<Page_filler::Candidate> Page_filler::candidates()
   largest.resize((std::min)(largest.size(), most_charts));
   Blocked_execution::blocked_for(largest.size(), 1, [&](std::size_t i, std::size_t) {
     const std::size_t chart = largest[i];
-    if(m_cuts[chart].empty() && m_has_cuts[chart] == false)
-      m_cuts[chart] = Chart_cut_finder(m_charts[chart],
-                                       m_charts[chart].chart.sides(m_mapping.no_seams), m_unit)
-                        .find();
+    if(std::exchange(m_cuts[chart].are_known, true))
+      return;
+    Chart_cut_finder finder(m_charts[chart], m_charts[chart].chart.sides(m_mapping.no_seams), m_unit);
+    m_cuts[chart].cuts = finder.find();
+    m_cuts[chart].adjacency = finder.take_adjacency();
   });
   std::vector<Candidate> result;
-  for(const std::size_t chart : largest) {
-    m_has_cuts[chart] = true;
-    for(std::size_t cut = 0; cut < m_cuts[chart].size(); ++cut)
-      if(!m_cuts[chart][cut].is_rejected)
+  for(const std::size_t chart : largest)
+    for(std::size_t cut = 0; cut < m_cuts[chart].cuts.size(); ++cut)
+      if(!m_cuts[chart].cuts[cut].is_rejected)
         result.push_back({chart, cut});
-  }
   return result;
 }
 
@@ -210,7 +219,7 @@ inline void Page_filler::estimate(const Terms& terms, std::vector<Candidate>& ca
     const std::size_t end = (std::min)(candidates.size(), begin + at_a_time);
     Blocked_execution::blocked_for(end - begin, 1, [&](std::size_t i, std::size_t) {
       Candidate& c = candidates[begin + i];
-      const Chart_cut& cut = m_cuts[c.chart][c.cut];
+      const Chart_cut& cut = m_cuts[c.chart].cuts[c.cut];
       const double price = terms.seam_price * in_sides(cut.length);
       std::vector<Packable> shapes = m_shapes;
       shapes[c.chart] = cut.sides[0];
@@ -245,97 +254,31 @@ inline bool Page_filler::cut_once(const Terms& terms)
   return false;
 }
 
-// The triangles on the left of the path, which goes through a disk from border to border.
-inline std::vector<Triangle_index> left_of(const std::vector<Vertex_index>& path,
-                                           const std::vector<Triangle_indices>& triangles,
-                                           const Triangle_adjacency& adjacency)
-{
-  std::vector<std::pair<Vertex_index, Vertex_index>> edges;
-  for(std::size_t i = 0; i + 1 < path.size(); ++i) {
-    edges.push_back({path[i], path[i + 1]});
-    edges.push_back({path[i + 1], path[i]});
-  }
-  std::sort(edges.begin(), edges.end());
-  std::vector<bool> is_on_path(1);
-  for(const Vertex_index v : path) {
-    is_on_path.resize((std::max)(is_on_path.size(), std::size_t(v) + 1), false);
-    is_on_path[v] = true;
-  }
-  const auto is_cut = [&](Vertex_index v, Vertex_index w) {
-    return v < is_on_path.size() && is_on_path[v]
-        && std::binary_search(edges.begin(), edges.end(), std::make_pair(v, w));
-  };
-  std::vector<bool> is_left(triangles.size(), false);
-  std::vector<Triangle_index> result;
-  for(Triangle_index t = 0; t < triangles.size() && result.empty(); ++t)
-    for(int c = 0; c < 3; ++c)
-      if(triangles[t][c] == path[0] && triangles[t][(c + 1) % 3] == path[1]) {
-        is_left[t] = true;
-        result.push_back(t);
-      }
-  for(std::size_t i = 0; i < result.size(); ++i)
-    for(int c = 0; c < 3; ++c) {
-      const Triangle_indices& t = triangles[result[i]];
-      const Halfedge opposite = adjacency.opposite(result[i], c);
-      if(opposite == no_halfedge || is_left[triangle_of(opposite)] || is_cut(t[c], t[(c + 1) % 3]))
-        continue;
-      is_left[triangle_of(opposite)] = true;
-      result.push_back(triangle_of(opposite));
-    }
-  std::sort(result.begin(), result.end());
-  return result;
-}
-
-// The chart of some triangles of a chart, with its map.
-inline Mapped_chart part_of(const Mapped_chart& whole, const Triangle_adjacency& adjacency,
-                            const std::vector<Triangle_index>& triangles)
-{
-  Mapped_chart result;
-  result.chart = Chart_cutter<Triangle_adjacency>(whole.chart.mesh, adjacency)(triangles);
-  for(Vertex_index& v : result.chart.vertices) {
-    result.uv.push_back(whole.uv[v]);
-    v = whole.chart.vertices[v];
-  }
-  for(Triangle_index& t : result.chart.triangles)
-    t = whole.chart.triangles[t];
-  result.report.faces = result.chart.triangles.size();
-  result.report.border_length
-    = border_length(result.chart.mesh, result.chart.border_edges());
-  result.report.distortion = measure_chart_distortion(result.chart.mesh, result.uv);
-  result.is_valid = true;
-  return result;
-}
-
-// The parts on both sides of a cut, the first one on the right of its path, with the map of the chart.
-// A part that is beyond the bound alone is mapped anew, or cut further if that is not enough. Areas in
-// the plane to areas on the surface are in all as in the chart. Nothing if that takes too many parts.
-inline std::vector<Mapped_chart> Page_filler::parts_of(const Chart_cut& cut,
-                                                       const Mapped_chart& whole) const
+// The parts on both sides of a cut, with the map of the chart at the scales of the sides. A part that is
+// beyond the bound alone is mapped anew, or cut further if that is not enough. Nothing if that takes too
+// many parts.
+inline std::vector<Mapped_chart> Page_filler::parts_of(const Cut_sides& sides, const Mapped_chart& whole,
+                                                       const Triangle_adjacency& adjacency) const
 {
   constexpr std::size_t most_parts = 5;
-  const Indexed_triangle_mesh& mesh = whole.chart.mesh;
-  const Triangle_adjacency adjacency(mesh.triangles);
-  std::array<std::vector<Triangle_index>, 2> sides;
-  sides[1] = left_of(cut.path, mesh.triangles, adjacency);
-  for(Triangle_index t = 0, i = 0; t < mesh.triangles.size(); ++t)
-    if(i < sides[1].size() && sides[1][i] == t)
-      ++i;
-    else
-      sides[0].push_back(t);
-  const Chart_distortion before = measure_chart_distortion(mesh, whole.uv);
+  std::array<Mapped_chart, 2> both;
+  Blocked_execution::blocked_for(2, 1, [&](std::size_t k, std::size_t) {
+    both[k] = part_of(whole, adjacency, sides.triangles[k]);
+  });
+  const auto is_within = [&](const Chart_distortion& d) { return d.is_within(m_mapping.bound); };
+  const bool may_stay = !m_mapping.is_bounded
+                     || (!(is_within(both[0].report.distortion) && is_within(both[1].report.distortion))
+                         && !is_within(measure_chart_distortion(whole.chart.mesh, whole.uv)));
   std::vector<Mapped_chart> result;
-  for(const std::vector<Triangle_index>& side : sides) {
-    if(side.empty())
-      return {};
-    Mapped_chart part = part_of(whole, adjacency, side);
-    const bool is_within = part.report.distortion.is_within(m_mapping.bound);
-    part.report.is_rough = whole.report.is_rough && !is_within;
-    if(is_within || !m_mapping.is_bounded || !before.is_within(m_mapping.bound)) {
+  for(Mapped_chart& part : both) {
+    const bool is_good = is_within(part.report.distortion);
+    part.report.is_rough = whole.report.is_rough && !is_good;
+    if(is_good || may_stay) {
       result.push_back(std::move(part));
       continue;
     }
     Chart_mapping mapping = m_mapping;
-    mapping.most_charts = most_parts - result.size() - (&side == &sides[0] ? 1 : 0); // another one comes
+    mapping.most_charts = most_parts - result.size() - (&part == &both[0] ? 1 : 0); // another one comes
     std::vector<Mapped_chart> smaller = map_anew(std::move(part), mapping);
     if(smaller.empty())
       return {};
@@ -343,7 +286,7 @@ inline std::vector<Mapped_chart> Page_filler::parts_of(const Chart_cut& cut,
   }
   for(Mapped_chart& part : result) {
     Chart_distortion& after = part.report.distortion;
-    const double scale = std::sqrt(before.uv_area / before.area * (after.area / after.uv_area));
+    const double scale = std::sqrt(sides.density * (after.area / after.uv_area));
     if(!(scale > 0.) || !std::isfinite(scale))
       return {};
     for(Point_2& p : part.uv)
@@ -354,33 +297,53 @@ inline std::vector<Mapped_chart> Page_filler::parts_of(const Chart_cut& cut,
   return result;
 }
 
-// Makes a cut, if it gains enough with the parts as they are; all but the first become the last charts.
-inline bool Page_filler::apply(const Terms& terms, const Candidate& candidate)
+// The level of the packing where some shapes take the place of a chart's, if that gains enough for a cut;
+// sets `shapes` to all of them then.
+inline std::optional<int> Page_filler::level_with(const Terms& terms, const Chart_cut& cut, std::size_t chart,
+                                                  const std::vector<Packable>& parts,
+                                                  std::vector<Packable>& shapes) const
 {
-  Chart_cut& cut = m_cuts[candidate.chart][candidate.cut];
-  cut.is_rejected = true;
-  std::vector<Mapped_chart> parts = parts_of(cut, m_charts[candidate.chart]);
-  if(parts.empty())
-    return false;
-  std::vector<Packable> shapes = m_shapes;
-  for(const Mapped_chart& part : parts)
-    shapes.push_back(shape_of(part, m_unit));
-  shapes[candidate.chart] = std::move(shapes[m_shapes.size()]);
-  shapes.erase(shapes.begin() + m_shapes.size());
+  shapes = m_shapes;
+  shapes[chart] = parts[0];
+  shapes.insert(shapes.end(), parts.begin() + 1, parts.end());
   const int least = Packing_estimate::level_of(
     used() + terms.seam_price * in_sides(cut.length) + terms.least_gain);
   const int level = m_estimate.highest_level(shapes, least);
-  if(level < least)
+  return level < least ? std::optional<int>() : level;
+}
+
+// Makes a cut, if it gains enough with the parts as they are; all but the first become the last charts.
+inline bool Page_filler::apply(const Terms& terms, const Candidate& candidate)
+{
+  Chart_cut& cut = m_cuts[candidate.chart].cuts[candidate.cut];
+  cut.is_rejected = true;
+  const Mapped_chart& whole = m_charts[candidate.chart];
+  const Triangle_adjacency& adjacency = *m_cuts[candidate.chart].adjacency;
+  const Cut_sides sides = sides_of(cut, whole, adjacency);
+  if(!sides.are_valid())
+    return false;
+  std::vector<Packable> shapes, of_parts;
+  for(int k = 0; k < 2; ++k)
+    of_parts.push_back(
+      std::make_shared<Packable_shape>(scaled(cut.sides[k]->outline(), sides.scale[k])));
+  if(!level_with(terms, cut, candidate.chart, of_parts, shapes))
+    return false; // most cuts end here, before the parts are made
+  std::vector<Mapped_chart> parts = parts_of(sides, whole, adjacency);
+  if(parts.empty())
+    return false;
+  of_parts.clear();
+  for(const Mapped_chart& part : parts)
+    of_parts.push_back(shape_of(part, m_unit));
+  const std::optional<int> level = level_with(terms, cut, candidate.chart, of_parts, shapes);
+  if(!level)
     return false;
   m_paid += terms.seam_price * in_sides(cut.length);
-  m_level = level;
+  m_level = *level;
   m_shapes = std::move(shapes);
   m_charts[candidate.chart] = std::move(parts[0]);
   std::move(parts.begin() + 1, parts.end(), std::back_inserter(m_charts));
-  m_cuts[candidate.chart].clear();
+  m_cuts[candidate.chart] = Cuts();
   m_cuts.resize(m_charts.size());
-  m_has_cuts[candidate.chart] = false;
-  m_has_cuts.resize(m_charts.size(), false);
   for(const Packable& shape : m_shapes)
     shape->forget_below(m_level);
   return true;

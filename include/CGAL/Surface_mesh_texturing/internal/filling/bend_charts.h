@@ -23,15 +23,22 @@ namespace CGAL {
 namespace Surface_mesh_texturing {
 namespace internal {
 
+// How far charts are bent.
+struct Bending
+{
+  double change;       // of lengths, as a root mean square
+  double squares = 7.; // along a page, of the grid of control points
+};
+
 // Lets charts grow and bend on their pages; see `bend_charts()`.
 class Chart_bending
 {
 public:
   // As `bend_charts()`; all of these must outlive this.
-  Chart_bending(double bending, const Packing_options& options, const Chart_mapping& mapping,
+  Chart_bending(const Bending& amount, const Packing_options& options, const Chart_mapping& mapping,
                 const std::function<bool()>& goes_on, std::vector<Mapped_chart>& maps,
                 Packing_result& packing)
-    : m_strain(2. * bending * bending), m_options(options), m_mapping(mapping), m_goes_on(goes_on)
+    : m_strain(2. * amount.change * amount.change), m_options(options), m_mapping(mapping), m_goes_on(goes_on)
     , m_maps(maps), m_packing(packing)
   {
     const Packing_raster raster = exact_raster(options);
@@ -44,7 +51,7 @@ public:
                  + Plane_vector_d{double(raster.width), double(raster.height)} * raster.cell
                  - Plane_vector_d{more, more};
     m_sizes.gap = raster.cell * (raster.padding + 1.) + more;
-    m_square = side / squares;
+    m_square = side / amount.squares;
   }
 
   void run()
@@ -52,26 +59,19 @@ public:
     if(m_maps.empty() || m_maps.size() > most_charts
        || !std::all_of(m_maps.begin(), m_maps.end(), is_bendable))
       return;
-    std::vector<Plane_vector_d> points;
-    Border_contacts contacts(m_sizes);
-    add_nets(points, contacts);
-    Elastic_charts charts(std::move(points), std::move(contacts), m_sizes);
-    for(const Control_net& net : m_nets)
-      charts.add_chart(net.elements(), net.differences());
-    std::vector<Elastic_charts::State> states;
-    if(!grow(charts, states))
-      return;
-    for(int i = 0; i < most_states && !states.empty() && charts.scale() > 1.; ++i) {
-      if(try_to_take(charts))
+    m_is_affine.assign(m_maps.size(), 0);
+    // Those that became invalid where they bent are only stretched in the next round
+    std::vector<char> before;
+    for(int round = 0; round < rounds && m_is_affine != before; ++round) {
+      before = m_is_affine;
+      if(bend_all())
         return;
-      charts.restore(states.back());
-      states.pop_back();
     }
   }
 
 private:
   static constexpr double margin = 0.4; // of gaps, in units: for what samples of borders do not tell
-  static constexpr double squares = 10.; // along a page
+  static constexpr int rounds = 3;
   static constexpr int most_states = 4; // that are tried
   static constexpr double most_strain = 2.7; // to that at which charts stop growing
   static constexpr double first_stiffness = 40., harder = 1.3; // of contacts, and with each attempt
@@ -83,11 +83,17 @@ private:
         && map.report.distortion.flipped_faces + map.report.distortion.degenerate_faces == 0;
   }
 
+  bool bend_all();
   void add_nets(std::vector<Plane_vector_d>& points, Border_contacts& contacts);
   bool grow(Elastic_charts& charts, std::vector<Elastic_charts::State>& states) const;
   bool try_to_take(Elastic_charts& charts);
   bool settle(Elastic_charts& charts) const;
-  std::size_t take(Elastic_charts& charts);
+  // What speaks against bent charts: places where they are no packing, or charts whose maps are not valid.
+  struct Faults
+  {
+    std::size_t places, charts;
+  };
+  Faults take(Elastic_charts& charts);
   bool bend(std::size_t i, const Elastic_charts& charts, std::vector<Point_2>& places,
             Chart_distortion& distortion) const;
   double changes_of_length(std::size_t i, const std::vector<Point_2>& places, double scale) const;
@@ -103,18 +109,41 @@ private:
   double m_square;
   std::vector<std::vector<Point_2>> m_rest; // in texels on the page
   std::vector<Control_net> m_nets;
+  std::vector<char> m_is_affine; // of the maps of each chart
 };
+
+// Returns whether there is nothing more to be tried.
+inline bool Chart_bending::bend_all()
+{
+  std::vector<Plane_vector_d> points;
+  Border_contacts contacts(m_sizes);
+  add_nets(points, contacts);
+  Elastic_charts charts(std::move(points), std::move(contacts), m_sizes);
+  for(const Control_net& net : m_nets)
+    charts.add_chart(net.elements(), net.differences());
+  std::vector<Elastic_charts::State> states;
+  if(!grow(charts, states))
+    return true;
+  for(int i = 0; i < most_states && !states.empty() && charts.scale() > 1.; ++i) {
+    if(try_to_take(charts))
+      return true;
+    charts.restore(states.back());
+    states.pop_back();
+  }
+  return false;
+}
 
 // Adds the control points and borders of the charts.
 inline void Chart_bending::add_nets(std::vector<Plane_vector_d>& points, Border_contacts& contacts)
 {
-  m_rest.resize(m_maps.size());
+  m_rest.assign(m_maps.size(), {});
+  m_nets.clear();
   m_nets.reserve(m_maps.size());
   for(std::size_t i = 0; i < m_maps.size(); ++i) {
     const Mapped_chart& map = m_maps[i];
     for(const Point_2& p : map.uv)
       m_rest[i].push_back(m_packing.placements[i](p));
-    m_nets.emplace_back(m_rest[i], map.chart.mesh.triangles, m_square, points);
+    m_nets.emplace_back(m_rest[i], map.chart.mesh.triangles, m_square, m_is_affine[i] != 0, points);
     for(const auto& loop : border_loops(map.chart.border_edges(), m_rest[i].size()))
       contacts.add_loop(std::uint32_t(i), m_packing.placements[i].page, loop, m_rest[i], m_nets[i]);
   }
@@ -178,18 +207,19 @@ inline bool Chart_bending::try_to_take(Elastic_charts& charts)
 {
   constexpr int attempts = 12, patience = 4;
   double stiffness = first_stiffness;
-  std::size_t fewest = (std::numeric_limits<std::size_t>::max)();
+  constexpr std::size_t any = (std::numeric_limits<std::size_t>::max)();
+  std::size_t fewest = any;
   charts.set_stiffness_of_contacts(stiffness);
   for(int i = 0, in_vain = 0; i < attempts && in_vain < patience; ++i) {
     if(!settle(charts))
       return true;
     if(charts.strain() > most_strain * m_strain)
       return false;
-    const std::size_t faults = take(charts);
-    if(faults == 0)
+    const Faults faults = take(charts);
+    if(faults.places + faults.charts == 0)
       return true;
-    in_vain = faults < fewest ? 0 : in_vain + 1;
-    fewest = (std::min)(fewest, faults);
+    in_vain = faults.charts > 0 || faults.places < fewest ? 0 : in_vain + 1;
+    fewest = faults.charts > 0 ? any : (std::min)(fewest, faults.places); // stiffer ones need other places
     stiffness *= harder;
     charts.set_stiffness_of_contacts(stiffness);
   }
@@ -199,7 +229,7 @@ inline bool Chart_bending::try_to_take(Elastic_charts& charts)
 // Until gaps are about what they shall be; returns whether there was time for it.
 inline bool Chart_bending::settle(Elastic_charts& charts) const
 {
-  constexpr int most_steps = 3;
+  constexpr int most_steps = 2;
   const double small = 0.15 * m_sizes.unit;
   for(int i = 0; i < most_steps && charts.step() && charts.worst_gap() > small; ++i)
     if(!m_goes_on())
@@ -281,10 +311,9 @@ inline Chart_outline Chart_bending::outline(std::size_t i, const Elastic_charts&
   return result;
 }
 
-// Returns what speaks against the bent charts: places where they are no packing, and charts whose maps are
-// not valid, which give way there, or become stiffer. If there is nothing, they are those of the packing,
-// unless that uses more of the pages already.
-inline std::size_t Chart_bending::take(Elastic_charts& charts)
+// Where bent charts are no packing they give way, and become stiffer if their maps are not valid. If all is
+// right, they are those of the packing, unless that uses more of the pages already.
+inline Chart_bending::Faults Chart_bending::take(Elastic_charts& charts)
 {
   constexpr double stiffer = 8.;
   Page_check check(m_options, m_packing.pages);
@@ -292,7 +321,7 @@ inline std::size_t Chart_bending::take(Elastic_charts& charts)
     check.add(outline(i, charts), m_packing.placements[i].page);
   charts.widen_gaps(check.faults(), 0.5 * m_sizes.unit);
   if(!check.faults().empty())
-    return check.faults().size();
+    return {check.faults().size(), 0};
   std::vector<std::vector<Point_2>> places(m_maps.size());
   std::vector<Chart_distortion> distortions(m_maps.size());
   std::vector<double> changes(m_maps.size());
@@ -307,24 +336,25 @@ inline std::size_t Chart_bending::take(Elastic_charts& charts)
   const double before = m_packing.utilisation * all;
   double area = 0., changed = 0.;
   std::size_t invalid = 0;
+  const auto spare = [&](std::size_t i) {
+    m_is_affine[i] = 1;
+    charts.stiffen(i, stiffer);
+    ++invalid;
+  };
   for(std::size_t i = 0; i < m_maps.size(); ++i) {
     area += distortions[i].uv_area;
     changed += changes[i];
-    if(!is_valid[i]) {
-      charts.stiffen(i, stiffer);
-      ++invalid;
-    }
+    if(!is_valid[i])
+      spare(i);
   }
   const double mean = changed / before;
   for(std::size_t i = 0; i < m_maps.size() && mean > most_strain * m_strain; ++i)
-    if(is_valid[i] && changes[i] / distortions[i].uv_area * (area / before) >= mean) {
-      charts.stiffen(i, stiffer);
-      ++invalid;
-    }
+    if(is_valid[i] && changes[i] / distortions[i].uv_area * (area / before) >= mean)
+      spare(i);
   if(invalid > 0)
-    return invalid;
+    return {0, invalid};
   if(area <= before)
-    return 0; // nothing is gained
+    return {0, 0}; // nothing is gained
   const double texels = m_packing.texels_per_unit * std::sqrt(area / before);
   for(std::size_t i = 0; i < m_maps.size(); ++i) {
     Mapped_chart& map = m_maps[i];
@@ -343,21 +373,21 @@ inline std::size_t Chart_bending::take(Elastic_charts& charts)
   m_packing.texels_per_unit = texels;
   m_packing.utilisation = area / all;
   m_packing.texel_utilisation = check.texel_utilisation(m_options);
-  return 0;
+  return {0, 0};
 }
 
-// Bends the charts of a packing so that they are larger, until their lengths are changed by `bending`, as a
-// root mean square, or the pages are full; changes nothing if that comes to nothing. The packing stays one,
-// charts one-to-one and within their bound, or hardly further beyond it than they were. `goes_on` is asked
-// from time to time, and all stays as it was if it says no.
+// Bends the charts of a packing so that they are larger, until their lengths are changed by that amount, or
+// the pages are full; changes nothing if that comes to nothing. The packing stays one, charts one-to-one and
+// within their bound, or hardly further beyond it than they were. `goes_on` is asked from time to time, and
+// all stays as it was if it says no.
 //
-// Complexity: some 30 steps of Newton's method for control points on a grid of ten squares a page, which do
-// not depend on the mesh, and linear time for the maps.
-inline void bend_charts(double bending, const Packing_options& options, const Chart_mapping& mapping,
+// Complexity: some 30 steps of Newton's method for control points, whose number does not depend on the mesh,
+// and linear time for the maps.
+inline void bend_charts(const Bending& amount, const Packing_options& options, const Chart_mapping& mapping,
                         const std::function<bool()>& goes_on, std::vector<Mapped_chart>& maps,
                         Packing_result& packing)
 {
-  Chart_bending(bending, options, mapping, goes_on, maps, packing).run();
+  Chart_bending(amount, options, mapping, goes_on, maps, packing).run();
 }
 
 } // namespace internal

@@ -85,7 +85,7 @@ private:
   // a time does not make a denser packing.
   double raising_work() const
   {
-    constexpr double most_charts = 40., least_size = 0.35, largest_size = 4., largest = 8.;
+    constexpr double most_charts = 40., least_size = 0.15, largest_size = 4., largest = 8.;
     const double charts = double(m_outlines.size());
     if(charts > most_charts)
       return 0.;
