@@ -16,7 +16,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -313,11 +312,15 @@ TEST(Page_filling, is_valid_on_bad_surfaces)
   }
 }
 
-// A path that goes through a grid from border to border has on its left what is left of it.
-TEST(Page_filling, the_left_of_a_path)
+// A cut through a grid from border to border has on its left what is left of it, and the map of each side is
+// scaled to the density of the whole.
+TEST(Page_filling, the_sides_of_a_cut)
 {
   const Vertex_index n = 12;
-  const Indexed_triangle_mesh mesh = grid(n, n);
+  SMT::internal::Mapped_chart whole;
+  const Indexed_triangle_mesh& mesh = whole.chart.mesh = grid(n, n);
+  for(const Point_3& p : mesh.points) // denser on the right
+    whole.uv.emplace_back(p.x() * (1. + 0.3 * p.x()), 2. * p.y());
   const CGAL::Indexed_mesh::Triangle_adjacency adjacency(mesh.triangles);
   const auto vertex = [&](double x, double y) {
     for(Vertex_index v = 0; v < mesh.points.size(); ++v)
@@ -326,20 +329,26 @@ TEST(Page_filling, the_left_of_a_path)
     return Vertex_index(-1);
   };
   const double width = mesh.points.back().x();
+  const double density = 2. * (1. + 0.3 * width); // the area in the plane to that on the surface
   for(int at = 1; at < int(width); ++at) {
-    std::vector<Vertex_index> path; // upwards
-    for(int y = 0; y <= int(width); ++y)
-      path.push_back(vertex(at, y));
-    const auto left = SMT::internal::left_of(path, mesh.triangles, adjacency);
-    std::set<std::size_t> expected;
+    SMT::internal::Chart_cut cut;
+    for(int y = 0; y <= int(width); ++y) // upwards
+      cut.path.push_back(vertex(at, y));
+    const SMT::internal::Cut_sides sides = SMT::internal::sides_of(cut, whole, adjacency);
+    ASSERT_TRUE(sides.are_valid()) << at;
+    EXPECT_NEAR(sides.density, density, 1e-12 * density) << at;
+    const double left = 2. * (1. + 0.3 * at); // the areas of strips
+    const double right = (density * width - left * at) / (width - at);
+    EXPECT_NEAR(sides.scale[1] * sides.scale[1] * left, density, 1e-12 * density) << at;
+    EXPECT_NEAR(sides.scale[0] * sides.scale[0] * right, density, 1e-12 * density) << at;
     for(std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       double x = 0.;
       for(const Vertex_index v : mesh.triangles[t])
         x += mesh.points[v].x() / 3.;
-      if(x < at)
-        expected.insert(t);
+      const auto& side = sides.triangles[x < at ? 1 : 0];
+      EXPECT_TRUE(std::binary_search(side.begin(), side.end(), t)) << at << ", " << t;
     }
-    EXPECT_EQ(std::set<std::size_t>(left.begin(), left.end()), expected) << at;
+    EXPECT_EQ(sides.triangles[0].size() + sides.triangles[1].size(), mesh.triangles.size()) << at;
   }
 }
 
