@@ -314,10 +314,12 @@ inline bool Texture_atlas_builder::pack()
       };
   Filled_packing::Bend bend;
   if(may_bend())
-    bend = [&](std::vector<Mapped_chart>& charts, Packing_result& packed, double factor) {
-      Bending amount = {factor * m_options.bending};
-      if(m_options.min_used > 0.)
+    bend = [&](std::vector<Mapped_chart>& charts, Packing_result& packed) {
+      Bending amount = {m_options.bending};
+      if(m_options.min_used > 0.) {
         amount.squares *= 2.;
+        amount.beyond = std::pow(amount.beyond, 1. / Filled_packing::most_bendings);
+      }
       bend_charts(amount, packing, mapping,
                   [&] { return !is_over() && proceed(0.8, 1., 1. - 0.5 * left); }, charts, packed);
     };

@@ -23,14 +23,16 @@ class Filled_packing
 {
 public:
   typedef std::function<Packing_result(const std::vector<Chart_shape>&)> Pack;
-  typedef std::function<void(std::vector<Mapped_chart>&, Packing_result&, double factor)> Bend;
+  typedef std::function<void(std::vector<Mapped_chart>&, Packing_result&)> Bend;
 
-  // All of these must outlive this. `bend`, which may be empty, bends by a multiple of what is usual.
+  static constexpr int most_bendings = 8; // of charts that are not cut in between
+
+  // All of these must outlive this. `bend`, which may be empty, bends as much as is usual.
   Filled_packing(const Texture_atlas_options& options, const Packing_options& pages,
                  const Chart_mapping& mapping, const Pack& pack, const Bend& bend,
                  std::vector<Mapped_chart>& charts)
     : m_options(options), m_pages(pages), m_mapping(mapping), m_pack(pack), m_bend(bend)
-    , m_charts(charts), m_goal(options.min_used - (bend && options.min_used > 0. ? usual_gain : 0.))
+    , m_charts(charts), m_goal(bend ? 0. : options.min_used)
   {}
 
   Packing_result run(bool may_cut)
@@ -56,8 +58,6 @@ public:
   const std::string& why_not_used() const { return m_why_not_used; }
 
 private:
-  static constexpr double usual_gain = 0.05; // of the pages, by bending
-
   std::string reason_for_no_cuts(bool may_cut) const
   {
     constexpr std::size_t most_charts = 200; // with more there is dust for all gaps
@@ -112,43 +112,61 @@ private:
     }
   }
 
+  struct Packed
+  {
+    std::vector<Mapped_chart> charts;
+    Packing_result packing;
+    std::size_t cuts = 0;
+  };
+
+  void take(Packed packed)
+  {
+    m_charts = std::move(packed.charts);
+    m_packing = std::move(packed.packing);
+    m_number_of_cuts = packed.cuts;
+  }
+
   // Bends the charts; if then less is used than shall be, cuts them as they were before to where they are
-  // fuller by what is missing, and bends these. Where no more cuts help they are bent further.
+  // fuller by what is missing, and bends these. The best of these remains.
   void bend()
   {
-    constexpr int rounds = 3;
-    const bool may_cut_more = m_why_not_used.empty() && m_options.min_used > 0.;
+    constexpr int most_rounds = 3;
+    const int rounds = m_why_not_used.empty() && m_options.min_used > 0. ? most_rounds : 1;
+    Packed best;
     for(int i = 1; m_packing.is_ok(); ++i) {
-      std::vector<Mapped_chart> rigid = may_cut_more ? m_charts : std::vector<Mapped_chart>();
-      const Packing_result rigid_packing = m_packing;
-      m_bend(m_charts, m_packing, 1.);
-      const double missing = m_options.min_used - m_packing.utilisation;
-      if(!may_cut_more || missing <= 0. || !m_mapping.has_time())
+      Packed rigid;
+      if(i < rounds)
+        rigid = {m_charts, m_packing, m_number_of_cuts};
+      bend_until_used();
+      if(!m_packing.is_ok())
         return;
-      if(i == rounds)
-        return bend_further(std::move(rigid), rigid_packing);
-      m_goal = rigid_packing.utilisation + missing;
-      std::vector<Mapped_chart> bent = std::exchange(m_charts, std::move(rigid));
-      Packing_result bent_packing = std::exchange(m_packing, rigid_packing);
+      if(m_packing.utilisation < best.packing.utilisation)
+        take(std::move(best));
+      const double missing = m_options.min_used - m_packing.utilisation;
+      if(i == rounds || missing <= 0. || !m_mapping.has_time())
+        return;
+      best = {std::move(m_charts), std::move(m_packing), m_number_of_cuts};
+      const double before = rigid.packing.utilisation;
+      take(std::move(rigid));
+      m_goal = before + missing;
       Page_filler filler(m_charts, m_pages, m_mapping);
       cut_until_used(filler);
-      if(m_packing.is_ok() && m_packing.utilisation <= rigid_packing.utilisation) {
-        rigid = std::exchange(m_charts, std::move(bent));
-        m_packing = std::move(bent_packing);
-        return bend_further(std::move(rigid), rigid_packing);
-      }
+      if(m_packing.is_ok() && m_packing.utilisation <= before)
+        return take(std::move(best));
     }
   }
 
-  // Takes rigid charts that are bent twice as much, if these use more.
-  void bend_further(std::vector<Mapped_chart> charts, Packing_result packing)
+  // Bent charts are bent again, from where they are then, while that helps and less is used than shall be.
+  void bend_until_used()
   {
-    constexpr double factor = 2.;
-    m_bend(charts, packing, factor);
-    if(!packing.is_ok() || packing.utilisation <= m_packing.utilisation)
-      return;
-    m_charts = std::move(charts);
-    m_packing = std::move(packing);
+    constexpr double least_gain = 0.001;
+    double before = 0.;
+    for(int i = 0; i < most_bendings && m_packing.is_ok() && m_mapping.has_time()
+                   && (i == 0 || m_packing.utilisation < m_options.min_used)
+                   && m_packing.utilisation >= before + least_gain; ++i) {
+      before = m_packing.utilisation;
+      m_bend(m_charts, m_packing);
+    }
   }
 
   // The charts without cuts, if they fill the pages as well.

@@ -15,7 +15,6 @@
 #include <iterator>
 #include <memory>
 #include <numeric>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -61,8 +60,8 @@ private:
   void estimate(const Terms& terms, std::vector<Candidate>& candidates) const;
   std::vector<Mapped_chart> parts_of(const Cut_sides& sides, const Mapped_chart& whole,
                                      const Triangle_adjacency& adjacency) const;
-  std::optional<int> level_with(const Terms& terms, const Chart_cut& cut, std::size_t chart,
-                                const std::vector<Packable>& parts, std::vector<Packable>& shapes) const;
+  int level_with(std::size_t chart, const std::vector<Packable>& parts, int least,
+                 std::vector<Packable>& shapes) const;
   bool apply(const Terms& terms, const Candidate& candidate);
 
   // The length of a cut in sides of a page.
@@ -221,15 +220,13 @@ inline void Page_filler::estimate(const Terms& terms, std::vector<Candidate>& ca
       Candidate& c = candidates[begin + i];
       const Chart_cut& cut = m_cuts[c.chart].cuts[c.cut];
       const double price = terms.seam_price * in_sides(cut.length);
-      std::vector<Packable> shapes = m_shapes;
-      shapes[c.chart] = cut.sides[0];
-      shapes.push_back(cut.sides[1]);
       const double needed = used() + price + best;
       c.gain = terms.least_gain - 1.;
       const int least = needed < 1. ? Packing_estimate::level_of(needed) : 1;
       if(least > 0)
         return;
-      c.level = m_estimate.highest_level(shapes, least);
+      std::vector<Packable> shapes;
+      c.level = level_with(c.chart, {cut.sides[0], cut.sides[1]}, least, shapes);
       if(c.level >= least)
         c.gain = Packing_estimate::used(c.level) - used() - price;
     });
@@ -297,19 +294,15 @@ inline std::vector<Mapped_chart> Page_filler::parts_of(const Cut_sides& sides, c
   return result;
 }
 
-// The level of the packing where some shapes take the place of a chart's, if that gains enough for a cut;
-// sets `shapes` to all of them then.
-inline std::optional<int> Page_filler::level_with(const Terms& terms, const Chart_cut& cut, std::size_t chart,
-                                                  const std::vector<Packable>& parts,
-                                                  std::vector<Packable>& shapes) const
+// The level of the packing where some shapes take the place of a chart's, or one below the least that is asked
+// for; sets `shapes` to all of them.
+inline int Page_filler::level_with(std::size_t chart, const std::vector<Packable>& parts, int least,
+                                   std::vector<Packable>& shapes) const
 {
   shapes = m_shapes;
   shapes[chart] = parts[0];
   shapes.insert(shapes.end(), parts.begin() + 1, parts.end());
-  const int least = Packing_estimate::level_of(
-    used() + terms.seam_price * in_sides(cut.length) + terms.least_gain);
-  const int level = m_estimate.highest_level(shapes, least);
-  return level < least ? std::optional<int>() : level;
+  return m_estimate.highest_level(shapes, least);
 }
 
 // Makes a cut, if it gains enough with the parts as they are; all but the first become the last charts.
@@ -322,11 +315,13 @@ inline bool Page_filler::apply(const Terms& terms, const Candidate& candidate)
   const Cut_sides sides = sides_of(cut, whole, adjacency);
   if(!sides.are_valid())
     return false;
+  const double price = terms.seam_price * in_sides(cut.length);
+  const int least = Packing_estimate::level_of(used() + price + terms.least_gain);
   std::vector<Packable> shapes, of_parts;
   for(int k = 0; k < 2; ++k)
     of_parts.push_back(
       std::make_shared<Packable_shape>(scaled(cut.sides[k]->outline(), sides.scale[k])));
-  if(!level_with(terms, cut, candidate.chart, of_parts, shapes))
+  if(level_with(candidate.chart, of_parts, least, shapes) < least)
     return false; // most cuts end here, before the parts are made
   std::vector<Mapped_chart> parts = parts_of(sides, whole, adjacency);
   if(parts.empty())
@@ -334,11 +329,11 @@ inline bool Page_filler::apply(const Terms& terms, const Candidate& candidate)
   of_parts.clear();
   for(const Mapped_chart& part : parts)
     of_parts.push_back(shape_of(part, m_unit));
-  const std::optional<int> level = level_with(terms, cut, candidate.chart, of_parts, shapes);
-  if(!level)
+  const int level = level_with(candidate.chart, of_parts, least, shapes);
+  if(level < least)
     return false;
-  m_paid += terms.seam_price * in_sides(cut.length);
-  m_level = *level;
+  m_paid += price;
+  m_level = level;
   m_shapes = std::move(shapes);
   m_charts[candidate.chart] = std::move(parts[0]);
   std::move(parts.begin() + 1, parts.end(), std::back_inserter(m_charts));

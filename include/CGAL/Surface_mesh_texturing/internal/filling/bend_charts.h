@@ -27,7 +27,8 @@ namespace internal {
 struct Bending
 {
   double change;       // of lengths, as a root mean square
-  double squares = 7.; // along a page, of the grid of control points
+  double squares = 7.;  // along a page, of the grid of control points
+  double beyond = 1.05; // how much further a chart may be beyond the bound on its distortion than it was
 };
 
 // Lets charts grow and bend on their pages; see `bend_charts()`.
@@ -38,7 +39,7 @@ public:
   Chart_bending(const Bending& amount, const Packing_options& options, const Chart_mapping& mapping,
                 const std::function<bool()>& goes_on, std::vector<Mapped_chart>& maps,
                 Packing_result& packing)
-    : m_strain(2. * amount.change * amount.change), m_options(options), m_mapping(mapping), m_goes_on(goes_on)
+    : m_amount(amount), m_strain(2. * amount.change * amount.change), m_options(options), m_mapping(mapping), m_goes_on(goes_on)
     , m_maps(maps), m_packing(packing)
   {
     const Packing_raster raster = exact_raster(options);
@@ -52,6 +53,12 @@ public:
                  - Plane_vector_d{more, more};
     m_sizes.gap = raster.cell * (raster.padding + 1.) + more;
     m_square = side / amount.squares;
+    m_is_affine.assign(maps.size(), 0);
+    for(std::size_t i = 0; i < maps.size(); ++i) {
+      m_rest.emplace_back();
+      for(const Point_2& p : maps[i].uv)
+        m_rest[i].push_back(packing.placements[i](p));
+    }
   }
 
   void run()
@@ -59,12 +66,10 @@ public:
     if(m_maps.empty() || m_maps.size() > most_charts
        || !std::all_of(m_maps.begin(), m_maps.end(), is_bendable))
       return;
-    m_is_affine.assign(m_maps.size(), 0);
     // Those that became invalid where they bent are only stretched in the next round
-    std::vector<char> before;
-    for(int round = 0; round < rounds && m_is_affine != before; ++round) {
-      before = m_is_affine;
-      if(bend_all())
+    for(int round = 0; round < rounds; ++round) {
+      m_has_more_affine = false;
+      if(bend_all() || !m_has_more_affine)
         return;
     }
   }
@@ -99,6 +104,7 @@ private:
   double changes_of_length(std::size_t i, const std::vector<Point_2>& places, double scale) const;
   Chart_outline outline(std::size_t i, const Elastic_charts& charts) const;
 
+  const Bending m_amount;
   double m_strain; // see `Elastic_charts::strain()`
   const Packing_options& m_options;
   const Chart_mapping& m_mapping;
@@ -110,6 +116,7 @@ private:
   std::vector<std::vector<Point_2>> m_rest; // in texels on the page
   std::vector<Control_net> m_nets;
   std::vector<char> m_is_affine; // of the maps of each chart
+  bool m_has_more_affine = false;
 };
 
 // Returns whether there is nothing more to be tried.
@@ -136,15 +143,12 @@ inline bool Chart_bending::bend_all()
 // Adds the control points and borders of the charts.
 inline void Chart_bending::add_nets(std::vector<Plane_vector_d>& points, Border_contacts& contacts)
 {
-  m_rest.assign(m_maps.size(), {});
   m_nets.clear();
   m_nets.reserve(m_maps.size());
   for(std::size_t i = 0; i < m_maps.size(); ++i) {
-    const Mapped_chart& map = m_maps[i];
-    for(const Point_2& p : map.uv)
-      m_rest[i].push_back(m_packing.placements[i](p));
-    m_nets.emplace_back(m_rest[i], map.chart.mesh.triangles, m_square, m_is_affine[i] != 0, points);
-    for(const auto& loop : border_loops(map.chart.border_edges(), m_rest[i].size()))
+    const Chart_mesh& chart = m_maps[i].chart;
+    m_nets.emplace_back(m_rest[i], chart.mesh.triangles, m_square, m_is_affine[i] != 0, points);
+    for(const auto& loop : border_loops(chart.border_edges(), m_rest[i].size()))
       contacts.add_loop(std::uint32_t(i), m_packing.placements[i].page, loop, m_rest[i], m_nets[i]);
   }
 }
@@ -248,7 +252,9 @@ inline bool Chart_bending::bend(std::size_t i, const Elastic_charts& charts, std
     places.emplace_back(p.x, p.y);
   }
   const Chart_distortion& given = m_maps[i].report.distortion;
-  const auto most = [](double bound, double before) { return before > bound ? 1.05 * before : bound; };
+  const auto most = [this](double bound, double before) {
+    return before > bound ? m_amount.beyond * before : bound;
+  };
   Distortion_bound allowed = {any, any};
   if(m_mapping.is_bounded)
     allowed = {most(m_mapping.bound.area_scale, given.area_scale),
@@ -337,6 +343,7 @@ inline Chart_bending::Faults Chart_bending::take(Elastic_charts& charts)
   double area = 0., changed = 0.;
   std::size_t invalid = 0;
   const auto spare = [&](std::size_t i) {
+    m_has_more_affine = m_has_more_affine || m_is_affine[i] == 0;
     m_is_affine[i] = 1;
     charts.stiffen(i, stiffer);
     ++invalid;
