@@ -362,10 +362,8 @@ TEST(Page_filling, large_charts_are_mapped_only_if_there_is_hope)
     return SMT::Border_first_chart_parameterizer()(chart);
   };
   const auto charts_of = [&mapping](const Indexed_triangle_mesh& mesh) {
-    SMT::internal::Mapped_chart whole;
-    whole.chart = SMT::chart_meshes(mesh, SMT::charts_of_labels(
-      mesh.triangles, std::vector<std::uint32_t>(mesh.triangles.size(), 0)))[0];
-    return SMT::internal::map_anew(whole, mapping);
+    return SMT::internal::map_anew(SMT::chart_meshes(mesh, SMT::charts_of_labels(
+      mesh.triangles, std::vector<std::uint32_t>(mesh.triangles.size(), 0)))[0], mapping);
   };
   const Indexed_triangle_mesh flat = grid(170, 170), cap = on_sphere(round_disk(100), 2.8);
   ASSERT_GT(cap.triangles.size(), 50000u);

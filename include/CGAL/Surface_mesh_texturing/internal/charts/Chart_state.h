@@ -41,26 +41,31 @@ inline bool is_worth_stretching(const Chart_distortion& conformal, const Distort
 
 typedef Simple_cartesian<double>::Point_2 Trial_uv;
 
-// A map with little stretch, without a flipped triangle; empty if there is none. If it is within the bound,
-// and its border meets itself, that which does not, which takes longer; or that at once. `progress` as of
-// `Low_stretch_options`.
+// A map with little stretch, without a flipped triangle, whose border need not meet itself; empty if there is
+// none. `progress` as of `Low_stretch_options`.
+inline std::vector<Trial_uv> stretch_map(const Indexed_mesh::Indexed_triangle_mesh& chart,
+                                         bool is_one_to_one,
+                                         const std::function<bool(double)>& progress = nullptr)
+{
+  Surface_mesh_parameterization::Low_stretch_options options;
+  options.tolerance = 1e-2;
+  options.progress = progress;
+  options.is_one_to_one = is_one_to_one;
+  return Surface_mesh_parameterization::low_stretch_map(chart, options).uv;
+}
+
+// The same; only if such a map is within the bound, and its border meets itself, that which does not, which
+// takes longer.
 inline std::vector<Trial_uv> stretch_map(const Indexed_mesh::Indexed_triangle_mesh& chart,
                                          const std::vector<Border_edge>& border,
                                          const Distortion_bound& bound,
-                                         std::function<bool(double)> progress = nullptr,
-                                         bool is_one_to_one = false)
+                                         const std::function<bool(double)>& progress = nullptr)
 {
-  namespace SMP = Surface_mesh_parameterization;
-  SMP::Low_stretch_options options;
-  options.tolerance = 1e-2;
-  options.progress = std::move(progress);
-  options.is_one_to_one = is_one_to_one;
-  std::vector<Trial_uv> uv = SMP::low_stretch_map(chart, options).uv;
-  if(is_one_to_one || uv.empty() || !measure_chart_distortion(chart, uv).is_within(bound)
-     || SMP::is_simple_border(border, uv))
+  std::vector<Trial_uv> uv = stretch_map(chart, false, progress);
+  if(uv.empty() || !measure_chart_distortion(chart, uv).is_within(bound)
+     || Surface_mesh_parameterization::is_simple_border(border, uv))
     return uv;
-  options.is_one_to_one = true;
-  return SMP::low_stretch_map(chart, options).uv;
+  return stretch_map(chart, true, progress);
 }
 
 // What the map of a possible chart is like.

@@ -40,6 +40,7 @@ struct Chart_mapping
   // Of a chart that may have a higher bound where the surface is rough, see `rough_bound()`
   std::size_t least_rough_faces = (std::numeric_limits<std::size_t>::max)();
   std::size_t most_charts = (std::numeric_limits<std::size_t>::max)(); // or none at all
+  bool gives_up = false; // on a large chart if a coarser version of it has no valid map
 
   bool has_time() const { return !is_over || !is_over(); }
 };
@@ -51,6 +52,7 @@ struct Mapped_chart
   std::vector<Point_2> uv;
   Chart_report report;
   Distortion_bound bound; // of itself and of its parts
+  bool is_stretched = false; // to be within the bound
   bool is_valid = false;
 };
 
@@ -168,34 +170,22 @@ inline Chart_mesh coarse_version(const Indexed_triangle_mesh& chart)
   return result;
 }
 
-// The map with little stretch of a large chart that will need one, as a coarser version of it tells, and
-// its distortion; nothing if it is not within the bound, or better made as for other charts.
-inline std::vector<Point_2> stretch_large_chart(const Indexed_triangle_mesh& mesh,
-                                                const std::vector<Border_edge>& border,
-                                                const Distortion_bound& bound,
-                                                const Chart_mapping& mapping, Chart_distortion& distortion)
+// Takes the map with little stretch of a chart if that is within the bound.
+inline void stretch_within_bound(const std::vector<Border_edge>& border, const Chart_mapping& mapping,
+                                 bool is_one_to_one, Mapped_chart& mapped)
 {
-  constexpr double clearly = 1.1; // the power of the bound
-  if(mesh.triangles.size() < large_chart || !mapping.may_stretch || !mapping.has_time())
-    return {};
-  const Chart_mesh coarse = coarse_version(mesh);
-  const std::vector<Point_2> conformal = mapping.parameterize(coarse.mesh);
-  if(conformal.size() != coarse.mesh.points.size())
-    return {};
-  const Chart_distortion coarse_distortion = measure_chart_distortion(coarse.mesh, conformal);
-  const Distortion_bound exceeded = {std::pow(bound.area_scale, clearly), bound.quasi_conformal};
-  if(coarse_distortion.is_within(exceeded) || !is_worth_stretching(coarse_distortion, bound))
-    return {};
-  const std::vector<Border_edge> coarse_border = coarse.border_edges();
-  const std::vector<Point_2> free = stretch_map(coarse.mesh, {}, bound);
-  if(free.empty() || !measure_chart_distortion(coarse.mesh, free).is_within(bound))
-    return {};
-  const bool overlaps = !Surface_mesh_parameterization::is_simple_border(coarse_border, free);
-  std::vector<Point_2> uv
-    = stretch_map(mesh, border, bound, [&mapping](double) { return mapping.has_time(); }, overlaps);
-  if(!uv.empty())
-    distortion = measure_chart_distortion(mesh, uv);
-  return distortion.is_within(bound) ? uv : std::vector<Point_2>();
+  const Indexed_triangle_mesh& mesh = mapped.chart.mesh;
+  const auto progress = [&mapping](double) { return mapping.has_time(); };
+  std::vector<Point_2> uv = is_one_to_one ? stretch_map(mesh, true, progress)
+                                          : stretch_map(mesh, border, mapped.bound, progress);
+  if(uv.empty())
+    return;
+  const Chart_distortion distortion = measure_chart_distortion(mesh, uv);
+  if(!distortion.is_within(mapped.bound))
+    return;
+  mapped.uv = std::move(uv);
+  mapped.report.distortion = distortion;
+  mapped.is_stretched = true;
 }
 
 // Maps a chart and says whether the map is one-to-one and within the bound.
@@ -219,8 +209,16 @@ inline Mapped_chart map_chart(Chart_mesh chart, const Distortion_bound& bound,
   const auto is_allowed = [&](const Chart_distortion& distortion) {
     return !mapping.is_bounded || distortion.is_within(result.bound) || !mapping.has_time();
   };
-  result.uv = stretch_large_chart(mesh, border, result.bound, mapping, result.report.distortion);
-  if(result.uv.empty()) {
+  if(mesh.triangles.size() >= large_chart && (mapping.may_stretch || mapping.gives_up) && mapping.has_time()) {
+    constexpr double margin = 1.1; // the power of the bound, for a coarser version, which is mapped soon
+    const Distortion_bound about = {std::pow(bound.area_scale, margin), std::pow(bound.quasi_conformal, margin)};
+    const Mapped_chart coarse = map_chart(coarse_version(mesh), about, mapping);
+    if(!coarse.is_valid && mapping.gives_up)
+      return result;
+    if(coarse.is_valid && coarse.is_stretched) // borders that meet are often seen on the fine chart alone
+      stretch_within_bound(border, mapping, true, result);
+  }
+  if(!result.is_stretched) {
     result.uv = mapping.parameterize(mesh);
     if(result.uv.size() != mesh.points.size())
       return result;
@@ -228,16 +226,8 @@ inline Mapped_chart map_chart(Chart_mesh chart, const Distortion_bound& bound,
     if(mesh.triangles.size() >= mapping.least_rough_faces && !is_allowed(result.report.distortion))
       result.bound = higher_bound(bound, rough_bound(mesh, mapping.parameterize, mapping.bound));
     if(mapping.may_stretch && mapping.has_time()
-       && is_worth_stretching(result.report.distortion, result.bound)) {
-      const std::vector<Point_2> uv = stretch_map(mesh, border, result.bound,
-                                                  [&mapping](double) { return mapping.has_time(); });
-      const Chart_distortion distortion
-        = uv.empty() ? result.report.distortion : measure_chart_distortion(mesh, uv);
-      if(distortion.is_within(result.bound)) {
-        result.uv = uv;
-        result.report.distortion = distortion;
-      }
-    }
+       && is_worth_stretching(result.report.distortion, result.bound))
+      stretch_within_bound(border, mapping, false, result);
   }
   if(!scale_to_surface(result.report.distortion, result.uv)
      || !is_allowed(result.report.distortion))
@@ -283,15 +273,6 @@ inline std::vector<Mapped_chart> map_each(std::vector<Chart_mesh> charts,
     result[order[i]] = map_chart(std::move(charts[order[i]]), bounds[order[i]], mapping);
   });
   return result;
-}
-
-// Whether a large chart can hardly have a valid map: a coarser version of it, which is mapped soon, has none.
-inline bool is_hopeless(const Indexed_triangle_mesh& chart, const Chart_mapping& mapping)
-{
-  constexpr double margin = 1.1; // the power of the bound
-  const Distortion_bound bound = {std::pow(mapping.bound.area_scale, margin),
-                                  std::pow(mapping.bound.quasi_conformal, margin)};
-  return chart.triangles.size() >= large_chart && !map_chart(coarse_version(chart), bound, mapping).is_valid;
 }
 
 // Cuts a chart that may not stay as it is into smaller ones, given as parts of the whole mesh.
@@ -368,15 +349,11 @@ inline std::vector<Mapped_chart> map_charts(std::vector<Chart_mesh> charts,
 }
 
 // The same for one chart, whose map is not used.
-inline std::vector<Mapped_chart> map_anew(Mapped_chart mapped, const Chart_mapping& mapping)
+inline std::vector<Mapped_chart> map_anew(Chart_mesh chart, Chart_mapping mapping)
 {
+  mapping.gives_up = true;
   std::vector<Chart_mesh> charts;
-  if(is_hopeless(mapped.chart.mesh, mapping)) {
-    mapped.bound = mapping.bound;
-    charts = cut_again(mapped, mapping);
-  } else {
-    charts.push_back(std::move(mapped.chart));
-  }
+  charts.push_back(std::move(chart));
   std::size_t recut;
   return map_charts(std::move(charts), mapping, [](double) { return true; }, recut);
 }

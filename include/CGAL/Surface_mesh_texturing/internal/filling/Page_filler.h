@@ -276,7 +276,7 @@ inline std::vector<Mapped_chart> Page_filler::parts_of(const Cut_sides& sides, c
     }
     Chart_mapping mapping = m_mapping;
     mapping.most_charts = most_parts - result.size() - (&part == &both[0] ? 1 : 0); // another one comes
-    std::vector<Mapped_chart> smaller = map_anew(std::move(part), mapping);
+    std::vector<Mapped_chart> smaller = map_anew(std::move(part.chart), mapping);
     if(smaller.empty())
       return {};
     std::move(smaller.begin(), smaller.end(), std::back_inserter(result));
