@@ -307,6 +307,23 @@ TEST(Chart_bending, goes_as_far_as_it_may)
   }
 }
 
+// What is asked for beyond a first bending comes from further ones, not from cuts, each from where charts are.
+TEST(Chart_bending, is_repeated_before_charts_are_cut)
+{
+  for(const Named_mesh& shape : shapes()) {
+    SMT::Texture_atlas_options options = with_bending(0.02);
+    options.seam_price = std::numeric_limits<double>::infinity();
+    const auto once = SMT::build_texture_atlas(shape.mesh, options);
+    options.min_used = once.report.utilisation + 0.01;
+    const auto again = SMT::build_texture_atlas(shape.mesh, options);
+    ASSERT_EQ(again.error, "") << shape.name << seed_text;
+    EXPECT_EQ(error_in_atlas(shape.mesh, again.atlas), "") << shape.name << seed_text;
+    EXPECT_GE(again.report.utilisation, options.min_used) << shape.name << seed_text;
+    EXPECT_EQ(again.report.page_cuts, 0u) << shape.name << seed_text;
+    EXPECT_EQ(again.atlas.charts.number_of_charts, once.atlas.charts.number_of_charts) << shape.name << seed_text;
+  }
+}
+
 // Several pages, and a mip level at which charts are apart.
 TEST(Chart_bending, keeps_gaps_of_several_pages_and_mip_levels)
 {

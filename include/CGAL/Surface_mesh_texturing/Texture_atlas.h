@@ -64,9 +64,9 @@ struct Texture_atlas_options
   /// the map of the chart. Infinity for no such cuts. There are none beyond `max_charts`, for a
   /// segmenter that is not bounded, with a given density of texels, nor if there are very many charts.
   double seam_price = 0.005;
-  /// The part of the pages that is to be used: charts are cut, whatever the seams cost, until it is. Where
-  /// no cut helps any more, they bend up to twice as far; if that is not enough,
-  /// `Texture_atlas_report::utilisation` is less. 0 for what `seam_price` says.
+  /// The part of the pages that is to be used: charts bend up to eight times, see `bending`, each time from
+  /// where they are; where that does not do they are cut, whatever the seams cost, and bend anew. If nothing
+  /// helps any more, `Texture_atlas_report::utilisation` is less. 0 for what `seam_price` says.
   double min_used = 0.;
   /// How far charts bend on their pages so that they fill more of them: the change of lengths, as a root
   /// mean square over all charts and directions. They grow together, and where they touch each other or the

@@ -545,7 +545,8 @@ def atlas(vertices: Any, faces: Any = None, /, *, max_charts: int = 0, seam_pric
         the bounds allow.
     seam_price: the part of a page that a seam as long as its side must gain if it only fills the page;
         math.inf for no such seams.
-    min_used: the part of the pages to use, in [0, 1); charts are cut until it is, or no cut helps.
+    min_used: the part of the pages to use, in [0, 1); charts bend again, and are cut, until it is, or nothing
+        helps.
     bending: how far charts bend so that they fill the pages more, as a change of lengths; 0 for none.
     area_scale, quasi_conformal: how far a chart may be distorted: the range of its area scale, and
         its ratio s1 / s2.
