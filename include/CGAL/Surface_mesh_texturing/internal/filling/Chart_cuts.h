@@ -8,6 +8,7 @@
 #include <CGAL/Surface_mesh_texturing/internal/charts/map_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/filling/Chord_finder.h>
 #include <CGAL/Surface_mesh_texturing/internal/filling/Packing_estimate.h>
+#include <CGAL/Surface_mesh_texturing/internal/seams/Refinable_seam_graph.h>
 
 #include <algorithm>
 #include <array>
@@ -15,6 +16,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <queue>
 #include <unordered_map>
 #include <utility>
@@ -54,7 +56,7 @@ inline Chart_outline polygon_outline(const std::vector<Vector_2d>& polygon, doub
 struct Chart_cut
 {
   std::vector<Vertex_index> path; // along edges from border to border, in between off the border
-  double length = 0.;             // in the plane, in units of the outlines
+  double length = 0.;             // in the plane, in units of the outlines, less along creases
   std::array<Packable, 2> sides;  // what is on its right, and on its left
   bool is_rejected = false;       // it was tried, and gained too little
 };
@@ -87,9 +89,20 @@ private:
   const std::vector<Triangle_indices>& triangles() const { return m_map.chart.mesh.triangles; }
   Vector_2d at(Vertex_index v) const { return {m_map.uv[v].x(), m_map.uv[v].y()}; }
 
+  // What the edge of a halfedge, which is not on the border, counts: its length in the plane, less on a crease.
+  double seam_length(Halfedge h) const
+  {
+    const Halfedge opposite = m_adjacency->opposite(h);
+    const auto vertex = [this](Halfedge g) { return vertex_of(triangles(), g); };
+    const Vertex_index v = vertex(h), w = vertex(next_halfedge(h));
+    const auto flat = m_creases->length(v, w);
+    const auto counted = m_creases->length(v, w, vertex(previous_halfedge(h)), vertex(previous_halfedge(opposite)));
+    return distance(at(v), at(w)) * (flat > 0 ? double(counted) / double(flat) : 1.);
+  }
+
   void find_loop();
   std::vector<std::size_t> ends_of_chords() const;
-  Vertices find_path(Vertex_index a, Vertex_index b, double band) const;
+  Vertices find_path(Vertex_index a, Vertex_index b, double band, double& seam) const;
   bool make(const Chord& chord, const std::vector<std::size_t>& ends, Chart_cut& cut) const;
 
   std::vector<Vector_2d> thinned(const Vertices& loop) const
@@ -106,6 +119,7 @@ private:
   double m_unit;
   Vertices m_loop;                  // the border, counterclockwise; none if it is not one loop
   std::vector<bool> m_is_on_border; // of each vertex, once cuts are looked for
+  std::optional<Crease_metric> m_creases;
   std::unique_ptr<Triangle_adjacency> m_adjacency;
   std::unique_ptr<Indexed_mesh::Triangles_at_vertices> m_corners;
 };
@@ -147,14 +161,14 @@ inline std::vector<std::size_t> Chart_cut_finder::ends_of_chords() const
 
 // The shortest path of inner edges between two border vertices that is no farther than `band` from
 // the segment between them, and off the border but for its ends; what is beside the segment counts
-// more. Empty if there is none.
+// more, creases less. Empty if there is none; its length with creases as short becomes `seam`.
 inline Chart_cut_finder::Vertices Chart_cut_finder::find_path(Vertex_index a, Vertex_index b,
-                                                              double band) const
+                                                              double band, double& seam) const
 {
-  constexpr double price_of_distance = 4.;
+  constexpr double price_of_distance = 2.;
   struct Reached
   {
-    double length;
+    double price, seam;
     Vertex_index from;
   };
   typedef std::pair<double, Vertex_index> Offer;
@@ -166,7 +180,7 @@ inline Chart_cut_finder::Vertices Chart_cut_finder::find_path(Vertex_index a, Ve
     const double s = (std::max)(0., (std::min)(1., t));
     return distance(p, {start[0] + s * (end[0] - start[0]), start[1] + s * (end[1] - start[1])});
   };
-  std::unordered_map<Vertex_index, Reached> reached = {{a, {0., a}}};
+  std::unordered_map<Vertex_index, Reached> reached = {{a, {0., 0., a}}};
   std::priority_queue<Offer, std::vector<Offer>, std::greater<Offer>> offers;
   offers.push({0., a});
   const auto offer = [&](Vertex_index v, Vertex_index w, Halfedge h, double so_far) {
@@ -178,11 +192,11 @@ inline Chart_cut_finder::Vertices Chart_cut_finder::find_path(Vertex_index a, Ve
     const double aside = beside({0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1])});
     if(aside > band)
       return;
-    const double sum = so_far + distance(p, q) * (1. + price_of_distance * aside / length);
-    const auto [place, is_new] = reached.insert({w, {sum, v}});
-    if(!is_new && !(sum < place->second.length))
+    const double edge = seam_length(h), sum = so_far + edge * (1. + price_of_distance * aside / length);
+    const auto [place, is_new] = reached.insert({w, {sum, 0., v}});
+    if(!is_new && !(sum < place->second.price))
       return;
-    place->second = {sum, v};
+    place->second = {sum, reached.at(v).seam + edge, v};
     offers.push({sum, w});
   };
   while(!offers.empty()) {
@@ -190,7 +204,7 @@ inline Chart_cut_finder::Vertices Chart_cut_finder::find_path(Vertex_index a, Ve
     offers.pop();
     if(v == b)
       break;
-    if(sum > reached.at(v).length)
+    if(sum > reached.at(v).price)
       continue;
     for(const Halfedge* h = m_corners->begin(v); h != m_corners->end(v); ++h) {
       offer(v, vertex_of(triangles(), next_halfedge(*h)), *h, sum);
@@ -201,6 +215,7 @@ inline Chart_cut_finder::Vertices Chart_cut_finder::find_path(Vertex_index a, Ve
   Vertices path;
   if(reached.count(b) == 0)
     return path;
+  seam = reached.at(b).seam;
   for(Vertex_index v = b; v != a; v = reached.at(v).from)
     path.push_back(v);
   path.push_back(a);
@@ -219,13 +234,13 @@ inline bool Chart_cut_finder::make(const Chord& chord, const std::vector<std::si
                                 / double(triangles().size()));
   double band = (std::max)(first_band * chord.length, 3. * edge);
   for(cut.path.clear(); cut.path.empty() && band < 4. * widest * chord.length; band *= 4.)
-    cut.path = find_path(m_loop[i], m_loop[j], (std::min)(band, widest * chord.length));
+    cut.path = find_path(m_loop[i], m_loop[j], (std::min)(band, widest * chord.length), cut.length);
   double length = 0.;
   for(std::size_t k = 0; k + 1 < cut.path.size(); ++k)
     length += distance(at(cut.path[k]), at(cut.path[k + 1]));
   if(cut.path.empty() || length > most_detour * chord.length)
     return false;
-  cut.length = length / m_unit;
+  cut.length /= m_unit;
   Vertices first(m_loop.begin() + i, m_loop.begin() + j);
   first.insert(first.end(), cut.path.rbegin(), cut.path.rend() - 1);
   Vertices second(m_loop.begin() + j, m_loop.end());
@@ -254,6 +269,7 @@ inline std::vector<Chart_cut> Chart_cut_finder::find()
   if(chords.empty())
     return result;
   m_adjacency = std::make_unique<Triangle_adjacency>(triangles());
+  m_creases.emplace(m_map.chart.mesh.points, Crease_weights());
   m_corners = std::make_unique<Indexed_mesh::Triangles_at_vertices>(triangles(), m_map.uv.size());
   m_is_on_border.assign(m_map.uv.size(), false);
   for(const Vertex_index v : m_loop)
