@@ -314,10 +314,10 @@ inline bool Texture_atlas_builder::pack()
       };
   Filled_packing::Bend bend;
   if(may_bend())
-    bend = [&](std::vector<Mapped_chart>& charts, Packing_result& packed) {
+    bend = [&](std::vector<Mapped_chart>& charts, Packing_result& packed, int before) {
       Bending amount = {m_options.bending};
       if(m_options.min_used > 0.) {
-        amount.squares *= 2.;
+        amount.squares *= before % 2 == 0 ? 1. : 2.; // coarse grids bend thin triangles less, fine ones fill more
         amount.beyond = std::pow(amount.beyond, 1. / Filled_packing::most_bendings);
       }
       bend_charts(amount, packing, mapping,

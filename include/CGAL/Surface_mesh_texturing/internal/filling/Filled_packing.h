@@ -23,11 +23,11 @@ class Filled_packing
 {
 public:
   typedef std::function<Packing_result(const std::vector<Chart_shape>&)> Pack;
-  typedef std::function<void(std::vector<Mapped_chart>&, Packing_result&)> Bend;
+  typedef std::function<void(std::vector<Mapped_chart>&, Packing_result&, int before)> Bend;
 
   static constexpr int most_bendings = 8; // of charts that are not cut in between
 
-  // All of these must outlive this. `bend`, which may be empty, bends as much as is usual.
+  // All of these must outlive this. `bend`, which may be empty, is told how often charts were bent before.
   Filled_packing(const Texture_atlas_options& options, const Packing_options& pages,
                  const Chart_mapping& mapping, const Pack& pack, const Bend& bend,
                  std::vector<Mapped_chart>& charts)
@@ -160,12 +160,13 @@ private:
   void bend_until_used()
   {
     constexpr double least_gain = 0.001;
-    double before = 0.;
-    for(int i = 0; i < most_bendings && m_packing.is_ok() && m_mapping.has_time()
-                   && (i == 0 || m_packing.utilisation < m_options.min_used)
-                   && m_packing.utilisation >= before + least_gain; ++i) {
-      before = m_packing.utilisation;
-      m_bend(m_charts, m_packing);
+    constexpr int patience = 2;
+    for(int i = 0, in_vain = 0; i < most_bendings && in_vain < patience && m_mapping.has_time(); ++i) {
+      const double before = m_packing.utilisation;
+      m_bend(m_charts, m_packing, i);
+      if(!m_packing.is_ok() || m_packing.utilisation >= m_options.min_used)
+        return;
+      in_vain = m_packing.utilisation < before + least_gain ? in_vain + 1 : 0;
     }
   }
 

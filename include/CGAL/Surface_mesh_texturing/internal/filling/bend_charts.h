@@ -10,7 +10,6 @@
 #include <CGAL/Surface_mesh_texturing/internal/packing/Page_check.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -288,32 +287,17 @@ inline double Chart_bending::changes_of_length(std::size_t i, const std::vector<
   return sum;
 }
 
-// That of a bent chart, whose border vertices stay where they are when flipped triangles are repaired.
+// That of a bent chart on its page, whose border vertices stay where they are when flipped triangles are repaired.
 inline Chart_outline Chart_bending::outline(std::size_t i, const Elastic_charts& charts) const
 {
-  std::vector<std::array<Vector_2d, 2>> edges;
-  for(const Border_edge& e : m_maps[i].chart.border_edges()) {
-    edges.emplace_back();
-    for(int end = 0; end < 2; ++end) {
-      const Plane_vector_d p = m_nets[i].place(e[end], charts.points());
-      edges.back()[end] = {p.x, p.y};
-    }
-  }
-  Vector_2d low = edges[0][0], high = low;
-  for(const auto& e : edges)
-    for(int c = 0; c < 2; ++c) {
-      low[c] = (std::min)(low[c], e[0][c]);
-      high[c] = (std::max)(high[c], e[0][c]);
-    }
-  Chart_outline result;
-  result.centre = {0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])};
-  result.diameter = std::hypot(high[0] - low[0], high[1] - low[1]);
-  const auto relative = [&](const Vector_2d& p) {
-    return Vector_2d{p[0] - result.centre[0], p[1] - result.centre[1]};
+  const auto at = [&](Vertex_index v) {
+    const Plane_vector_d p = m_nets[i].place(v, charts.points());
+    return Vector_2d{p.x, p.y};
   };
+  Chart_outline result;
   result.parts.emplace_back();
-  for(const auto& e : edges)
-    result.parts[0].push_back({relative(e[0]), relative(e[1]), 1});
+  for(const Border_edge& e : m_maps[i].chart.border_edges())
+    result.parts[0].push_back({at(e[0]), at(e[1]), 1});
   return result;
 }
 
