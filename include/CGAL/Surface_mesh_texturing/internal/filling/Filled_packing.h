@@ -23,11 +23,11 @@ class Filled_packing
 {
 public:
   typedef std::function<Packing_result(const std::vector<Chart_shape>&)> Pack;
-  typedef std::function<void(std::vector<Mapped_chart>&, Packing_result&, int before)> Bend;
+  typedef std::function<void(std::vector<Mapped_chart>&, Packing_result&, bool is_fine)> Bend;
 
   static constexpr int most_bendings = 8; // of charts that are not cut in between
 
-  // All of these must outlive this. `bend`, which may be empty, is told how often charts were bent before.
+  // All of these must outlive this. `bend`, which may be empty, is told whether to bend in finer detail.
   Filled_packing(const Texture_atlas_options& options, const Packing_options& pages,
                  const Chart_mapping& mapping, const Pack& pack, const Bend& bend,
                  std::vector<Mapped_chart>& charts)
@@ -156,17 +156,20 @@ private:
     }
   }
 
-  // Bent charts are bent again, from where they are then, while that helps and less is used than shall be.
+  // Bent charts are bent again, from where they are then, while that helps and less is used than shall be. In
+  // finer detail charts fill more, but thin triangles can do less.
   void bend_until_used()
   {
     constexpr double least_gain = 0.001;
     constexpr int patience = 2;
+    bool is_fine = false;
     for(int i = 0, in_vain = 0; i < most_bendings && in_vain < patience && m_mapping.has_time(); ++i) {
       const double before = m_packing.utilisation;
-      m_bend(m_charts, m_packing, i);
+      m_bend(m_charts, m_packing, is_fine);
       if(!m_packing.is_ok() || m_packing.utilisation >= m_options.min_used)
         return;
       in_vain = m_packing.utilisation < before + least_gain ? in_vain + 1 : 0;
+      is_fine = in_vain == 0 || !is_fine;
     }
   }
 
