@@ -320,7 +320,8 @@ TEST(Chart_bending, is_repeated_before_charts_are_cut)
     EXPECT_EQ(error_in_atlas(shape.mesh, again.atlas), "") << shape.name << seed_text;
     EXPECT_GE(again.report.utilisation, options.min_used) << shape.name << seed_text;
     EXPECT_EQ(again.report.page_cuts, 0u) << shape.name << seed_text;
-    EXPECT_EQ(again.atlas.charts.number_of_charts, once.atlas.charts.number_of_charts) << shape.name << seed_text;
+    EXPECT_EQ(again.atlas.charts.number_of_charts, once.atlas.charts.number_of_charts)
+      << shape.name << seed_text;
   }
 }
 

@@ -13,7 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -46,7 +46,8 @@ TEST(Chart_cuts, run_along_creases)
 {
   constexpr double right = 1.5707963267948966;
   std::vector<double> on_folds;
-  for(const auto& [angle, noise] : {std::pair<double, double>{0., 0.}, {0.3, 0.3}, {right, 0.}, {right, 0.02}}) {
+  for(const auto& [angle, noise] :
+      {std::pair<double, double>{0., 0.}, {0.3, 0.3}, {right, 0.}, {right, 0.02}}) {
     on_folds.push_back(0.);
     for(double fold = 5.; fold <= 35.; fold += 1.) {
       SMT::internal::Mapped_chart map;

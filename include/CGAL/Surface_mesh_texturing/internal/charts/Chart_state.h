@@ -41,8 +41,8 @@ inline bool is_worth_stretching(const Chart_distortion& conformal, const Distort
 
 typedef Simple_cartesian<double>::Point_2 Trial_uv;
 
-// A map with little stretch, without a flipped triangle, whose border need not meet itself; empty if there is
-// none. `progress` as of `Low_stretch_options`.
+// A map with little stretch, without a flipped triangle, whose border may meet itself if it need not be
+// one-to-one; empty if there is none. `progress` as of `Low_stretch_options`.
 inline std::vector<Trial_uv> stretch_map(const Indexed_mesh::Indexed_triangle_mesh& chart,
                                          bool is_one_to_one,
                                          const std::function<bool(double)>& progress = nullptr)

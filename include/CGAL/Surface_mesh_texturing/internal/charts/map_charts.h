@@ -209,9 +209,11 @@ inline Mapped_chart map_chart(Chart_mesh chart, const Distortion_bound& bound,
   const auto is_allowed = [&](const Chart_distortion& distortion) {
     return !mapping.is_bounded || distortion.is_within(result.bound) || !mapping.has_time();
   };
-  if(mesh.triangles.size() >= large_chart && (mapping.may_stretch || mapping.gives_up) && mapping.has_time()) {
+  if(mesh.triangles.size() >= large_chart && (mapping.may_stretch || mapping.gives_up)
+     && mapping.has_time()) {
     constexpr double margin = 1.1; // the power of the bound, for a coarser version, which is mapped soon
-    const Distortion_bound about = {std::pow(bound.area_scale, margin), std::pow(bound.quasi_conformal, margin)};
+    const Distortion_bound about = {std::pow(bound.area_scale, margin),
+                                    std::pow(bound.quasi_conformal, margin)};
     const Mapped_chart coarse = map_chart(coarse_version(mesh), about, mapping);
     if(!coarse.is_valid && mapping.gives_up)
       return result;

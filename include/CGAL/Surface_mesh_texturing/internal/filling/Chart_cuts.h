@@ -98,7 +98,8 @@ private:
     const auto vertex = [this](Halfedge g) { return vertex_of(triangles(), g); };
     const Vertex_index v = vertex(h), w = vertex(next_halfedge(h));
     const auto flat = m_creases->length(v, w);
-    const auto counted = m_creases->length(v, w, vertex(previous_halfedge(h)), vertex(previous_halfedge(opposite)));
+    const auto counted = m_creases->length(v, w, vertex(previous_halfedge(h)),
+                                           vertex(previous_halfedge(opposite)));
     return distance(at(v), at(w)) * (flat > 0 ? double(counted) / double(flat) : 1.);
   }
 
@@ -161,11 +162,13 @@ inline std::vector<std::size_t> Chart_cut_finder::ends_of_chords() const
   return result;
 }
 
-// Creases are much sharper than most edges: on rough surfaces there are none.
+// Creases are much sharper than most edges, so that rough surfaces have hardly any: with normal noise one edge
+// of 1500 is five times as sharp as the median.
 inline Crease_weights Chart_cut_finder::crease_weights() const
 {
   constexpr std::size_t samples = 4000;
-  constexpr double sharper = 5., wider = 1.3; // than the median: of normal noise 1 of 1500 is; and the sharpest
+  constexpr double sharper = 5.; // than the median, from which angles on edges count less
+  constexpr double wider = 1.3;  // than that, from which they count least, 180 degrees at most
   Crease_weights result;
   std::vector<double> angles;
   const std::size_t step = 1 + m_adjacency->number_of_halfedges() / samples;

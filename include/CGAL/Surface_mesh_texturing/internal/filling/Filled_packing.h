@@ -32,7 +32,7 @@ public:
                  const Chart_mapping& mapping, const Pack& pack, const Bend& bend,
                  std::vector<Mapped_chart>& charts)
     : m_options(options), m_pages(pages), m_mapping(mapping), m_pack(pack), m_bend(bend)
-    , m_charts(charts), m_goal(bend ? 0. : options.min_used)
+    , m_charts(charts)
   {}
 
   Packing_result run(bool may_cut)
@@ -102,13 +102,13 @@ private:
     } else {
       m_packing = pack();
     }
-    if(!m_packing.is_ok() || m_packing.utilisation >= m_goal)
-      return;
+    if(m_bend || !m_packing.is_ok() || m_packing.utilisation >= m_options.min_used)
+      return; // charts that bend are cut for that only where bending does not do
     if(m_number_of_cuts > 0) {
-      cut_until_used(filler);
+      cut_until_used(filler, m_options.min_used);
     } else { // the charts are not those of the filler any more
       Page_filler anew(m_charts, m_pages, m_mapping);
-      cut_until_used(anew);
+      cut_until_used(anew, m_options.min_used);
     }
   }
 
@@ -148,9 +148,8 @@ private:
       best = {std::move(m_charts), std::move(m_packing), m_number_of_cuts};
       const double before = rigid.packing.utilisation;
       take(std::move(rigid));
-      m_goal = before + missing;
       Page_filler filler(m_charts, m_pages, m_mapping);
-      cut_until_used(filler);
+      cut_until_used(filler, before + missing);
       if(m_packing.is_ok() && m_packing.utilisation <= before)
         return take(std::move(best));
     }
@@ -186,8 +185,8 @@ private:
     m_number_of_cuts = 0;
   }
 
-  // Some cuts, which only help together, and a packing, until enough is used or no more of it is.
-  void cut_until_used(Page_filler& filler)
+  // Some cuts, which only help together, and a packing, until so much is used or no more of it is.
+  void cut_until_used(Page_filler& filler, double goal)
   {
     constexpr int failures_allowed = 3;
     constexpr std::size_t most_cuts = 4;
@@ -195,7 +194,7 @@ private:
     std::vector<Mapped_chart> best = m_charts;
     std::size_t number = m_number_of_cuts;
     for(int failures = 0; failures < failures_allowed && m_mapping.has_time()
-                          && m_packing.utilisation < m_goal;) {
+                          && m_packing.utilisation < goal;) {
       const std::size_t cuts
         = filler.run({0., least_gain, 1., most_cuts, m_options.max_charts});
       if(cuts == 0)
@@ -222,7 +221,6 @@ private:
   const Pack& m_pack;
   const Bend& m_bend;
   std::vector<Mapped_chart>& m_charts;
-  double m_goal; // to be used before charts are bent
   Packing_result m_packing;
   std::size_t m_number_of_cuts = 0;
   std::string m_why_not_used;

@@ -38,8 +38,8 @@ public:
   Chart_bending(const Bending& amount, const Packing_options& options, const Chart_mapping& mapping,
                 const std::function<bool()>& goes_on, std::vector<Mapped_chart>& maps,
                 Packing_result& packing)
-    : m_amount(amount), m_strain(2. * amount.change * amount.change), m_options(options), m_mapping(mapping), m_goes_on(goes_on)
-    , m_maps(maps), m_packing(packing)
+    : m_strain(2. * amount.change * amount.change), m_beyond(amount.beyond), m_options(options)
+    , m_mapping(mapping), m_goes_on(goes_on), m_maps(maps), m_packing(packing)
   {
     const Packing_raster raster = exact_raster(options);
     const double side = double((std::max)(options.width, options.height));
@@ -52,12 +52,6 @@ public:
                  - Plane_vector_d{more, more};
     m_sizes.gap = raster.cell * (raster.padding + 1.) + more;
     m_square = side / amount.squares;
-    m_is_affine.assign(maps.size(), 0);
-    for(std::size_t i = 0; i < maps.size(); ++i) {
-      m_rest.emplace_back();
-      for(const Point_2& p : maps[i].uv)
-        m_rest[i].push_back(packing.placements[i](p));
-    }
   }
 
   void run()
@@ -65,6 +59,11 @@ public:
     if(m_maps.empty() || m_maps.size() > most_charts
        || !std::all_of(m_maps.begin(), m_maps.end(), is_bendable))
       return;
+    m_is_affine.assign(m_maps.size(), 0);
+    m_rest.assign(m_maps.size(), {});
+    for(std::size_t i = 0; i < m_maps.size(); ++i)
+      for(const Point_2& p : m_maps[i].uv)
+        m_rest[i].push_back(m_packing.placements[i](p));
     // Those that became invalid where they bent are only stretched in the next round
     for(int round = 0; round < rounds; ++round) {
       m_has_more_affine = false;
@@ -103,8 +102,8 @@ private:
   double changes_of_length(std::size_t i, const std::vector<Point_2>& places, double scale) const;
   Chart_outline outline(std::size_t i, const Elastic_charts& charts) const;
 
-  const Bending m_amount;
   double m_strain; // see `Elastic_charts::strain()`
+  double m_beyond; // see `Bending`
   const Packing_options& m_options;
   const Chart_mapping& m_mapping;
   const std::function<bool()>& m_goes_on;
@@ -252,7 +251,7 @@ inline bool Chart_bending::bend(std::size_t i, const Elastic_charts& charts, std
   }
   const Chart_distortion& given = m_maps[i].report.distortion;
   const auto most = [this](double bound, double before) {
-    return before > bound ? m_amount.beyond * before : bound;
+    return before > bound ? m_beyond * before : bound;
   };
   Distortion_bound allowed = {any, any};
   if(m_mapping.is_bounded)
@@ -287,7 +286,8 @@ inline double Chart_bending::changes_of_length(std::size_t i, const std::vector<
   return sum;
 }
 
-// That of a bent chart on its page, whose border vertices stay where they are when flipped triangles are repaired.
+// That of a bent chart on its page, whose border vertices stay where they are when flipped triangles are
+// repaired.
 inline Chart_outline Chart_bending::outline(std::size_t i, const Elastic_charts& charts) const
 {
   const auto at = [&](Vertex_index v) {
