@@ -26,6 +26,7 @@ namespace one_to_one_stretch_test {
 using namespace CGAL::Surface_mesh_parameterization;
 using namespace test_support;
 using CGAL::Indexed_mesh::Mesh_status;
+namespace SMP_internal = CGAL::Surface_mesh_parameterization::internal;
 typedef CGAL::Simple_cartesian<double>::Point_2 Point_2;
 
 constexpr std::uint64_t seed = 20261125;
@@ -79,6 +80,57 @@ TEST(One_to_one_stretch, no_two_parts_overlap)
         const Low_stretch_map map = low_stretch_map(chart.mesh, one_to_one());
         EXPECT_EQ(error_in_one_to_one_map(chart.mesh, map), "") << chart.name << ", seed " << s;
       }
+}
+
+// Whatever is hard about a chart; each has a map.
+TEST(One_to_one_stretch, random_charts_have_maps)
+{
+  for(std::uint64_t s = seed; s < seed + 150 * number_of_seeds(); ++s) {
+    const Indexed_triangle_mesh mesh = random_chart(s);
+    EXPECT_EQ(error_in_one_to_one_map(mesh, low_stretch_map(mesh, one_to_one())), "") << "seed " << s;
+  }
+}
+
+// A hole with the surface around it, in a square.
+struct Square_with_hole
+{
+  std::vector<SMP_internal::Plane_point> places = {{0., 0.}, {9., 0.}, {9., 9.}, {0., 9.},
+                                               {4., 4.}, {4., 5.}, {5., 5.}, {5., 4.}};
+  SMP_internal::Border_loops loops = {{0, 1, 2, 3}, {4, 5, 6, 7}};
+};
+
+// No segment of the border meets another one where a vertex goes across a hole with all its others: the hole
+// would be turned over.
+TEST(Border_guard, keeps_holes_from_turning_over)
+{
+  const Square_with_hole square;
+  const SMP_internal::Border_guard guard(square.loops, square.places, 0.);
+  EXPECT_TRUE(guard.allows({4.2, 4.5}, 4, 5, 0.)); // between the ends of an edge: into the hole
+  EXPECT_TRUE(guard.allows({3.5, 4.5}, 4, 5, 0.)); // into the surface
+  EXPECT_FALSE(guard.allows({5.2, 4.5}, 4, 5, 0.)); // across an edge
+  EXPECT_TRUE(guard.allows_move({4.4, 4.3}, 4));
+  EXPECT_FALSE(guard.allows_move({5.5, 5.5}, 4)); // across two edges
+  SMP_internal::Border_loops triangle = {{0, 1, 2, 3}, {4, 5, 6}};
+  std::vector<SMP_internal::Plane_point> places = square.places;
+  places[6] = {4.1, 4.5};
+  const SMP_internal::Border_guard of_triangle(triangle, places, 0.);
+  EXPECT_TRUE(of_triangle.allows({4.05, 4.5}, 4, 5, 0.));
+  EXPECT_FALSE(of_triangle.allows({8., 4.5}, 4, 5, 0.)); // around vertex 6
+  triangle[1] = {4, 5, 6, 7};
+  places[7] = {4.1, 4.4};
+  const SMP_internal::Border_guard of_thin_one(triangle, places, 0.);
+  EXPECT_TRUE(of_thin_one.allows_move({4.04, 5.}, 5));
+  EXPECT_FALSE(of_thin_one.allows_move({8., 4.45}, 5)); // vertex 6 lies between, and no edge is met
+}
+
+// What is too near may go away, but not nearer.
+TEST(Border_guard, lets_borders_go_apart)
+{
+  Square_with_hole square;
+  square.places[6] = {4.02, 4.6};
+  const SMP_internal::Border_guard guard(square.loops, square.places, 0.25);
+  EXPECT_TRUE(guard.allows_move({4.03, 4.6}, 6));
+  EXPECT_FALSE(guard.allows_move({4.01, 4.6}, 6));
 }
 
 // It costs little stretch, and none where the map is one-to-one without it.

@@ -47,13 +47,15 @@ public:
   }
 
   // Whether v may go to z between the ends a and b of an edge of the border, which has the surface on
-  // its left: on that side, where the triangles of v do not turn over, or where nothing is in between.
-  bool allows(const Plane_point& z, Vertex_index a, Vertex_index b) const
+  // its left: on that side, where the triangles of v do not turn over, or where nothing is in between, and
+  // nothing as near as `distance` times the length of an edge.
+  bool allows(const Plane_point& z, Vertex_index a, Vertex_index b, double distance) const
   {
     const Plane_point &p = m_places[a], &q = m_places[b];
     if(is_surely_positive(p, q, z))
       return true;
-    return is_free(z, a, b, 0., [a](const Edge& e) { return e[0] == a; });
+    return is_free(z, nullptr, a, b, distance * longer_edge(z, p, q),
+                   [a](const Edge& e) { return e[0] == a; });
   }
 
   // Whether v, which is on the border, may move to z.
@@ -64,8 +66,8 @@ public:
     if(m_next[b] == a && (is_surely_positive(p, z, q) != is_surely_positive(p, m_places[v], q)
                           || is_surely_positive(p, q, z) != is_surely_positive(p, q, m_places[v])))
       return false; // a border of three vertices would turn over
-    const double longer = std::sqrt((std::max)((p - z).squared_length(), (q - z).squared_length()));
-    return is_free(z, a, b, m_distance * longer, [v](const Edge& e) { return e[0] == v || e[1] == v; });
+    return is_free(z, &m_places[v], a, b, m_distance * longer_edge(z, p, q),
+                   [v](const Edge& e) { return e[0] == v || e[1] == v; });
   }
 
   // Takes note that v, which is on the border, has moved.
@@ -85,6 +87,12 @@ public:
 private:
   typedef std::array<Vertex_index, 2> Edge;
 
+  // That from z to p or to q.
+  static double longer_edge(const Plane_point& z, const Plane_point& p, const Plane_point& q)
+  {
+    return std::sqrt((std::max)((p - z).squared_length(), (q - z).squared_length()));
+  }
+
   static Plane_point lower(const Plane_point& a, const Plane_point& b)
   {
     return {(std::min)(a.x, b.x), (std::min)(a.y, b.y)};
@@ -94,45 +102,72 @@ private:
     return {(std::max)(a.x, b.x), (std::max)(a.y, b.y)};
   }
 
-  // Whether the segments from z to a and b keep off all edges but those of which `is_left_out`.
+  // Whether the border may go from a by z to b, where it goes by `before`, or straight on if that is null:
+  // whether the segments keep off all edges but those of which `is_left_out`, or come no nearer to them, and
+  // no border lies between both ways, as a hole that z goes across would.
   template <class Is_left_out>
-  bool is_free(const Plane_point& z, Vertex_index a, Vertex_index b, double distance,
-               const Is_left_out& is_left_out) const
+  bool is_free(const Plane_point& z, const Plane_point* before, Vertex_index a, Vertex_index b,
+               double distance, const Is_left_out& is_left_out) const
   {
-    const Plane_point &p = m_places[a], &q = m_places[b], margin = {distance, distance};
+    const Plane_point &p = m_places[a], &q = m_places[b], &o = before != nullptr ? *before : p;
+    const Plane_point margin = {distance, distance};
+    const std::array<Plane_point, 4> between = {p, o, q, z};
     bool result = true;
-    const Plane_point low = lower(lower(p, q), z) - margin, high = upper(upper(p, q), z) + margin;
+    const Plane_point low = lower(lower(p, q), lower(o, z)) - margin,
+                      high = upper(upper(p, q), upper(o, z)) + margin;
+    const auto is_too_near = [&](Vertex_index v, const Edge& e) {
+      const double there = distance > 0. ? squared_distance(z, v, e) : distance;
+      return there < distance * distance && !(before != nullptr && there > squared_distance(o, v, e));
+    };
     for_each_cell(low, high, [&](std::uint64_t cell) {
       const auto found = m_edges.find(cell);
       if(!result || found == m_edges.end())
         return;
       for(const Edge& e : found->second)
         if(m_next[e[0]] == e[1] && !is_left_out(e))
-          result = result && !meet(z, a, e, distance) && !meet(z, b, e, distance);
+          result = result && !meet(z, a, e) && !meet(z, b, e) && !is_too_near(a, e) && !is_too_near(b, e)
+                && (e[0] == a || e[0] == b || !contains(between, m_places[e[0]]));
     });
     return result;
   }
 
-  // Whether the segment from z to v has a point of e that is not v itself, or nearly has.
-  bool meet(const Plane_point& z, Vertex_index v, const Edge& e, double distance) const
+  // Whether a polygon, which may cross itself, goes around z an odd number of times.
+  static bool contains(const std::array<Plane_point, 4>& polygon, const Plane_point& z)
+  {
+    bool result = false;
+    for(std::size_t i = 0; i < polygon.size(); ++i) {
+      const Plane_point &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+      if((a.y > z.y) != (b.y > z.y) && ((b - a).cross(z - a) > 0.) == (b.y > a.y))
+        result = !result;
+    }
+    return result;
+  }
+
+  // Whether the segment from z to v has a point of e that is not v itself.
+  bool meet(const Plane_point& z, Vertex_index v, const Edge& e) const
   {
     const Plane_point &p = m_places[v], &a = m_places[e[0]], &b = m_places[e[1]];
-    const double squared = distance * distance;
     if(e[0] == v || e[1] == v) { // they meet if they go in nearly one direction
       const Plane_point& other = e[0] == v ? b : a;
-      return ((other - p).dot(z - p) > 0. && !is_surely_positive(p, other, z)
-              && !is_surely_positive(p, z, other))
-          || (distance > 0. && (squared_distance_to(a, b, z) < squared
-                                || squared_distance_to(p, z, other) < squared));
+      return (other - p).dot(z - p) > 0. && !is_surely_positive(p, other, z)
+          && !is_surely_positive(p, z, other);
     }
     const auto side = [](const Plane_point& o, const Plane_point& r, const Plane_point& s) {
       return is_surely_positive(o, r, s) ? 1 : is_surely_positive(o, s, r) ? -1 : 0;
     };
-    if(side(p, z, a) * side(p, z, b) <= 0 && side(a, b, p) * side(a, b, z) <= 0)
-      return true;
-    return distance > 0.
-        && (squared_distance_to(a, b, z) < squared || squared_distance_to(p, z, a) < squared
-            || squared_distance_to(p, z, b) < squared);
+    return side(p, z, a) * side(p, z, b) <= 0 && side(a, b, p) * side(a, b, z) <= 0;
+  }
+
+  // Of the segment from z to v and an edge, which do not meet, but for that to v itself.
+  double squared_distance(const Plane_point& z, Vertex_index v, const Edge& e) const
+  {
+    const Plane_point &p = m_places[v], &a = m_places[e[0]], &b = m_places[e[1]];
+    double result = squared_distance_to(a, b, z);
+    if(e[0] != v)
+      result = (std::min)(result, squared_distance_to(p, z, a));
+    if(e[1] != v)
+      result = (std::min)(result, squared_distance_to(p, z, b));
+    return result;
   }
 
   // Of z to the segment from a to b.

@@ -85,6 +85,7 @@ private:
   static constexpr std::size_t iterations = 5;   // of conjugate gradients, a Newton step
   static constexpr std::size_t many_iterations = 20; // where these were too few
   static constexpr double residual = 1e-3;       // that ends them, of that before them
+  static constexpr double rounding = 1e-13;      // of an energy
   // Steps on the finest level after which the matrices of coarser ones are no longer trusted: on long
   // tubes and steep noise triangles are stretched otherwise there.
   static constexpr std::size_t patience = 8;
@@ -279,7 +280,7 @@ template <class Energy> template <class Level>
 bool Low_stretch_solver<Energy>::is_enough(const Level& level, std::size_t l, const Newton_steps& newton,
                                            double swept)
 {
-  constexpr double rounding = 1e-13, tolerance_of_coarsest = 1e-7;
+  constexpr double tolerance_of_coarsest = 1e-7;
   const double tolerance_of_coarse = m_levels.is_one_to_one() ? 1e-5 // or borders get stuck
                                    : (std::max)(1e-5, 0.3 * m_options.tolerance);
   constexpr double doubt = 10.; // where a few stiff triangles may hide all others
@@ -377,7 +378,9 @@ void Low_stretch_solver<Energy>::descend(Level& level, std::size_t l)
       if(is_hard || (is_finest && steps == patience))
         m_newton.use(Coarse_matrices::GALERKIN);
       m_newton(level, is_hard ? many_iterations : iterations, residual);
-      is_done = is_enough(level, l, m_newton, level.sweep(0.));
+      const bool is_stuck = m_newton.is_stuck((std::max)(rounding, m_options.tolerance) * level.value());
+      const double swept = level.sweep(is_stuck ? share_of_queue : 0.);
+      is_done = is_enough(level, l, m_newton, swept) && !is_stuck;
       m_report.converged = is_done && is_finest;
     }
   }

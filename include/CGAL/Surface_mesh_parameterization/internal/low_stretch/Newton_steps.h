@@ -190,6 +190,9 @@ public:
   bool is_solved() const { return m_is_solved; }
   // Whether no triangle that would have turned over made the step short.
   bool is_full() const { return m_is_full; }
+  // Whether the last step did not move, though the second order foretold, if it is a number at all, that
+  // the energy falls by more than that.
+  bool is_stuck(double energy) const { return !(m_gain > 0.) && !(m_solved <= energy); }
 
   // Where such a step goes; `slope` becomes the derivative of the energy there. Fixed vertices go by
   // `pulled`, if it is not empty, and all others as the energy, up to the second order, is least then.

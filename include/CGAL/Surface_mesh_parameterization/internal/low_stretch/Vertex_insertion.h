@@ -206,26 +206,31 @@ private:
 
   // Moves the place z that was found for v so that the border does not cross itself there: towards the
   // edge that v divides; beyond it, to the inside, where v has more than one triangle; or very near to
-  // it. Returns whether there is a valid place.
+  // it. Of these the place of least energy, off other borders if there is one; returns whether there is any.
   bool keep_off_border(Vertex_index v, Plane_point& z, double& energy) const
   {
+    constexpr double off = 0.1; // the length of an edge, where the barrier does not rise steeply yet
     const Vertex_index a = previous(v), b = m_rings.ring(v)[0];
     const Plane_point &p = m_places[a], &q = m_places[b];
-    if(m_guard->allows(z, a, b))
+    if(m_guard->allows(z, a, b, off))
       return true;
-    const Plane_point middle = (p + q) * 0.5, way = z - middle;
-    for(const double part : {0.5, 0.25, 0.125}) {
-      z = middle + way * part;
-      energy = m_star.energy_at(z, m_energy);
-      if(energy < infinity && m_guard->allows(z, a, b))
+    const Plane_point middle = (p + q) * 0.5, way = z - middle, across = {q.y - p.y, p.x - q.x};
+    energy = infinity;
+    for(const double distance : {off, 0.}) {
+      const auto consider = [&](const Plane_point& place) {
+        const double there = m_star.energy_at(place, m_energy);
+        if(there < energy && m_guard->allows(place, a, b, distance)) {
+          z = place;
+          energy = there;
+        }
+      };
+      for(const double part : {1., 0.5, 0.25, 0.125})
+        consider(middle + way * part);
+      consider(m_star.middle_of_kernel_beside(p, q));
+      for(double height = 0.25; height > 1e-4; height *= 0.5)
+        consider(middle + across * height);
+      if(energy < infinity)
         return true;
-    }
-    z = m_star.middle_of_kernel_beside(p, q);
-    for(double height = 0.25; height > 1e-4; height *= 0.5) {
-      energy = m_star.energy_at(z, m_energy);
-      if(energy < infinity && m_guard->allows(z, a, b))
-        return true;
-      z = middle + Plane_point{q.y - p.y, p.x - q.x} * height;
     }
     return false;
   }
