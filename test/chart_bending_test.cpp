@@ -200,6 +200,39 @@ struct Lone_square
   std::optional<SMT::internal::Elastic_charts> charts;
 };
 
+// How much the gap of a bay of 6 texels is too small, of which 3 are wanted, where one of its sides leans
+// towards the other one by so much at its open end; each vertex is a control point.
+double worst_gap_of_bay(double lean)
+{
+  std::vector<Point_2> uv;
+  for(const double y : {10., 30., 80.})
+    for(const double x : {10., 30., 36., 56.})
+      uv.emplace_back(x, y);
+  const std::vector<Triangle_indices> triangles = {{0, 1, 5}, {0, 5, 4}, {1, 2, 6}, {1, 6, 5}, {2, 3, 7},
+                                                   {2, 7, 6}, {4, 5, 9}, {4, 9, 8}, {6, 7, 11}, {6, 11, 10}};
+  std::vector<Vector> points;
+  const Control_net net(uv, triangles, 5., false, points);
+  SMT::internal::Border_contacts contacts({{100., 100.}, {1., 1.}, {99., 99.}, 3., 1.});
+  contacts.add_loop(0, 0, {0, 1, 2, 3, 7, 11, 10, 6, 5, 9, 8, 4}, uv, net);
+  contacts.set_gaps(points);
+  EXPECT_EQ(points.size(), uv.size());
+  for(Vector& p : points)
+    if(p.x > 33. && p.y > 50.)
+      p.x -= lean;
+  contacts.find(points);
+  return contacts.worst();
+}
+
+// Sides that have gone through each other are as far apart as before, but beyond 0.
+TEST(Border_contacts, know_the_sides_of_a_bay_beyond_each_other)
+{
+  EXPECT_EQ(worst_gap_of_bay(0.), 0.);
+  const double near_zero = worst_gap_of_bay(5.9); // 0.1 is left at the corner
+  EXPECT_GT(near_zero, 2.9);
+  EXPECT_NEAR(worst_gap_of_bay(6.1), near_zero + 0.2, 1e-9);
+  EXPECT_NEAR(worst_gap_of_bay(8.), near_zero + 2.1, 1e-9);
+}
+
 // What nothing is in the way of grows as it should, without strain; what the page is too small for is
 // as large as the page, and then not bent either.
 TEST(Elastic_charts, grow_until_they_meet_the_sides)

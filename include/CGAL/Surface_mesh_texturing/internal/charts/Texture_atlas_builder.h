@@ -314,11 +314,9 @@ inline bool Texture_atlas_builder::pack()
       };
   Filled_packing::Bend bend;
   if(may_bend())
-    bend = [&](std::vector<Mapped_chart>& charts, Packing_result& packed, bool is_fine) {
+    bend = [&](std::vector<Mapped_chart>& charts, Packing_result& packed, int fineness) {
       Bending amount = {m_options.bending};
-      amount.squares *= is_fine ? 2. : 1.;
-      if(m_options.min_used > 0.)
-        amount.beyond = std::pow(amount.beyond, 1. / Filled_packing::most_bendings);
+      amount.squares *= fineness;
       bend_charts(amount, packing, mapping,
                   [&] { return !is_over() && proceed(0.8, 1., 1. - 0.5 * left); }, charts, packed);
     };

@@ -149,6 +149,13 @@ private:
 
   double reach() const { return 1.5 * m_sizes.gap + 6. * m_sizes.unit; }
 
+  // Where the nearest point of a piece is at rest.
+  Vector rest_of(const Nearest_on_piece& nearest) const
+  {
+    const Sample& begin = m_samples[nearest.piece->sample];
+    return begin.rest * (1. - nearest.part) + m_samples[begin.next].rest * nearest.part;
+  }
+
   std::vector<std::uint32_t> kept_vertices(const std::vector<std::uint32_t>& loop,
                                            const std::vector<Chart_shape::Point_2>& uv) const;
   Contact contact(std::uint32_t i, const Nearest_on_piece& nearest, const Vector& normal, double gap,
@@ -246,8 +253,15 @@ inline void Border_contacts::add_contacts_with_charts(std::uint32_t i,
   const Sample& sample = m_samples[i];
   const Vector out = outward(m_places[sample.next] - m_places[sample.previous]);
   Nearest_on_piece own;
+  double own_sign = 1.; // -1 where the sides of the bay have gone through each other
   own.squared_distance = (sample.wanted + sample.more) * (sample.wanted + sample.more);
   nearest.clear();
+  // Unlike the sides of a thin part of the chart
+  const auto faced_at_rest = [&](const Nearest_on_piece& near) {
+    const Vector way = sample.rest - rest_of(near);
+    const double cosine = -outward(m_samples[sample.next].rest - m_samples[sample.previous].rest).dot(way);
+    return cosine > 0. && cosine * cosine > facing * facing * way.squared_length();
+  };
   // Pieces that face each other are turned to each other
   constexpr double turned = 0.82; // cos(pi - 2 acos(facing))
   const auto matters = [&](const Border_piece& piece) {
@@ -260,9 +274,14 @@ inline void Border_contacts::add_contacts_with_charts(std::uint32_t i,
       const auto faces = [&](double cosine) { // times the distance
         return cosine > 0. && cosine * cosine > facing * facing * near.squared_distance;
       };
-      if(near.squared_distance < own.squared_distance && faces(piece.outward.dot(near.way))
-         && faces(-out.dot(near.way)))
+      const double there = piece.outward.dot(near.way), here = -out.dot(near.way);
+      if(!(near.squared_distance < own.squared_distance))
+        return;
+      const bool is_across = faces(-there) && faces(-here) && faced_at_rest(near);
+      if(is_across || (faces(there) && faces(here))) {
         own = near;
+        own_sign = is_across ? -1. : 1.;
+      }
       return;
     }
     const auto of_chart = std::find_if(nearest.begin(), nearest.end(), [&](const auto& n) {
@@ -274,13 +293,11 @@ inline void Border_contacts::add_contacts_with_charts(std::uint32_t i,
       *of_chart = near;
   });
   if(own.piece != nullptr && own.squared_distance > 0.) {
-    const Sample& there = m_samples[own.piece->sample];
-    const Vector rest = there.rest * (1. - own.part) + m_samples[there.next].rest * own.part;
     const double distance = std::sqrt(own.squared_distance);
     const double least = (std::min)(sample.wanted + sample.more,
-                                    kept * std::sqrt((sample.rest - rest).squared_length()));
-    if(distance < least)
-      contacts.push_back(contact(i, own, own.way * (1. / distance), distance, least));
+                                    kept * std::sqrt((sample.rest - rest_of(own)).squared_length()));
+    if(own_sign * distance < least)
+      contacts.push_back(contact(i, own, own.way * (own_sign / distance), own_sign * distance, least));
   }
   for(const Nearest_on_piece& near : nearest) {
     const std::uint32_t j = near.piece->sample, next = m_samples[j].next;

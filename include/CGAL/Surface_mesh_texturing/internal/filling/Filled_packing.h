@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,11 +24,10 @@ class Filled_packing
 {
 public:
   typedef std::function<Packing_result(const std::vector<Chart_shape>&)> Pack;
-  typedef std::function<void(std::vector<Mapped_chart>&, Packing_result&, bool is_fine)> Bend;
+  typedef std::function<void(std::vector<Mapped_chart>&, Packing_result&, int fineness)> Bend;
 
-  static constexpr int most_bendings = 8; // of charts that are not cut in between
-
-  // All of these must outlive this. `bend`, which may be empty, is told whether to bend in finer detail.
+  // All of these must outlive this. `bend`, which may be empty, is told in how many times finer detail than
+  // usual it shall be done; the bounds of charts are those of bent ones then.
   Filled_packing(const Texture_atlas_options& options, const Packing_options& pages,
                  const Chart_mapping& mapping, const Pack& pack, const Bend& bend,
                  std::vector<Mapped_chart>& charts)
@@ -137,6 +137,7 @@ private:
       Packed rigid;
       if(i < rounds)
         rigid = {m_charts, m_packing, m_number_of_cuts};
+      set_bounds();
       bend_until_used();
       if(!m_packing.is_ok())
         return;
@@ -155,20 +156,38 @@ private:
     }
   }
 
+  // Bent charts stay within the bound, or hardly further beyond it than they were.
+  void set_bounds()
+  {
+    constexpr double any = (std::numeric_limits<double>::infinity)(), beyond = 1.05;
+    const auto most = [](double bound, double before) { return before > bound ? beyond * before : bound; };
+    for(Mapped_chart& map : m_charts) {
+      const Chart_distortion& d = map.report.distortion;
+      map.bound = {any, any};
+      if(m_mapping.is_bounded)
+        map.bound = {most(m_mapping.bound.area_scale, d.area_scale),
+                     most(m_mapping.bound.quasi_conformal, d.quasi_conformal)};
+    }
+  }
+
   // Bent charts are bent again, from where they are then, while that helps and less is used than shall be. In
-  // finer detail charts fill more, but thin triangles can do less.
+  // finer detail charts fill more, but thin triangles can do less; so where it does not help they go on in
+  // still finer detail, and from the finest one in the coarsest.
   void bend_until_used()
   {
     constexpr double least_gain = 0.001;
-    constexpr int patience = 2;
-    bool is_fine = false;
+    constexpr int most_bendings = 16, patience = 3, finest = 4;
+    int fineness = 1;
     for(int i = 0, in_vain = 0; i < most_bendings && in_vain < patience && m_mapping.has_time(); ++i) {
       const double before = m_packing.utilisation;
-      m_bend(m_charts, m_packing, is_fine);
+      m_bend(m_charts, m_packing, fineness);
       if(!m_packing.is_ok() || m_packing.utilisation >= m_options.min_used)
         return;
       in_vain = m_packing.utilisation < before + least_gain ? in_vain + 1 : 0;
-      is_fine = in_vain == 0 || !is_fine;
+      if(in_vain == 0)
+        fineness = (std::max)(fineness, 2);
+      else
+        fineness = fineness < finest ? 2 * fineness : 1;
     }
   }
 

@@ -26,8 +26,7 @@ namespace internal {
 struct Bending
 {
   double change;       // of lengths, as a root mean square
-  double squares = 7.;  // along a page, of the grid of control points
-  double beyond = 1.05; // how much further a chart may be beyond the bound on its distortion than it was
+  double squares = 7.; // along a page, of the grid of control points
 };
 
 // Lets charts grow and bend on their pages; see `bend_charts()`.
@@ -38,8 +37,8 @@ public:
   Chart_bending(const Bending& amount, const Packing_options& options, const Chart_mapping& mapping,
                 const std::function<bool()>& goes_on, std::vector<Mapped_chart>& maps,
                 Packing_result& packing)
-    : m_strain(2. * amount.change * amount.change), m_beyond(amount.beyond), m_options(options)
-    , m_mapping(mapping), m_goes_on(goes_on), m_maps(maps), m_packing(packing)
+    : m_strain(2. * amount.change * amount.change), m_options(options), m_mapping(mapping)
+    , m_goes_on(goes_on), m_maps(maps), m_packing(packing)
   {
     const Packing_raster raster = exact_raster(options);
     const double side = double((std::max)(options.width, options.height));
@@ -103,7 +102,6 @@ private:
   Chart_outline outline(std::size_t i, const Elastic_charts& charts) const;
 
   double m_strain; // see `Elastic_charts::strain()`
-  double m_beyond; // see `Bending`
   const Packing_options& m_options;
   const Chart_mapping& m_mapping;
   const std::function<bool()>& m_goes_on;
@@ -156,6 +154,7 @@ inline void Chart_bending::add_nets(std::vector<Plane_vector_d>& points, Border_
 inline bool Chart_bending::grow(Elastic_charts& charts, std::vector<Elastic_charts::State>& states) const
 {
   constexpr int most_steps = 100, patience = 4, steps_to_relax = 2; // in all, and without better gaps
+  constexpr int most_halvings = 2;                   // of a growth that entangles charts
   constexpr double least_gain = 0.2;                 // of the scale, to what it should be
   constexpr double most_bent = 1.5, stiffer = 2.;    // a ratio of lengths, and what comes of it
   constexpr double any = (std::numeric_limits<double>::infinity)(), better = 0.98;
@@ -163,6 +162,7 @@ inline bool Chart_bending::grow(Elastic_charts& charts, std::vector<Elastic_char
   const double loose = 3. * m_sizes.unit;
   const double largest = (std::min)(0.03, std::sqrt(0.5 * m_strain)); // growth
   double growth = 0., before = 1., best_gap = any;
+  int halvings = 0;
   bool is_careful = false;
   charts.set_stiffness_of_contacts(first_stiffness);
   charts.set_farthest(far * m_sizes.unit);
@@ -180,10 +180,12 @@ inline bool Chart_bending::grow(Elastic_charts& charts, std::vector<Elastic_char
         continue;
       // Some charts are entangled
       charts.restore(states.back());
-      if(is_careful) {
+      if(is_careful && (growth == 0. || ++halvings > most_halvings)) {
         states.pop_back();
         break;
       }
+      if(is_careful)
+        growth *= 0.5;
       is_careful = true;
       charts.set_farthest(near * m_sizes.unit);
     } else {
@@ -239,26 +241,17 @@ inline bool Chart_bending::settle(Elastic_charts& charts) const
   return true;
 }
 
-// Computes the map of a bent chart, and what it is like; returns whether it is one-to-one, and within the
-// bound or not beyond what it was.
+// Computes the map of a bent chart, and what it is like; returns whether it is one-to-one, and within its
+// bound.
 inline bool Chart_bending::bend(std::size_t i, const Elastic_charts& charts, std::vector<Point_2>& places,
                                 Chart_distortion& distortion) const
 {
-  constexpr double any = (std::numeric_limits<double>::infinity)();
   for(std::uint32_t v = 0; v < m_rest[i].size(); ++v) {
     const Plane_vector_d p = m_nets[i].place(v, charts.points());
     places.emplace_back(p.x, p.y);
   }
-  const Chart_distortion& given = m_maps[i].report.distortion;
-  const auto most = [this](double bound, double before) {
-    return before > bound ? m_beyond * before : bound;
-  };
-  Distortion_bound allowed = {any, any};
-  if(m_mapping.is_bounded)
-    allowed = {most(m_mapping.bound.area_scale, given.area_scale),
-               most(m_mapping.bound.quasi_conformal, given.quasi_conformal)};
   const Chart_mesh& chart = m_maps[i].chart;
-  return mend_map(chart.mesh, chart.border_edges(), allowed, places, distortion);
+  return mend_map(chart.mesh, chart.border_edges(), m_maps[i].bound, places, distortion);
 }
 
 // The squares of the relative changes of length of a chart with these places, along both principal directions
@@ -369,8 +362,7 @@ inline Chart_bending::Faults Chart_bending::take(Elastic_charts& charts)
 
 // Bends the charts of a packing so that they are larger, until their lengths are changed by that amount, or
 // the pages are full; changes nothing if that comes to nothing. The packing stays one, charts one-to-one and
-// within their bound, or hardly further beyond it than they were. `goes_on` is asked from time to time, and
-// all stays as it was if it says no.
+// within the bound of each. `goes_on` is asked from time to time, and all stays as it was if it says no.
 //
 // Complexity: some 30 steps of Newton's method for control points, whose number does not depend on the mesh,
 // and linear time for the maps.
