@@ -95,7 +95,7 @@ TEST(One_to_one_stretch, random_charts_have_maps)
 struct Square_with_hole
 {
   std::vector<SMP_internal::Plane_point> places = {{0., 0.}, {9., 0.}, {9., 9.}, {0., 9.},
-                                               {4., 4.}, {4., 5.}, {5., 5.}, {5., 4.}};
+                                                   {4., 4.}, {4., 5.}, {5., 5.}, {5., 4.}};
   SMP_internal::Border_loops loops = {{0, 1, 2, 3}, {4, 5, 6, 7}};
 };
 

@@ -116,7 +116,9 @@ private:
     const Plane_point low = lower(lower(p, q), lower(o, z)) - margin,
                       high = upper(upper(p, q), upper(o, z)) + margin;
     const auto is_too_near = [&](Vertex_index v, const Edge& e) {
-      const double there = distance > 0. ? squared_distance(z, v, e) : distance;
+      if(!(distance > 0.))
+        return false;
+      const double there = squared_distance(z, v, e);
       return there < distance * distance && !(before != nullptr && there > squared_distance(o, v, e));
     };
     for_each_cell(low, high, [&](std::uint64_t cell) {

@@ -256,11 +256,14 @@ inline void Border_contacts::add_contacts_with_charts(std::uint32_t i,
   double own_sign = 1.; // -1 where the sides of the bay have gone through each other
   own.squared_distance = (sample.wanted + sample.more) * (sample.wanted + sample.more);
   nearest.clear();
+  const auto faces = [](double cosine, double squared_distance) { // the cosine times the distance
+    return cosine > 0. && cosine * cosine > facing * facing * squared_distance;
+  };
   // Unlike the sides of a thin part of the chart
   const auto faced_at_rest = [&](const Nearest_on_piece& near) {
     const Vector way = sample.rest - rest_of(near);
-    const double cosine = -outward(m_samples[sample.next].rest - m_samples[sample.previous].rest).dot(way);
-    return cosine > 0. && cosine * cosine > facing * facing * way.squared_length();
+    const Vector out_at_rest = outward(m_samples[sample.next].rest - m_samples[sample.previous].rest);
+    return faces(-out_at_rest.dot(way), way.squared_length());
   };
   // Pieces that face each other are turned to each other
   constexpr double turned = 0.82; // cos(pi - 2 acos(facing))
@@ -271,14 +274,12 @@ inline void Border_contacts::add_contacts_with_charts(std::uint32_t i,
   m_pieces.for_each_near(sample.page, m_places[i], matters, [&](const Nearest_on_piece& near) {
     const Border_piece& piece = *near.piece;
     if(piece.chart == sample.chart) {
-      const auto faces = [&](double cosine) { // times the distance
-        return cosine > 0. && cosine * cosine > facing * facing * near.squared_distance;
-      };
-      const double there = piece.outward.dot(near.way), here = -out.dot(near.way);
-      if(!(near.squared_distance < own.squared_distance))
+      const double squared = near.squared_distance;
+      if(!(squared < own.squared_distance))
         return;
-      const bool is_across = faces(-there) && faces(-here) && faced_at_rest(near);
-      if(is_across || (faces(there) && faces(here))) {
+      const double there = piece.outward.dot(near.way), here = -out.dot(near.way);
+      const bool is_across = faces(-there, squared) && faces(-here, squared) && faced_at_rest(near);
+      if(is_across || (faces(there, squared) && faces(here, squared))) {
         own = near;
         own_sign = is_across ? -1. : 1.;
       }
