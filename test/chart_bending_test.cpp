@@ -340,7 +340,8 @@ TEST(Chart_bending, goes_as_far_as_it_may)
   }
 }
 
-// What is asked for beyond a first bending comes from further ones, not from cuts, each from where charts are.
+// What is asked for beyond a first bending comes from further ones, not from cuts, each from where charts
+// are; but for a page that is full already, and for a strip much longer than the page.
 TEST(Chart_bending, is_repeated_before_charts_are_cut)
 {
   for(const Named_mesh& shape : shapes()) {
@@ -351,7 +352,9 @@ TEST(Chart_bending, is_repeated_before_charts_are_cut)
     const auto again = SMT::build_texture_atlas(shape.mesh, options);
     ASSERT_EQ(again.error, "") << shape.name << seed_text;
     EXPECT_EQ(error_in_atlas(shape.mesh, again.atlas), "") << shape.name << seed_text;
-    EXPECT_GE(again.report.utilisation, options.min_used) << shape.name << seed_text;
+    const bool can_gain = shape.name != "hills" && shape.name != "slivers";
+    EXPECT_GE(again.report.utilisation, can_gain ? options.min_used : once.report.utilisation)
+      << shape.name << seed_text;
     EXPECT_EQ(again.report.page_cuts, 0u) << shape.name << seed_text;
     EXPECT_EQ(again.atlas.charts.number_of_charts, once.atlas.charts.number_of_charts)
       << shape.name << seed_text;
