@@ -166,6 +166,32 @@ TEST(Control_net, reproduces_affine_maps_and_covers_the_chart)
   }
 }
 
+TEST(Control_net, moves_turns_and_scales_rigid_charts_only)
+{
+  for(const auto& [n, size, is_affine] : {std::tuple<int, double, bool>{4, 40., false}, {40, 20., false},
+                                          {40, 100., false}, {40, 20., true}}) {
+    const Indexed_triangle_mesh mesh = with_noise(grid(n, n), 0.2, seed);
+    std::vector<Point_2> uv;
+    for(const Point_3& p : mesh.points)
+      uv.emplace_back(10. + p.x(), 20. + p.y());
+    std::vector<Vector> points;
+    Control_net net(uv, mesh.triangles, size, is_affine, points);
+    EXPECT_EQ(net.make_rigid(), points.size() == 3) << n << seed_text; // if it is linear
+    if(points.size() != 3)
+      continue;
+    const std::vector<Vector> rest = points;
+    for(Vector& p : points)
+      p = {1.2 * p.x - 0.3 * p.y + 7., 0.1 * p.x + 0.9 * p.y - 2.};
+    const Vector alpha = {1.05, 0.2}; // see above
+    for(std::uint32_t v = 0; v < uv.size(); ++v) {
+      const Vector r = net.place(v, rest), p = net.place(v, points) - net.place(0, points);
+      const Vector way = Vector{uv[v].x() - uv[0].x(), uv[v].y() - uv[0].y()}.times(alpha);
+      EXPECT_NEAR(std::hypot(r.x - uv[v].x(), r.y - uv[v].y()), 0., 1e-11) << n << seed_text;
+      EXPECT_NEAR(std::hypot(p.x - way.x, p.y - way.y), 0., 1e-11) << n << seed_text;
+    }
+  }
+}
+
 // A square in the middle of a page, with so many edges along a side.
 struct Lone_square
 {
@@ -337,6 +363,50 @@ TEST(Chart_bending, goes_as_far_as_it_may)
     ASSERT_EQ(built.error, "");
     EXPECT_GT(built.report.utilisation, before + 0.01) << bending;
     before = built.report.utilisation;
+  }
+}
+
+// All but those that are as bad as they may be.
+TEST(Chart_bending, is_for_all_but_charts_at_their_bounds)
+{
+  for(const std::size_t bounded : {2u, 3u}) { // each of so many
+    const Indexed_triangle_mesh mesh = with_hills(torus(30, 12), 0.3, seed);
+    const SMT::Texture_atlas_options options = with_bending(0.);
+    const auto rigid = SMT::build_texture_atlas(mesh, options);
+    ASSERT_EQ(rigid.error, "") << seed_text;
+    std::vector<SMT::Chart_shape> charts;
+    SMT::Packing_result packing = packing_of(rigid, charts);
+    packing.texels_per_unit = 1.;
+    packing.utilisation = rigid.report.utilisation;
+    std::vector<SMT::internal::Mapped_chart> maps;
+    std::vector<SMT::Distortion_bound> bounds;
+    for(SMT::Chart_mesh& chart : SMT::chart_meshes(mesh, rigid.atlas.charts)) {
+      maps.emplace_back();
+      maps.back().uv.resize(chart.vertices.size());
+      for(std::size_t t = 0; t < chart.triangles.size(); ++t)
+        for(int c = 0; c < 3; ++c)
+          maps.back().uv[chart.mesh.triangles[t][c]]
+            = charts[maps.size() - 1].uv[rigid.atlas.mesh.wedges[chart.triangles[t]][c]];
+      SMT::Chart_report& report = maps.back().report;
+      report.is_one_to_one = true;
+      report.distortion = SMT::measure_chart_distortion(chart.mesh, maps.back().uv);
+      maps.back().chart = std::move(chart);
+      constexpr double rounding = 1. + 1e-6, any = std::numeric_limits<double>::infinity();
+      maps.back().bound = {any, any};
+      if(maps.size() % bounded == 0)
+        maps.back().bound = {rounding * report.distortion.area_scale,
+                             rounding * report.distortion.quasi_conformal};
+      bounds.push_back(maps.back().bound);
+    }
+    ASSERT_GE(maps.size(), 3u) << seed_text;
+    SMT::internal::Chart_mapping mapping;
+    mapping.is_bounded = true;
+    SMT::internal::bend_charts({0.03}, options.packing, mapping, [] { return true; }, maps, packing);
+    EXPECT_GT(packing.utilisation, rigid.report.utilisation + 0.01) << bounded << seed_text;
+    for(std::size_t i = 0; i < maps.size(); ++i) {
+      const SMT::Chart_distortion after = SMT::measure_chart_distortion(maps[i].chart.mesh, maps[i].uv);
+      EXPECT_TRUE(after.is_within(bounds[i])) << i << seed_text;
+    }
   }
 }
 

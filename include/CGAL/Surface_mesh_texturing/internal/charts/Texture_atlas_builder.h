@@ -314,9 +314,10 @@ inline bool Texture_atlas_builder::pack()
       };
   Filled_packing::Bend bend;
   if(may_bend())
-    bend = [&](std::vector<Mapped_chart>& charts, Packing_result& packed, int fineness) {
+    bend = [&](std::vector<Mapped_chart>& charts, Packing_result& packed, int fineness, bool is_wary) {
       Bending amount = {m_options.bending};
       amount.squares *= fineness;
+      amount.is_wary = is_wary;
       bend_charts(amount, packing, mapping,
                   [&] { return !is_over() && proceed(0.8, 1., 1. - 0.5 * left); }, charts, packed);
     };

@@ -83,6 +83,7 @@ public:
     } else if(is_affine || (m_columns == 1 && m_rows == 1)) {
       m_kind = Kind::LINEAR;
       m_origin = low;
+      m_middle = (low + high) * 0.5;
       m_size = (std::max)(extent.x, extent.y);
       for(const Vector& p : {low, low + Vector{2. * m_size, 0.}, low + Vector{0., 2. * m_size}})
         points.push_back(p);
@@ -104,9 +105,19 @@ public:
       weigh(vector_of(m_uv[v]), weights);
   }
 
+  // Lets the chart be moved, turned and scaled only from now on, about as its control points are; returns false
+  // if it is not mapped linearly.
+  bool make_rigid()
+  {
+    m_is_rigid = m_kind == Kind::LINEAR;
+    return m_is_rigid;
+  }
+
   // The place of a vertex with control points where `points` says.
   Vector place(std::uint32_t v, const std::vector<Vector>& points) const
   {
+    if(m_is_rigid)
+      return rigid_place(vector_of(m_uv[v]), points);
     Vector result;
     for_each_weight(v, [&](std::uint32_t k, double w) { result = result + points[k] * w; });
     return result;
@@ -179,6 +190,17 @@ private:
       return twice_area(t) > 2. * thin * squared_size(vector_of(m_uv[t[0]]), vector_of(m_uv[t[1]]),
                                                       vector_of(m_uv[t[2]]));
     });
+  }
+
+  // Where the conformal part of the linear map, which is that at the middle, takes a point.
+  Vector rigid_place(const Vector& p, const std::vector<Vector>& points) const
+  {
+    Vector middle, alpha;
+    for_each_weight(m_middle, [&](std::uint32_t k, double w, const Vector& g) {
+      middle = middle + points[k] * w;
+      alpha = alpha + points[k].times(g.conjugate()) * 0.5;
+    });
+    return middle + (p - m_middle).times(alpha);
   }
 
   template <class Use>
@@ -288,6 +310,8 @@ private:
   Kind m_kind = Kind::SPLINES;
   std::uint32_t m_first; // of the control points
   Vector m_origin;       // of the grid, or of the triangle
+  Vector m_middle;       // of a chart that is mapped linearly
+  bool m_is_rigid = false;
   double m_size;         // of a square, or half a side of the triangle
   int m_columns = 1, m_rows = 1; // of squares
 };

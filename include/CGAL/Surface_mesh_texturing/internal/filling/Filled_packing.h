@@ -24,10 +24,11 @@ class Filled_packing
 {
 public:
   typedef std::function<Packing_result(const std::vector<Chart_shape>&)> Pack;
-  typedef std::function<void(std::vector<Mapped_chart>&, Packing_result&, int fineness)> Bend;
+  typedef std::function<void(std::vector<Mapped_chart>&, Packing_result&, int fineness, bool is_wary)> Bend;
 
   // All of these must outlive this. `bend`, which may be empty, is told in how many times finer detail than
-  // usual it shall be done; the bounds of charts are those of bent ones then.
+  // usual it shall be done, and whether it shall be wary of invalid maps; the bounds of charts are those of bent
+  // ones then.
   Filled_packing(const Texture_atlas_options& options, const Packing_options& pages,
                  const Chart_mapping& mapping, const Pack& pack, const Bend& bend,
                  std::vector<Mapped_chart>& charts)
@@ -127,28 +128,33 @@ private:
   }
 
   // Bends the charts; if then less is used than shall be, cuts them as they were before to where they are
-  // fuller by what is missing, and bends these. The best of these remains.
+  // fuller by what is missing, and bends these. Where little is missing they are bent warily before they are cut.
+  // The best of all remains.
   void bend()
   {
-    constexpr int most_rounds = 3;
-    const int rounds = m_why_not_used.empty() && m_options.min_used > 0. ? most_rounds : 1;
+    const int most_cut = m_why_not_used.empty() && m_options.min_used > 0. ? 2 : 0; // times
+    bool is_wary = false;
     Packed best;
-    for(int i = 1; m_packing.is_ok(); ++i) {
+    for(int times_cut = 0; m_packing.is_ok();) {
       Packed rigid;
-      if(i < rounds)
+      if(m_options.min_used > 0.)
         rigid = {m_charts, m_packing, m_number_of_cuts};
       set_bounds();
-      bend_until_used();
+      bend_until_used(is_wary);
       if(!m_packing.is_ok())
         return;
       if(m_packing.utilisation < best.packing.utilisation)
         take(std::move(best));
       const double missing = m_options.min_used - m_packing.utilisation;
-      if(i == rounds || missing <= 0. || !m_mapping.has_time())
+      is_wary = !is_wary && missing < little;
+      if(missing <= 0. || !m_mapping.has_time() || (!is_wary && times_cut == most_cut))
         return;
       best = {std::move(m_charts), std::move(m_packing), m_number_of_cuts};
       const double before = rigid.packing.utilisation;
       take(std::move(rigid));
+      if(is_wary)
+        continue;
+      ++times_cut;
       Page_filler filler(m_charts, m_pages, m_mapping);
       cut_until_used(filler, before + missing);
       if(m_packing.is_ok() && m_packing.utilisation <= before)
@@ -172,18 +178,22 @@ private:
 
   // Bent charts are bent again, from where they are then, while that helps and less is used than shall be. In
   // finer detail charts fill more, but thin triangles can do less; so where it does not help they go on in
-  // still finer detail, and from the finest one in the coarsest.
-  void bend_until_used()
+  // still finer detail, and from the finest one in the coarsest; where little is missing, the other way about
+  // being wary.
+  void bend_until_used(bool is_wary)
   {
     constexpr double least_gain = 0.001;
-    constexpr int most_bendings = 16, patience = 3, finest = 4;
+    constexpr int most_bendings = 32, ways = 3, finest = 4; // one way for each fineness
     int fineness = 1;
-    for(int i = 0, in_vain = 0; i < most_bendings && in_vain < patience && m_mapping.has_time(); ++i) {
+    for(int i = 0, in_vain = 0; i < most_bendings && m_mapping.has_time(); ++i) {
       const double before = m_packing.utilisation;
-      m_bend(m_charts, m_packing, fineness);
-      if(!m_packing.is_ok() || m_packing.utilisation >= m_options.min_used)
+      m_bend(m_charts, m_packing, fineness, is_wary != (in_vain >= ways));
+      const double missing = m_options.min_used - m_packing.utilisation;
+      if(!m_packing.is_ok() || missing <= 0.)
         return;
       in_vain = m_packing.utilisation < before + least_gain ? in_vain + 1 : 0;
+      if(in_vain >= (missing < little ? 2 * ways : ways))
+        return;
       if(in_vain == 0)
         fineness = (std::max)(fineness, 2);
       else
@@ -239,6 +249,8 @@ private:
   const Chart_mapping& m_mapping;
   const Pack& m_pack;
   const Bend& m_bend;
+  static constexpr double little = 0.02; // of the pages, for which much is tried
+
   std::vector<Mapped_chart>& m_charts;
   Packing_result m_packing;
   std::size_t m_number_of_cuts = 0;

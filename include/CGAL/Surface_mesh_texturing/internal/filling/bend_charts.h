@@ -27,6 +27,7 @@ struct Bending
 {
   double change;       // of lengths, as a root mean square
   double squares = 7.; // along a page, of the grid of control points
+  bool is_wary = false; // whether maps are checked before charts are pressed apart, too
 };
 
 // Lets charts grow and bend on their pages; see `bend_charts()`.
@@ -37,7 +38,7 @@ public:
   Chart_bending(const Bending& amount, const Packing_options& options, const Chart_mapping& mapping,
                 const std::function<bool()>& goes_on, std::vector<Mapped_chart>& maps,
                 Packing_result& packing)
-    : m_strain(2. * amount.change * amount.change), m_options(options), m_mapping(mapping)
+    : m_strain(2. * amount.change * amount.change), m_is_wary(amount.is_wary), m_options(options), m_mapping(mapping)
     , m_goes_on(goes_on), m_maps(maps), m_packing(packing)
   {
     const Packing_raster raster = exact_raster(options);
@@ -58,7 +59,9 @@ public:
     if(m_maps.empty() || m_maps.size() > most_charts
        || !std::all_of(m_maps.begin(), m_maps.end(), is_bendable))
       return;
-    m_is_affine.assign(m_maps.size(), 0);
+    m_is_affine.clear();
+    for(const Mapped_chart& map : m_maps)
+      m_is_affine.push_back(is_at_its_bound(map) ? 1 : 0);
     m_rest.assign(m_maps.size(), {});
     for(std::size_t i = 0; i < m_maps.size(); ++i)
       for(const Point_2& p : m_maps[i].uv)
@@ -85,6 +88,15 @@ private:
         && map.report.distortion.flipped_faces + map.report.distortion.degenerate_faces == 0;
   }
 
+  // Then it can hardly bend.
+  static bool is_at_its_bound(const Mapped_chart& map)
+  {
+    constexpr double near = 0.98;
+    const Chart_distortion& d = map.report.distortion;
+    return d.area_scale > near * map.bound.area_scale
+        || d.quasi_conformal > near * map.bound.quasi_conformal;
+  }
+
   bool bend_all();
   void add_nets(std::vector<Plane_vector_d>& points, Border_contacts& contacts);
   bool grow(Elastic_charts& charts, std::vector<Elastic_charts::State>& states) const;
@@ -95,13 +107,14 @@ private:
   {
     std::size_t places, charts;
   };
-  Faults take(Elastic_charts& charts);
+  Faults take(Elastic_charts& charts, bool checks_maps);
   bool bend(std::size_t i, const Elastic_charts& charts, std::vector<Point_2>& places,
             Chart_distortion& distortion) const;
   double changes_of_length(std::size_t i, const std::vector<Point_2>& places, double scale) const;
   Chart_outline outline(std::size_t i, const Elastic_charts& charts) const;
 
   double m_strain; // see `Elastic_charts::strain()`
+  bool m_is_wary;
   const Packing_options& m_options;
   const Chart_mapping& m_mapping;
   const std::function<bool()>& m_goes_on;
@@ -219,7 +232,7 @@ inline bool Chart_bending::try_to_take(Elastic_charts& charts)
       return true;
     if(charts.strain() > most_strain * m_strain)
       return false;
-    const Faults faults = take(charts);
+    const Faults faults = take(charts, m_is_wary && i == 0);
     if(faults.places + faults.charts == 0)
       return true;
     in_vain = faults.charts > 0 || faults.places < fewest ? 0 : in_vain + 1;
@@ -294,16 +307,17 @@ inline Chart_outline Chart_bending::outline(std::size_t i, const Elastic_charts&
   return result;
 }
 
-// Where bent charts are no packing they give way, and become stiffer if their maps are not valid. If all is
-// right, they are those of the packing, unless that uses more of the pages already.
-inline Chart_bending::Faults Chart_bending::take(Elastic_charts& charts)
+// Where bent charts are no packing they give way, and become stiffer or rigid if their maps are not valid, which
+// is found out where they are a packing, or if that is asked for. If all is right, they are those of the packing,
+// unless that uses more of the pages already.
+inline Chart_bending::Faults Chart_bending::take(Elastic_charts& charts, bool checks_maps)
 {
   constexpr double stiffer = 8.;
   Page_check check(m_options, m_packing.pages);
   for(std::size_t i = 0; i < m_maps.size(); ++i)
     check.add(outline(i, charts), m_packing.placements[i].page);
   charts.widen_gaps(check.faults(), 0.5 * m_sizes.unit);
-  if(!check.faults().empty())
+  if(!check.faults().empty() && !checks_maps)
     return {check.faults().size(), 0};
   std::vector<std::vector<Point_2>> places(m_maps.size());
   std::vector<Chart_distortion> distortions(m_maps.size());
@@ -320,8 +334,10 @@ inline Chart_bending::Faults Chart_bending::take(Elastic_charts& charts)
   double area = 0., changed = 0.;
   std::size_t invalid = 0;
   const auto spare = [&](std::size_t i) {
-    m_has_more_affine = m_has_more_affine || m_is_affine[i] == 0;
-    m_is_affine[i] = 1;
+    if(!m_nets[i].make_rigid()) {
+      m_has_more_affine = m_has_more_affine || m_is_affine[i] == 0;
+      m_is_affine[i] = 1;
+    }
     charts.stiffen(i, stiffer);
     ++invalid;
   };
@@ -335,8 +351,8 @@ inline Chart_bending::Faults Chart_bending::take(Elastic_charts& charts)
   for(std::size_t i = 0; i < m_maps.size() && mean > most_strain * m_strain; ++i)
     if(is_valid[i] && changes[i] / distortions[i].uv_area * (area / before) >= mean)
       spare(i);
-  if(invalid > 0)
-    return {0, invalid};
+  if(check.faults().size() + invalid > 0)
+    return {check.faults().size(), invalid};
   if(area <= before)
     return {0, 0}; // nothing is gained
   const double texels = m_packing.texels_per_unit * std::sqrt(area / before);
