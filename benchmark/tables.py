@@ -456,9 +456,10 @@ def one_to_one():
         ratio = float(row["seconds"]) / float(row["free_seconds"])
         lines.append([row["chart"].rsplit("_", 1)[0].replace("_", " "), f"{int(row['faces']):,}",
                       f"{int(row['free_pairs']):,}", number(row, "free_energy", 4),
-                      f"{int(row['pairs']):,}", number(row, "energy", 4), f"{ratio:.1f}"])
+                      f"{int(row['pairs']):,}", number(row, "energy", 4), f"{100. * float(row['gap']):.2f}",
+                      f"{ratio:.1f}"])
     return table(["chart", "faces", "pairs of faces that overlap, without", "energy", "pairs, with",
-                  "energy", "time with / without"], lines)
+                  "energy", "above that of a run until nothing moves, %", "time with / without"], lines)
 
 
 def geometric_mean(values):

@@ -64,8 +64,8 @@ struct Texture_atlas_options
   /// the map of the chart. Infinity for no such cuts. There are none beyond `max_charts`, for a
   /// segmenter that is not bounded, with a given density of texels, nor if there are very many charts.
   double seam_price = 0.005;
-  /// The part of the pages that is to be used: charts bend up to sixteen times, see `bending`, each time from
-  /// where they are; where that does not do they are cut, whatever the seams cost, and bend anew. If nothing
+  /// The part of the pages that is to be used: charts bend many times, see `bending`, each time from where
+  /// they are; where that does not do they are cut, whatever the seams cost, and bend anew. If nothing
   /// helps any more, `Texture_atlas_report::utilisation` is less. 0 for what `seam_price` says.
   double min_used = 0.;
   /// How far charts bend on their pages so that they fill more of them: the change of lengths, as a root
