@@ -59,6 +59,8 @@ public:
   const std::string& why_not_used() const { return m_why_not_used; }
 
 private:
+  static constexpr double little = 0.02; // of the pages, for which much is tried
+
   std::string reason_for_no_cuts(bool may_cut) const
   {
     constexpr std::size_t most_charts = 200; // with more there is dust for all gaps
@@ -249,8 +251,6 @@ private:
   const Chart_mapping& m_mapping;
   const Pack& m_pack;
   const Bend& m_bend;
-  static constexpr double little = 0.02; // of the pages, for which much is tried
-
   std::vector<Mapped_chart>& m_charts;
   Packing_result m_packing;
   std::size_t m_number_of_cuts = 0;
