@@ -110,18 +110,42 @@ double change_of_lengths(const SMT::Texture_atlas& rigid, const SMT::Texture_atl
   return std::sqrt(squares / area);
 }
 
+// The map of a chart of an atlas with these coordinates for its wedges.
+std::vector<Point_2> map_of(const SMT::Chart_mesh& chart, const SMT::Texture_atlas& atlas,
+                            const std::vector<Point_2>& uv)
+{
+  std::vector<Point_2> result(chart.vertices.size());
+  for(std::size_t t = 0; t < chart.triangles.size(); ++t)
+    for(int c = 0; c < 3; ++c)
+      result[chart.mesh.triangles[t][c]] = uv[atlas.mesh.wedges[chart.triangles[t]][c]];
+  return result;
+}
+
+// A square with so many edges along a side, not where the origin is.
+struct Noisy_square
+{
+  explicit Noisy_square(int n) : mesh(with_noise(grid(n, n), 0.2, seed))
+  {
+    for(const Point_3& p : mesh.points)
+      uv.emplace_back(10. + p.x(), 20. + p.y());
+  }
+
+  Indexed_triangle_mesh mesh;
+  std::vector<Point_2> uv;
+};
+
+// Edges along a side of a chart, the size of the squares of its net, and whether it shall be affine: few
+// vertices, a large chart with many, a small one, and one that shall be affine.
+const std::tuple<int, double, bool> nets[]
+  = {{4, 40., false}, {40, 20., false}, {40, 100., false}, {40, 20., true}};
+
 TEST(Control_net, reproduces_affine_maps_and_covers_the_chart)
 {
   const auto affine = [](const Vector& p) {
     return Vector{1.2 * p.x - 0.3 * p.y + 7., 0.1 * p.x + 0.9 * p.y - 2.};
   };
-  // Few vertices, a large chart with many, a small one, and one that shall be affine
-  for(const auto& [n, size, is_affine] : {std::tuple<int, double, bool>{4, 40., false}, {40, 20., false},
-                                          {40, 100., false}, {40, 20., true}}) {
-    const Indexed_triangle_mesh mesh = with_noise(grid(n, n), 0.2, seed);
-    std::vector<Point_2> uv;
-    for(const Point_3& p : mesh.points)
-      uv.emplace_back(10. + p.x(), 20. + p.y());
+  for(const auto& [n, size, is_affine] : nets) {
+    const auto [mesh, uv] = Noisy_square(n);
     std::vector<Vector> points(3); // of others
     const Control_net net(uv, mesh.triangles, size, is_affine, points);
     const std::string where = std::to_string(n) + ", " + std::to_string(points.size()) + seed_text;
@@ -168,12 +192,8 @@ TEST(Control_net, reproduces_affine_maps_and_covers_the_chart)
 
 TEST(Control_net, moves_turns_and_scales_rigid_charts_only)
 {
-  for(const auto& [n, size, is_affine] : {std::tuple<int, double, bool>{4, 40., false}, {40, 20., false},
-                                          {40, 100., false}, {40, 20., true}}) {
-    const Indexed_triangle_mesh mesh = with_noise(grid(n, n), 0.2, seed);
-    std::vector<Point_2> uv;
-    for(const Point_3& p : mesh.points)
-      uv.emplace_back(10. + p.x(), 20. + p.y());
+  for(const auto& [n, size, is_affine] : nets) {
+    const auto [mesh, uv] = Noisy_square(n);
     std::vector<Vector> points;
     Control_net net(uv, mesh.triangles, size, is_affine, points);
     EXPECT_EQ(net.make_rigid(), points.size() == 3) << n << seed_text; // if it is linear
@@ -332,11 +352,7 @@ TEST(Chart_bending, fills_pages_more_and_keeps_what_charts_promise)
     for(std::size_t i = 0; i < meshes.size(); ++i) {
       const SMT::Chart_report& report = bent.report.charts[i];
       EXPECT_TRUE(report.is_one_to_one) << shape.name << seed_text;
-      std::vector<Point_2> uv(meshes[i].vertices.size());
-      for(std::size_t t = 0; t < meshes[i].triangles.size(); ++t)
-        for(int c = 0; c < 3; ++c)
-          uv[meshes[i].mesh.triangles[t][c]]
-            = bent.atlas.mesh.uv[bent.atlas.mesh.wedges[meshes[i].triangles[t]][c]];
+      const std::vector<Point_2> uv = map_of(meshes[i], bent.atlas, bent.atlas.mesh.uv);
       const SMT::Chart_distortion measured = SMT::measure_chart_distortion(meshes[i].mesh, uv);
       EXPECT_NEAR(report.distortion.area_scale, measured.area_scale, 1e-4) << shape.name << seed_text;
       EXPECT_NEAR(report.distortion.quasi_conformal, measured.quasi_conformal, 1e-4)
@@ -382,11 +398,7 @@ TEST(Chart_bending, is_for_all_but_charts_at_their_bounds)
     std::vector<SMT::Distortion_bound> bounds;
     for(SMT::Chart_mesh& chart : SMT::chart_meshes(mesh, rigid.atlas.charts)) {
       maps.emplace_back();
-      maps.back().uv.resize(chart.vertices.size());
-      for(std::size_t t = 0; t < chart.triangles.size(); ++t)
-        for(int c = 0; c < 3; ++c)
-          maps.back().uv[chart.mesh.triangles[t][c]]
-            = charts[maps.size() - 1].uv[rigid.atlas.mesh.wedges[chart.triangles[t]][c]];
+      maps.back().uv = map_of(chart, rigid.atlas, charts[maps.size() - 1].uv);
       SMT::Chart_report& report = maps.back().report;
       report.is_one_to_one = true;
       report.distortion = SMT::measure_chart_distortion(chart.mesh, maps.back().uv);
@@ -399,8 +411,7 @@ TEST(Chart_bending, is_for_all_but_charts_at_their_bounds)
       bounds.push_back(maps.back().bound);
     }
     ASSERT_GE(maps.size(), 3u) << seed_text;
-    SMT::internal::Chart_mapping mapping;
-    mapping.is_bounded = true;
+    const SMT::internal::Chart_mapping mapping = {};
     SMT::internal::bend_charts({0.03}, options.packing, mapping, [] { return true; }, maps, packing);
     EXPECT_GT(packing.utilisation, rigid.report.utilisation + 0.01) << bounded << seed_text;
     for(std::size_t i = 0; i < maps.size(); ++i) {
