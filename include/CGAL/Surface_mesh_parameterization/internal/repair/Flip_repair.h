@@ -242,24 +242,29 @@ inline Flip_repair::Mending Flip_repair::mend(const Flip_patch& patch, double ba
       m_z[vertices.all[i]] = values[i];
   };
   double effort = m_effort;
+  std::size_t branches = before;
+  const auto is_accepted = [&](const Values& untangled) {
+    write(untangled);
+    branches = (std::max)(before, number_of_branches(patch));
+    return branches == before || choice == Branches::ACCEPT;
+  };
   // Around a vertex whose angles have a sum of 4 pi, say, a conformal map winds twice; equal angles
   // lead to another start. From there on, no way without flips changes a winding number.
   for(const Patch_energy& start : {energy, energy.with_equal_angles()}) {
     Values z = old;
-    const bool is_mended = mend_patch(energy, start, barrier, effort, z);
+    const Mended mended = mend_patch(energy, start, barrier, effort, is_accepted, z);
     result.effort = m_effort - effort;
-    if(!is_mended)
+    if(mended == Mended::NO)
       break;
-    write(z);
-    if(!bad_faces(patch.faces).empty()) { // by rounding
-      result.outcome = Outcome::GIVE_UP;
+    if(mended == Mended::YES) {
+      write(z);
+      if(bad_faces(patch.faces).empty())
+        return {Outcome::MENDED,
+                unit * (energy.conformal_energy(z) - energy.conformal_energy(old)),
+                branches - before, result.effort};
+      result.outcome = Outcome::GIVE_UP; // what is left is by rounding
       break;
     }
-    const std::size_t after = (std::max)(before, number_of_branches(patch));
-    if(after == before || choice == Branches::ACCEPT)
-      return {Outcome::MENDED,
-              unit * (energy.conformal_energy(z) - energy.conformal_energy(old)), after - before,
-              result.effort};
     if(patch.vertices.size() > largest_branched)
       result.outcome = Outcome::GIVE_UP;
   }

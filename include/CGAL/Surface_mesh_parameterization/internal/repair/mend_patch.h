@@ -12,6 +12,7 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <utility>
 
 namespace CGAL {
 namespace Surface_mesh_parameterization {
@@ -107,27 +108,37 @@ inline bool untangle(const Patch_energy& energy, double& effort, Patch_energy::V
   return false;
 }
 
+enum class Mended { YES, REFUSED, NO };
+
 // Moves the free values of a patch to where all its triangles have positive areas and its conformal
-// energy is near the least one that can be had so; returns whether it succeeded. `start` is the
-// energy that untangles, `barrier` the weight of the term that keeps areas away from 0. Takes what
-// it needs from `effort`; if that is over it fails, or the energy stays somewhat higher.
-inline bool mend_patch(const Patch_energy& energy, const Patch_energy& start, double barrier,
-                       double& effort, Patch_energy::Values& z)
+// energy is near the least one that can be had so, unless `is_accepted(z)` is false of where it is
+// first free of flips: then it is refused. `start` is the energy that untangles, `barrier` the
+// weight of the term that keeps areas away from 0. Takes what it needs from `effort`; if that is over
+// it fails, or the energy stays somewhat higher.
+template <class Predicate>
+Mended mend_patch(const Patch_energy& energy, const Patch_energy& start, double barrier,
+                  double& effort, const Predicate& is_accepted, Patch_energy::Values& z)
 {
   const double scale = std::sqrt(energy.area_scale(z));
   if(!(scale > 0.) || !std::isfinite(scale))
-    return false;
+    return Mended::NO;
   const std::complex<double> origin = z.back();
+  const auto back = [&](Patch_energy::Values values) {
+    for(auto& value : values)
+      value = origin + scale * value;
+    return values;
+  };
   for(auto& value : z)
     value = (value - origin) / scale;
-  const bool is_mended = untangle(start, effort, z);
+  if(!untangle(start, effort, z))
+    return Mended::NO;
+  if(!is_accepted(back(z)))
+    return Mended::REFUSED;
   Patch_minimizer minimizer(energy, effort);
-  if(is_mended)
-    for(double weight = 0.1; weight > 0.5 * barrier; weight *= 0.1)
-      minimizer.minimize(z, Energy_terms{1., (std::max)(weight, barrier), 0., 0.}, 30, 1e-6);
-  for(auto& value : z)
-    value = origin + scale * value;
-  return is_mended;
+  for(double weight = 0.1; weight > 0.5 * barrier; weight *= 0.1)
+    minimizer.minimize(z, Energy_terms{1., (std::max)(weight, barrier), 0., 0.}, 30, 1e-6);
+  z = back(std::move(z));
+  return Mended::YES;
 }
 
 } // namespace internal
