@@ -1,19 +1,20 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The cuts through a chart, and the maps of its parts.
+// The cuts through a chart, the maps of its parts, and when charts are packed once more.
 
 #include <support/chart_generators.h>
 #include <support/texture_atlas_properties.h>
 
 #include <CGAL/Surface_mesh_texturing/build_texture_atlas.h>
-#include <CGAL/Surface_mesh_texturing/internal/filling/Page_filler.h>
+#include <CGAL/Surface_mesh_texturing/internal/filling/Filled_packing.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -151,6 +152,47 @@ TEST(Chart_cuts, large_charts_are_mapped_only_if_there_is_hope)
   ASSERT_EQ(stretched.size(), 1u);
   EXPECT_TRUE(stretched[0].is_valid && stretched[0].report.distortion.is_within(mapping.bound));
   EXPECT_EQ(large_maps, 2u);
+}
+
+// Where charts bend in vain a packing is searched for longer, and the best of all is taken. Here a usual
+// packing uses 0.6 of the page and a longer search 0.7, and bending adds what it is said to.
+TEST(Filled_packing, is_searched_for_longer_where_charts_bend_in_vain)
+{
+  struct Case
+  {
+    double usual_gain, close_gain; // by bending
+    double used;
+    std::size_t searched_for_longer;
+  };
+  SMT::Texture_atlas_options options;
+  options.seam_price = std::numeric_limits<double>::infinity();
+  options.min_used = 0.9;
+  options.max_charts = 1; // no cuts
+  const SMT::internal::Chart_mapping mapping;
+  for(const Case& c : {Case{0.35, 0., 0.95, 0}, {0.05, 0.05, 0.75, 1}, {0.2, 0.05, 0.8, 1},
+                       {0., 0.25, 0.95, 1}}) {
+    std::size_t longer = 0;
+    const SMT::internal::Filled_packing::Pack pack
+      = [&](const std::vector<SMT::Chart_shape>& shapes, double more_time) {
+          longer += more_time > 0. ? 1 : 0;
+          SMT::Packing_result result;
+          result.pages = 1;
+          result.placements.resize(shapes.size());
+          result.utilisation = more_time > 0. ? 0.7 : 0.6;
+          return result;
+        };
+    const SMT::internal::Filled_packing::Bend bend
+      = [&](std::vector<SMT::internal::Mapped_chart>&, SMT::Packing_result& packing, int, bool) {
+          const bool is_close = longer > 0;
+          packing.utilisation = is_close ? 0.7 + c.close_gain : 0.6 + c.usual_gain;
+        };
+    std::vector<SMT::internal::Mapped_chart> charts(1);
+    cuts_of_folded(20., 0., 0., charts[0]);
+    SMT::internal::Filled_packing filled(options, options.packing, mapping, pack, bend, charts);
+    EXPECT_DOUBLE_EQ(filled.run(true).utilisation, c.used);
+    EXPECT_EQ(longer, c.searched_for_longer) << c.used;
+    EXPECT_EQ(filled.why_not_used().empty(), c.used >= options.min_used) << c.used;
+  }
 }
 
 } // namespace chart_cuts_test

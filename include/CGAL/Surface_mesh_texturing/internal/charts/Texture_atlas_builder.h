@@ -307,8 +307,10 @@ inline bool Texture_atlas_builder::pack()
   m_page_height = packing.height
     = best_page_height(m_options.largest_aspect, packing, mapping, m_maps);
   const Filled_packing::Pack pack_shapes
-    = [&](const std::vector<Chart_shape>& shapes) {
-        Packing_result result = m_models.pack(shapes, packing);
+    = [&](const std::vector<Chart_shape>& shapes, double more_time) {
+        Packing_options options = packing;
+        options.time_budget += more_time;
+        Packing_result result = m_models.pack(shapes, options);
         left *= 0.5;
         return result;
       };

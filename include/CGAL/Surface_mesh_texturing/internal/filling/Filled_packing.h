@@ -23,12 +23,12 @@ namespace internal {
 class Filled_packing
 {
 public:
-  typedef std::function<Packing_result(const std::vector<Chart_shape>&)> Pack;
+  typedef std::function<Packing_result(const std::vector<Chart_shape>&, double more_time)> Pack;
   typedef std::function<void(std::vector<Mapped_chart>&, Packing_result&, int fineness, bool is_wary)> Bend;
 
-  // All of these must outlive this. `bend`, which may be empty, is told in how many times finer detail than
-  // usual it shall be done, and whether it shall be wary of invalid maps; the bounds of charts are those of bent
-  // ones then.
+  // All of these must outlive this. `pack` is told for how many seconds more than usual it may search.
+  // `bend`, which may be empty, is told in how many times finer detail than usual it shall be done, and
+  // whether it shall be wary of invalid maps; the bounds of charts are those of bent ones then.
   Filled_packing(const Texture_atlas_options& options, const Packing_options& pages,
                  const Chart_mapping& mapping, const Pack& pack, const Bend& bend,
                  std::vector<Mapped_chart>& charts)
@@ -44,8 +44,8 @@ public:
     else
       m_packing = pack();
     if(m_bend && m_packing.is_ok())
-      bend();
-    if(m_packing.utilisation >= m_options.min_used)
+      bend_until_used();
+    if(missing() <= 0.)
       m_why_not_used.clear();
     else if(m_why_not_used.empty())
       m_why_not_used = reason_for_no_more_cuts();
@@ -60,6 +60,9 @@ public:
 
 private:
   static constexpr double little = 0.02; // of the pages, for which much is tried
+
+  // Of the pages, to what shall be used.
+  double missing() const { return m_options.min_used - m_packing.utilisation; }
 
   std::string reason_for_no_cuts(bool may_cut) const
   {
@@ -85,7 +88,7 @@ private:
     std::vector<Chart_shape> shapes;
     for(const Mapped_chart& map : m_charts)
       shapes.push_back({map.uv, map.chart.mesh.triangles});
-    return m_pack(shapes);
+    return m_pack(shapes, m_more_time);
   }
 
   void cut_and_pack()
@@ -105,7 +108,7 @@ private:
     } else {
       m_packing = pack();
     }
-    if(m_bend || !m_packing.is_ok() || m_packing.utilisation >= m_options.min_used)
+    if(m_bend || !m_packing.is_ok() || missing() <= 0.)
       return; // charts that bend are cut for that only where bending does not do
     if(m_number_of_cuts > 0) {
       cut_until_used(filler, m_options.min_used);
@@ -129,10 +132,33 @@ private:
     m_number_of_cuts = packed.cuts;
   }
 
+  // Bends and cuts the charts; if then less is used than shall be, does so once more from a packing that is
+  // searched for longer, where that makes it denser. The best of all remains.
+  void bend_until_used()
+  {
+    constexpr std::size_t most_charts = 64; // with more, it hardly becomes denser
+    constexpr double seconds = 2.;
+    Packed start;
+    if(m_options.min_used > 0.)
+      start = {m_charts, m_packing, m_number_of_cuts};
+    bend_and_cut();
+    if(!m_packing.is_ok() || missing() <= 0. || !m_why_not_used.empty()
+       || start.charts.size() > most_charts || !m_mapping.has_time())
+      return;
+    Packed best = {std::move(m_charts), std::move(m_packing), m_number_of_cuts};
+    take(std::move(start));
+    m_more_time = seconds;
+    m_packing = pack();
+    if(m_packing.is_ok())
+      bend_and_cut();
+    if(m_packing.is_ok() && m_packing.utilisation < best.packing.utilisation)
+      take(std::move(best));
+  }
+
   // Bends the charts; if then less is used than shall be, cuts them as they were before to where they are
   // fuller by what is missing, and bends these. Where little is missing they are bent warily before they are cut.
   // The best of all remains.
-  void bend()
+  void bend_and_cut()
   {
     const int most_cut = m_why_not_used.empty() && m_options.min_used > 0. ? 2 : 0; // times
     bool is_wary = false;
@@ -142,14 +168,14 @@ private:
       if(m_options.min_used > 0.)
         rigid = {m_charts, m_packing, m_number_of_cuts};
       set_bounds();
-      bend_until_used(is_wary);
+      bend_again(is_wary);
       if(!m_packing.is_ok())
         return;
       if(m_packing.utilisation < best.packing.utilisation)
         take(std::move(best));
-      const double missing = m_options.min_used - m_packing.utilisation;
-      is_wary = !is_wary && missing < little;
-      if(missing <= 0. || !m_mapping.has_time() || (!is_wary && times_cut == most_cut))
+      const double more = missing();
+      is_wary = !is_wary && more < little;
+      if(more <= 0. || !m_mapping.has_time() || (!is_wary && times_cut == most_cut))
         return;
       best = {std::move(m_charts), std::move(m_packing), m_number_of_cuts};
       const double before = rigid.packing.utilisation;
@@ -158,7 +184,7 @@ private:
         continue;
       ++times_cut;
       Page_filler filler(m_charts, m_pages, m_mapping);
-      cut_until_used(filler, before + missing);
+      cut_until_used(filler, before + more);
       if(m_packing.is_ok() && m_packing.utilisation <= before)
         return take(std::move(best));
     }
@@ -182,7 +208,7 @@ private:
   // finer detail charts fill more, but thin triangles can do less; so where it does not help they go on in
   // still finer detail, and from the finest one in the coarsest; where little is missing, the other way about
   // being wary.
-  void bend_until_used(bool is_wary)
+  void bend_again(bool is_wary)
   {
     constexpr double least_gain = 0.001;
     constexpr int most_bendings = 32, ways = 3, finest = 4; // one way for each fineness
@@ -190,11 +216,10 @@ private:
     for(int i = 0, in_vain = 0; i < most_bendings && m_mapping.has_time(); ++i) {
       const double before = m_packing.utilisation;
       m_bend(m_charts, m_packing, fineness, is_wary != (in_vain >= ways));
-      const double missing = m_options.min_used - m_packing.utilisation;
-      if(!m_packing.is_ok() || missing <= 0.)
+      if(!m_packing.is_ok() || missing() <= 0.)
         return;
       in_vain = m_packing.utilisation < before + least_gain ? in_vain + 1 : 0;
-      if(in_vain >= (missing < little ? 2 * ways : ways))
+      if(in_vain >= (missing() < little ? 2 * ways : ways))
         return;
       if(in_vain == 0)
         fineness = (std::max)(fineness, 2);
@@ -254,6 +279,7 @@ private:
   std::vector<Mapped_chart>& m_charts;
   Packing_result m_packing;
   std::size_t m_number_of_cuts = 0;
+  double m_more_time = 0.; // for packings, in seconds
   std::string m_why_not_used;
 };
 
