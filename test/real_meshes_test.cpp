@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The hierarchical method beside the sparse direct one on real charts: those among Debian's meshes
-// of CGAL, whose folder is HLSCM_DATA_DIR, and all in the folder HLSCM_EXTRA_DATA_DIR. What is not
-// there is skipped. Each test prints its rows of the table chart, faces, tolerance, gap,
+// of CGAL, whose folder is HLSCM_DATA_DIR, and all in the folder HLSCM_EXTRA_DATA_DIR; and one-to-one maps
+// with little stretch beside those of a long run. What is not there is skipped. Each test prints its rows of the table chart, faces, tolerance, gap,
 // iterations, flips.
 
 #include <support/conformal_maps.h>
+#include <support/indexed_mesh_files.h>
 #include <support/real_meshes.h>
 
 #include <CGAL/Polygon_mesh_processing/compute_normal.h>
+#include <CGAL/Surface_mesh_parameterization/low_stretch_map.h>
 #include <CGAL/Surface_mesh_parameterization/repair_flipped_faces.h>
 #include <CGAL/boost/graph/IO/polygon_mesh_io.h>
 #include <CGAL/subdivision_method_3.h>
@@ -144,6 +146,26 @@ TEST(Refined_chart, of_240000_faces_with_five_borders)
     GTEST_SKIP() << "HLSCM_DATA_DIR names no folder";
   expect_agreement("lion, refined twice", refined(read(debian_mesh("lion.off")), 2, 0.1),
                    {1e-2, 1e-4});
+}
+
+// Borders make steps short, which then gain little though much is left.
+TEST(One_to_one_chart, meets_its_tolerance)
+{
+  if(folder_of_environment("HLSCM_DATA_DIR").empty())
+    GTEST_SKIP() << "HLSCM_DATA_DIR names no folder";
+  for(const char* name : {"lion.off", "lion-head.off", "pig.off", "head.off", "mech-holes-shark.off"}) {
+    const Indexed_triangle_mesh mesh = read_indexed_mesh(debian_mesh(name));
+    SMP::Low_stretch_options options;
+    options.is_one_to_one = true;
+    const SMP::Low_stretch_map map = SMP::low_stretch_map(mesh, options);
+    options.tolerance = 1e-10;
+    options.maximal_iterations = 200;
+    const SMP::Low_stretch_map best = SMP::low_stretch_map(mesh, options);
+    ASSERT_EQ(map.error + best.error, "") << name;
+    EXPECT_TRUE(map.report.converged) << name;
+    std::cout << name << " " << map.report.energy / best.report.energy - 1. << "\n";
+    EXPECT_LT(map.report.energy, (1. + 1e-3) * best.report.energy) << name;
+  }
 }
 
 // --- Further meshes

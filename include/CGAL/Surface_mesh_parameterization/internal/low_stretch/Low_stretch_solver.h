@@ -274,8 +274,8 @@ std::size_t Low_stretch_solver<Energy>::most_steps(std::size_t l) const
 }
 
 // Whether the energy that a level has still to lose is small enough: by what its steps gained and, on
-// the finest one, what the last linear system left. Steps that triangles made short say nothing of it;
-// borders make all steps short in one-to-one maps. A finer level loses what a coarser one left, too.
+// the finest one, what the last linear system left. Steps that triangles made short say nothing of it; in
+// one-to-one maps, where borders do so, what they should have gained. Finer levels lose what is left, too.
 template <class Energy> template <class Level>
 bool Low_stretch_solver<Energy>::is_enough(const Level& level, std::size_t l, const Newton_steps& newton,
                                            double swept)
@@ -283,15 +283,17 @@ bool Low_stretch_solver<Energy>::is_enough(const Level& level, std::size_t l, co
   constexpr double tolerance_of_coarsest = 1e-7;
   const double tolerance_of_coarse = m_levels.is_one_to_one() ? 1e-5 // or borders get stuck
                                    : (std::max)(1e-5, 0.3 * m_options.tolerance);
-  constexpr double doubt = 10.; // where a few stiff triangles may hide all others
+  constexpr double doubt = 10., likely = 0.5; // where few stiff triangles hide all others; of what may be unsolved
   m_gains.add(newton.gain() + swept, newton.surprise(), newton.is_full());
   m_report.energy_gap = m_gains.value() / level.value();
   if(l == 0 || l + 1 < m_levels.number_of_levels())
     return m_report.energy_gap <= (l == 0 ? tolerance_of_coarsest : tolerance_of_coarse);
   const bool is_doubtful = swept > newton.gain() || !(newton.is_solved() || m_gains.is_first());
+  const auto at_least = [&](double e) { return (std::max)(m_report.energy_gap, e / level.value()); };
   if(!m_levels.is_one_to_one())
-    m_report.energy_gap = (std::max)(m_report.energy_gap, newton.unsolved() / level.value())
-                        * (is_doubtful ? doubt : 1.);
+    m_report.energy_gap = at_least(newton.unsolved()) * (is_doubtful ? doubt : 1.);
+  else if(!newton.is_full())
+    m_report.energy_gap = at_least(newton.foretold() + likely * newton.unsolved());
   // Where all can be mapped with hardly any stretch, what there is counts more
   const double stretch = 1. - m_energy.value(2., 1.) / level.mean();
   const bool tells = m_levels.is_one_to_one() || newton.is_full();

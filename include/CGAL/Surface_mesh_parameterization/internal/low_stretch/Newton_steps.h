@@ -179,9 +179,10 @@ public:
       --m_rest;
   }
 
-  // By how much the energy fell in the last step, and by how much otherwise than the second order
-  // foretold, as a part of that.
+  // By how much the energy fell in the last step, should have fallen up to the second order, and fell
+  // otherwise, as a part of that.
   double gain() const { return m_gain; }
+  double foretold() const { return m_solved; }
   double surprise() const { return m_solved > 0. ? std::abs(m_gain - m_solved) / m_solved : 1.; }
   // By how much the energy, up to the second order, would have fallen beyond what the linear system of
   // the step gained, as far as can be estimated.
