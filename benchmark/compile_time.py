@@ -8,7 +8,8 @@ Usage: compile_time.py [--compiler g++] [--runs 3] > results/compile_time.csv
 
 The file of the comparison is compile_time.cpp, at -O2: with CGAL's LSCM_parameterizer_3, with
 HLSCM_parameterizer_3 from headers alone, and with the compiled library (CGAL_HLSCM_COMPILED), without
-and with TBB. The others include one header and have an empty main().
+and with TBB; the first two without optimisation, too. The others include one header and have an empty
+main().
 """
 
 import argparse
@@ -27,7 +28,8 @@ FLAGS = ["-std=c++17", "-O2", "-DNDEBUG", "-DCGAL_EIGEN3_ENABLED", f"-I{INCLUDE}
 PROGRAMS = {"cgal_lscm": [], "hlscm": ["-DWITH_HLSCM"],
             "hlscm_compiled": ["-DWITH_HLSCM", "-DCGAL_HLSCM_COMPILED"],
             "hlscm_compiled_tbb": ["-DWITH_HLSCM", "-DCGAL_HLSCM_COMPILED",
-                                   "-DCGAL_LINKED_WITH_TBB"]}
+                                   "-DCGAL_LINKED_WITH_TBB"],
+            "cgal_lscm_O0": ["-O0"], "hlscm_O0": ["-DWITH_HLSCM", "-O0"]}
 HEADERS = {"LSCM_parameterizer_3.h": "CGAL/Surface_mesh_parameterization/LSCM_parameterizer_3.h",
            "HLSCM_parameterizer_3.h": "CGAL/Surface_mesh_parameterization/HLSCM_parameterizer_3.h",
            "build_progressive_mesh.h":
