@@ -3,8 +3,8 @@
 //
 // The hierarchical method beside the sparse direct one on real charts: those among Debian's meshes
 // of CGAL, whose folder is HLSCM_DATA_DIR, and all in the folder HLSCM_EXTRA_DATA_DIR; and one-to-one maps
-// with little stretch beside those of a long run. What is not there is skipped. Each test prints its rows of the table chart, faces, tolerance, gap,
-// iterations, flips.
+// with little stretch beside those of a long run. What is not there is skipped. Each test of the method
+// prints its rows of the table chart, faces, tolerance, gap, iterations, flips.
 
 #include <support/chart_generators.h>
 #include <support/conformal_maps.h>
@@ -56,7 +56,8 @@ void expect_agreement(const std::string& name, Surface_mesh mesh,
 
 // --- Debian's meshes
 
-class Debian_chart : public ::testing::TestWithParam<const char*>
+template <class Base>
+class With_debian_meshes : public Base
 {
 protected:
   void SetUp() override
@@ -65,6 +66,10 @@ protected:
       GTEST_SKIP() << "HLSCM_DATA_DIR names no folder";
   }
 };
+
+class Debian_chart : public With_debian_meshes<::testing::TestWithParam<const char*>> {};
+class Refined_chart : public With_debian_meshes<::testing::Test> {};
+class One_to_one_chart : public With_debian_meshes<::testing::Test> {};
 
 TEST_P(Debian_chart, comes_out_as_by_the_direct_method)
 {
@@ -134,18 +139,14 @@ Surface_mesh refined(Surface_mesh mesh, unsigned int times, double noise)
   return mesh;
 }
 
-TEST(Refined_chart, of_270000_faces)
+TEST_F(Refined_chart, of_270000_faces)
 {
-  if(folder_of_environment("HLSCM_DATA_DIR").empty())
-    GTEST_SKIP() << "HLSCM_DATA_DIR names no folder";
   expect_agreement("lion-head, refined twice", refined(read(debian_mesh("lion-head.off")), 2, 0.1),
                    {1e-2, 1e-4});
 }
 
-TEST(Refined_chart, of_240000_faces_with_five_borders)
+TEST_F(Refined_chart, of_240000_faces_with_five_borders)
 {
-  if(folder_of_environment("HLSCM_DATA_DIR").empty())
-    GTEST_SKIP() << "HLSCM_DATA_DIR names no folder";
   expect_agreement("lion, refined twice", refined(read(debian_mesh("lion.off")), 2, 0.1),
                    {1e-2, 1e-4});
 }
@@ -164,14 +165,13 @@ double rest_of_energy(const Indexed_triangle_mesh& mesh)
   return map.report.energy / best.report.energy - 1.;
 }
 
-// Borders make steps short, which then gain little though much is left. What is left can only be estimated: of the
-// ways in which a chart with five borders can be turned, most must have it below the tolerance.
-TEST(One_to_one_chart, meets_its_tolerance)
+// Borders make steps short, which then gain little though much is left. What is left can only be
+// estimated: of the ways in which a chart with five borders can be turned, most must have it below the
+// tolerance.
+TEST_F(One_to_one_chart, meets_its_tolerance)
 {
   constexpr int turns = 16, most_above = 5;
   constexpr double tolerance = 1e-3;
-  if(folder_of_environment("HLSCM_DATA_DIR").empty())
-    GTEST_SKIP() << "HLSCM_DATA_DIR names no folder";
   for(const char* name : {"lion-head.off", "pig.off", "head.off", "mech-holes-shark.off"})
     EXPECT_LT(rest_of_energy(read_indexed_mesh(debian_mesh(name))), tolerance) << name;
   const Indexed_triangle_mesh lion = read_indexed_mesh(debian_mesh("lion.off"));

@@ -138,9 +138,9 @@ private:
   {
     constexpr std::size_t most_charts = 64; // with more, it hardly becomes denser
     constexpr double seconds = 2.;
-    Packed start;
-    if(m_options.min_used > 0.)
-      start = {m_charts, m_packing, m_number_of_cuts};
+    if(!(m_options.min_used > 0.))
+      return bend_and_cut();
+    Packed start = {m_charts, m_packing, m_number_of_cuts};
     bend_and_cut();
     if(!m_packing.is_ok() || missing() <= 0. || !m_why_not_used.empty()
        || start.charts.size() > most_charts || !m_mapping.has_time())
