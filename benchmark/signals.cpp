@@ -98,7 +98,9 @@ SMM::Textured_triangle_mesh map_with(Method method, const Arrays& mesh, const Me
 {
   SMT::Surface_map_options options;
   options.solver.metric = metric;
-  options.map = [&](const Arrays& part, const std::vector<SMP::HLSCM_pin>&, SMP::HLSCM_options solver) {
+  options.map = [&](const SMT::Chart_mesh& component, const std::vector<SMP::HLSCM_pin>&,
+                    SMP::HLSCM_options solver) {
+    const Arrays& part = component.mesh;
     solver.method = SMP::Conformal_method::SPECTRAL;
     if(method == Method::CONFORMAL)
       return SMP::conformal_map(part, solver);

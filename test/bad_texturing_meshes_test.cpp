@@ -177,10 +177,9 @@ struct Unstacked_door : Door<Needs::TRIANGLES>
   }
   static Mesh_outcome outcome_of(const Indexed_triangle_mesh& mesh)
   {
-    const Indexed_triangle_mesh good = twice(good_arrays());
-    const SMT::Equal_parts parts = SMT::find_equal_parts(good);
+    static const SMT::Equal_parts parts = SMT::find_equal_parts(twice(good_arrays()));
     EXPECT_EQ(parts.copies, 1u);
-    const SMT::Texture_atlas_result atlas
+    static const SMT::Texture_atlas_result atlas
       = SMT::build_texture_atlas(parts.representatives, small_texture());
     EXPECT_EQ(atlas.error, "");
     const Indexed_triangle_mesh bad = mesh.triangles.empty() ? mesh : twice(mesh);

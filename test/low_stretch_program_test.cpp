@@ -215,6 +215,36 @@ TEST_F(Program, maps_with_low_stretch_to_a_polygon_and_with_weights)
   EXPECT_LT(energy_of_first_half(100), 0.999 * energy_of_first_half(1));
 }
 
+// Each component has the weights of its own faces: alone it has the same energy.
+TEST_F(Program, maps_components_with_weights_of_their_own)
+{
+  const Soup soup = grid(12, hilly);
+  Soup twice = soup;
+  for(auto p : soup.points) {
+    p[0] += 4;
+    twice.points.push_back(p);
+  }
+  for(auto face : soup.faces) {
+    for(std::size_t& v : face) {
+      v += soup.points.size();
+    }
+    twice.faces.push_back(face);
+  }
+  std::string first, second;
+  for(std::size_t f = 0; f < soup.faces.size(); ++f) {
+    first += f < soup.faces.size() / 2 ? "1\n" : "50\n";
+    second += f % 22 < 11 ? "1\n" : "50\n";
+  }
+  const auto energy = [&](const Soup& in, const std::string& weights) {
+    const Json json = report(write("in.off", off(in)), {"--method", "low-stretch", "--tolerance", "1e-6",
+                                                        "--face-weights", write("weights.txt", weights)});
+    return json.is_object() ? json["stretch"]["energy"].get<double>() : 0;
+  };
+  const double of_first = energy(soup, first), of_second = energy(soup, second);
+  EXPECT_GT(std::abs(of_first - of_second), 1e-3);
+  EXPECT_NEAR(energy(twice, first + second), (of_first + of_second) / 2, 1e-5);
+}
+
 TEST_F(Program, says_what_is_wrong_with_polygons_and_weights)
 {
   const std::string in = write("in.off", off(grid(6, hilly)));
@@ -235,7 +265,8 @@ TEST_F(Program, says_what_is_wrong_with_polygons_and_weights)
   for(int f = 1; f < 2 * 5 * 5; ++f) {
     zero += " 1";
   }
-  expect("--face-weights", write("zero.txt", zero), in, {"face 0"});
+  const std::string zeros = write("zero.txt", zero);
+  expect("--face-weights", zeros, zeros, {"face 0"});
   EXPECT_EQ(parameterize(in, "out.obj", {"--face-weights", few}).exit_code, 2);
   EXPECT_EQ(parameterize(in, "out.obj", {"--border", few}).exit_code, 2);
 }

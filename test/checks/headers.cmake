@@ -89,10 +89,9 @@ set(kernels
   Indexed_mesh/mesh_arrays
   Surface_mesh_multiresolution/Flat_collapse_policies
   Surface_mesh_parameterization/self_overlap
-  Surface_mesh_parameterization/internal/solver/Conformal_system
+  Surface_mesh_parameterization/internal/solver/methods
   Surface_mesh_parameterization/internal/low_stretch/Low_stretch_solver
-  Surface_mesh_texturing/internal/charts/Chart_search
-  Surface_mesh_texturing/internal/filling/Chart_cuts)
+  Surface_mesh_texturing/internal/charts/map_charts)
 foreach(kernel IN LISTS kernels)
   find_including(CGAL/${kernel}.h including)
   foreach(header IN LISTS including)

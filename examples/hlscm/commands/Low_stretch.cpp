@@ -104,11 +104,6 @@ map_with_low_stretch(const Program_options& options,
   const std::vector<SMP::HLSCM_pin> border = border_pins(options, component);
   library.pins.insert(library.pins.end(), border.begin(), border.end());
   library.start = std::move(start);
-  if(!options.weights_of_faces.empty()
-     && options.weights_of_faces.size() != component.triangles.size()) {
-    throw Program_error(options.input, "the weights of faces are for one component, choose it by "
-                                       "--component");
-  }
   library.face_weights = options.weights_of_faces;
   library.is_one_to_one = options.is_one_to_one;
   if(options.is_tolerance_given) {

@@ -208,7 +208,7 @@ void add_parameterize(CLI::App& app, Program_options& o)
       ->type_name("free|circle|square|FILE");
   run->add_option("--face-weights", o.face_weights,
                   "what faces count with --method low-stretch, beside their area: a file with a positive "
-                  "number for each face of IN, of which one component is mapped")
+                  "number for each face of IN")
       ->type_name("FILE");
   run->add_flag("--one-to-one", o.is_one_to_one,
                 "no two parts of a map of --method low-stretch overlap, at the cost of some stretch");

@@ -300,10 +300,12 @@ Mapped_surface map_components(const Input_surface& input, const Program_options&
   map.no_seams = input.surface.diagonals;
   map.pins = pins;
   map.solver = options.library;
-  map.map = [&](const Indexed_triangle_mesh& component, const std::vector<SMP::HLSCM_pin>& fixed,
+  map.map = [&](const SMT::Chart_mesh& component, const std::vector<SMP::HLSCM_pin>& fixed,
                 const SMP::HLSCM_options& library) {
+    Program_options of_component = options;
+    of_component.weights_of_faces = component.entries_of(options.weights_of_faces);
     try {
-      return map_component(options, library, component, fixed, stretch, progress);
+      return map_component(of_component, library, component.mesh, fixed, stretch, progress);
     } catch(const Program_error& error) {
       SMP::Conformal_map none;
       none.report.message = reason(error, options.input);
@@ -320,6 +322,19 @@ Mapped_surface map_components(const Input_surface& input, const Program_options&
   result.stretch = mean_of(stretch);
   result.mesh = std::move(mapped.mesh);
   result.components = std::move(mapped.components);
+  return result;
+}
+
+std::vector<double> read_weights(const std::string& name, const Input_surface& input,
+                                 const std::string& input_name)
+{
+  std::vector<double> result = read_face_numbers(name, input, input_name);
+  for(std::size_t t = 0; t < result.size(); ++t) {
+    if(!(result[t] > 0)) {
+      throw Program_error(name, "the weight of face " + std::to_string(input.surface.face[t])
+                                    + " is 0, give each face a positive one");
+    }
+  }
   return result;
 }
 
@@ -355,7 +370,7 @@ Mapped_surface map_input(const Input_surface& input, const Program_options& give
     options.border_corners = read_points(options.border_polygon);
   }
   if(!options.face_weights.empty()) {
-    options.weights_of_faces = read_face_numbers(options.face_weights, input, options.input);
+    options.weights_of_faces = read_weights(options.face_weights, input, options.input);
   }
   std::vector<SMP::HLSCM_pin> pins
       = checked_pins(options, input.file.soup.number_of_vertices());

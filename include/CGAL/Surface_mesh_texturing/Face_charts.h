@@ -242,9 +242,10 @@ struct Chart_mesh
 
   /// Returns the entries of an array of the triangles of the whole mesh that are those of the chart:
   /// of marks of their edges, for example, as corners are the same. Empty if the array is.
-  std::vector<std::uint8_t> sides(const std::vector<std::uint8_t>& of_whole_mesh) const
+  template <class T>
+  std::vector<T> entries_of(const std::vector<T>& of_whole_mesh) const
   {
-    std::vector<std::uint8_t> result;
+    std::vector<T> result;
     for(std::size_t i = 0; i < triangles.size() && !of_whole_mesh.empty(); ++i)
       result.push_back(of_whole_mesh[triangles[i]]);
     return result;

@@ -290,7 +290,7 @@ Face_charts cut_charts(const Indexed_triangle_mesh& mesh, const Triangle_adjacen
     if(!needs_cut(topologies[c]))
       continue;
     const std::vector<std::uint8_t> seams
-      = Disk_cutter(meshes[c].mesh, options, meshes[c].sides(avoided)).cut();
+      = Disk_cutter(meshes[c].mesh, options, meshes[c].entries_of(avoided)).cut();
     for(std::size_t t = 0; t < seams.size(); ++t)
       charts.seams[meshes[c].triangles[t]] |= seams[t];
   }

@@ -27,10 +27,10 @@ namespace CGAL {
 namespace Surface_mesh_texturing {
 
 /// \ingroup PkgHLSCMTexturing
-/// Maps a connected mesh of genus 0 that has a border, with pins, by the indices of its vertices, or
-/// without, and with the options that `map_surface()` has for it.
+/// Maps the mesh of a component that is connected, of genus 0 and has a border, with pins, by the indices
+/// of its vertices, or without, and with the options that `map_surface()` has for it.
 typedef std::function<Surface_mesh_parameterization::Conformal_map(
-  const Indexed_triangle_mesh& component,
+  const Chart_mesh& component,
   const std::vector<Surface_mesh_parameterization::HLSCM_pin>& pins,
   const Surface_mesh_parameterization::HLSCM_options& options)>
   Component_map_function;
@@ -165,7 +165,7 @@ private:
     for(std::size_t c = 0; c < parts.size(); ++c) {
       if(!is_wanted[c])
         continue;
-      const std::vector<std::uint8_t> avoided = parts[c].sides(m_options.no_seams);
+      const std::vector<std::uint8_t> avoided = parts[c].entries_of(m_options.no_seams);
       const std::vector<std::uint8_t> seams = is_large(c)
         ? coarse_seams_of(c, parts[c].mesh, avoided) : seams_of(c, parts[c].mesh, avoided);
       for(std::size_t t = 0; t < seams.size(); ++t)
@@ -228,9 +228,7 @@ private:
     typedef Surface_mesh_parameterization::Conformal_method Method;
     const std::size_t faces = m_parts[c].triangles.size();
     Surface_mesh_parameterization::HLSCM_options options = m_options.solver;
-    options.metric.resize((std::min)(options.metric.size(), faces));
-    for(std::size_t i = 0; i < options.metric.size(); ++i)
-      options.metric[i] = m_options.solver.metric[m_parts[c].triangles[i]];
+    options.metric = m_parts[c].entries_of(m_options.solver.metric);
     if(options.method == Method::HLSCM && m_result.components[c].is_cut && !has_pins)
       options.method = Method::SPECTRAL;
     else if(options.method == Method::HLSCM && m_parts.size() > 1 && faces < m_options.direct_faces)
@@ -245,10 +243,10 @@ private:
 
   Conformal_map solve(std::size_t c, const std::vector<Pin>& pins) const
   {
-    const Indexed_triangle_mesh& mesh = m_parts[c].mesh;
     const auto options = options_of(c, !pins.empty());
     if(m_options.map)
-      return m_options.map(mesh, pins, options);
+      return m_options.map(m_parts[c], pins, options);
+    const Indexed_triangle_mesh& mesh = m_parts[c].mesh;
     return pins.empty() ? Surface_mesh_parameterization::conformal_map(mesh, options)
                         : Surface_mesh_parameterization::conformal_map(mesh, pins, options);
   }

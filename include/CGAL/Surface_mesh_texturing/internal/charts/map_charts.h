@@ -295,7 +295,7 @@ inline std::vector<Chart_mesh> cut_again(const Mapped_chart& mapped,
   growth.is_enough = mapping.is_over;
   Segmentation_options segmentation;
   segmentation.coarse_faces = (std::min)(coarse_faces, mapping.coarse_faces);
-  segmentation.no_seams = chart.sides(mapping.no_seams);
+  segmentation.no_seams = chart.entries_of(mapping.no_seams);
   Segmentation_result cut;
   if(mapping.has_time())
     cut = segment_into_charts(chart.mesh, segmentation, growth);

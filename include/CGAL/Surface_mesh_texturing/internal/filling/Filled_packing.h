@@ -60,6 +60,7 @@ public:
 
 private:
   static constexpr double little = 0.02; // of the pages, for which much is tried
+  static constexpr double much = 0.1;    // of the pages, which a longer search does not find
 
   // Of the pages, to what shall be used.
   double missing() const { return m_options.min_used - m_packing.utilisation; }
@@ -132,8 +133,8 @@ private:
     m_number_of_cuts = packed.cuts;
   }
 
-  // Bends and cuts the charts; if then less is used than shall be, does so once more from a packing that is
-  // searched for longer, where that makes it denser. The best of all remains.
+  // Bends and cuts the charts; if then less is used than shall be, but not by much, does so once more from a
+  // packing that is searched for longer. The best of all remains.
   void bend_until_used()
   {
     constexpr std::size_t most_charts = 64; // with more, it hardly becomes denser
@@ -142,7 +143,7 @@ private:
       return bend_and_cut();
     Packed start = {m_charts, m_packing, m_number_of_cuts};
     bend_and_cut();
-    if(!m_packing.is_ok() || missing() <= 0. || !m_why_not_used.empty()
+    if(!m_packing.is_ok() || missing() <= 0. || missing() > much || !m_why_not_used.empty()
        || start.charts.size() > most_charts || !m_mapping.has_time())
       return;
     Packed best = {std::move(m_charts), std::move(m_packing), m_number_of_cuts};

@@ -195,7 +195,7 @@ inline std::vector<Page_filler::Candidate> Page_filler::candidates()
     const std::size_t chart = largest[i];
     if(std::exchange(m_cuts[chart].are_known, true))
       return;
-    Chart_cut_finder finder(m_charts[chart], m_charts[chart].chart.sides(m_mapping.no_seams), m_unit);
+    Chart_cut_finder finder(m_charts[chart], m_charts[chart].chart.entries_of(m_mapping.no_seams), m_unit);
     m_cuts[chart].cuts = finder.find();
     m_cuts[chart].adjacency = finder.take_adjacency();
   });

@@ -82,7 +82,7 @@ directions_of(const Mapped_chart& map, const std::vector<std::uint8_t>& diagonal
     return cross_product(mesh.points[v[1]] - mesh.points[v[0]],
                          mesh.points[v[2]] - mesh.points[v[0]]);
   };
-  const std::vector<std::uint8_t> inner = map.chart.sides(diagonals);
+  const std::vector<std::uint8_t> inner = map.chart.entries_of(diagonals);
   const auto is_of_polygon = [&inner](Halfedge h, Halfedge o) {
     return !inner.empty() && (inner[triangle_of(h)] | inner[triangle_of(o)]) != 0
         && !is_marked(inner, h) && !is_marked(inner, o);
