@@ -316,6 +316,25 @@ inline Indexed_triangle_mesh with_zero_area_triangles(Indexed_triangle_mesh mesh
   return mesh;
 }
 
+// Turned in a random way, each as likely, and moved.
+inline Indexed_triangle_mesh turned(Indexed_triangle_mesh mesh, Random& random)
+{
+  double w, x, y, z, n; // a quaternion
+  do {
+    w = uniform(random, -1., 1.);
+    x = uniform(random, -1., 1.);
+    y = uniform(random, -1., 1.);
+    z = uniform(random, -1., 1.);
+    n = w * w + x * x + y * y + z * z;
+  } while(n > 1. || n < 1e-3);
+  const double s = 2. / n;
+  for(auto& p : mesh.points)
+    p = Point_3((1. - s * (y * y + z * z)) * p.x() + s * (x * y - w * z) * p.y() + s * (x * z + w * y) * p.z() + 3.,
+                s * (x * y + w * z) * p.x() + (1. - s * (x * x + z * z)) * p.y() + s * (y * z - w * x) * p.z(),
+                s * (x * z - w * y) * p.x() + s * (y * z + w * x) * p.y() + (1. - s * (x * x + y * y)) * p.z());
+  return mesh;
+}
+
 inline Indexed_triangle_mesh scaled(Indexed_triangle_mesh mesh, double factor)
 {
   for(Point_3& p : mesh.points)

@@ -196,7 +196,9 @@ public:
     const std::vector<std::uint8_t>& no_seams = m_options.no_seams;
     if(!no_seams.empty() && m_result.fail(foreign_seams_error(m_original.triangles.size(), no_seams)))
       return m_result;
-    Prepared_mesh prepared = prepare_mesh(along_principal_axes(m_original));
+    Indexed_triangle_mesh turned = m_original;
+    turn_along_principal_axes(turned);
+    Prepared_mesh prepared = prepare_mesh(std::move(turned));
     const Indexed_triangle_mesh& mesh = prepared.mesh;
     if(m_result.fail(prepared))
       return m_result;

@@ -11,6 +11,7 @@
 #include <CGAL/Surface_mesh_texturing/Chart_distortion.h>
 #include <CGAL/Surface_mesh_texturing/Face_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/Growth_surface.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/principal_axes.h>
 #include <CGAL/Surface_mesh_texturing/internal/seams/Seam_graph.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -51,7 +52,12 @@ inline std::vector<Trial_uv> stretch_map(const Indexed_mesh::Indexed_triangle_me
   options.tolerance = 1e-2;
   options.progress = progress;
   options.is_one_to_one = is_one_to_one;
-  return Surface_mesh_parameterization::low_stretch_map(chart, options).uv;
+  Indexed_mesh::Indexed_triangle_mesh turned = chart;
+  const double factor = turn_along_principal_axes(turned);
+  std::vector<Trial_uv> uv = Surface_mesh_parameterization::low_stretch_map(turned, options).uv;
+  for(Trial_uv& p : uv)
+    p = factor > 0. ? Trial_uv(p.x() / factor, p.y() / factor) : p;
+  return uv;
 }
 
 // The same; only if such a map is within the bound, and its border meets itself, that which does not, which

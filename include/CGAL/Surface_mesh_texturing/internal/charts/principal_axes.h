@@ -16,16 +16,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
+#include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_texturing {
 namespace internal {
 
-// The mesh about its centre, of an extent of about 1, turned such that its principal axes are those of
-// space: where vertices are sorted along a curve, what is found does not depend then on how a mesh was
-// turned. As it was if it has no extent.
-CGAL_HLSCM_INLINE Indexed_mesh::Indexed_triangle_mesh
-along_principal_axes(Indexed_mesh::Indexed_triangle_mesh mesh);
+// Moves the centre of a mesh to the origin, scales the mean edge length to 1 and turns its principal axes to
+// those of space, for what depends on how a mesh is turned: on the order of vertices along a curve, or on
+// rounding errors, which many steps make larger. So coordinates are rounded as well, to where those of a mesh
+// that was turned are the same, but for one in millions; unless a triangle would lose its area by that.
+// Returns the factor by which lengths were multiplied, or 0 if the mesh, which is left as it is, has no extent.
+CGAL_HLSCM_INLINE double turn_along_principal_axes(Indexed_mesh::Indexed_triangle_mesh& mesh);
 
 #ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
 
@@ -154,17 +157,36 @@ private:
   Matrix m_axes;
 };
 
-CGAL_HLSCM_INLINE Indexed_mesh::Indexed_triangle_mesh
-along_principal_axes(Indexed_mesh::Indexed_triangle_mesh mesh)
+// The points as multiples of a small length, or as they are if a triangle would lose its area.
+inline void round_points(Indexed_mesh::Indexed_triangle_mesh& mesh)
 {
-  if(!(Indexed_mesh::normalize(mesh) > 0.))
-    return mesh;
+  typedef Indexed_mesh::Indexed_triangle_mesh::Point_3 Point_3;
+  constexpr double unit = 0x1p-20;
+  std::vector<Point_3> rounded;
+  rounded.reserve(mesh.points.size());
+  const auto round = [](double x) { return unit * std::round(x / unit); };
+  for(const Point_3& p : mesh.points)
+    rounded.emplace_back(round(p.x()), round(p.y()), round(p.z()));
+  for(const auto& t : mesh.triangles)
+    if(!(squared_area(rounded[t[0]], rounded[t[1]], rounded[t[2]]) > 0.)
+       && squared_area(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]) > 0.)
+      return;
+  mesh.points = std::move(rounded);
+}
+
+CGAL_HLSCM_INLINE double turn_along_principal_axes(Indexed_mesh::Indexed_triangle_mesh& mesh)
+{
+  const double factor = Indexed_mesh::normalize(mesh);
+  if(!(factor > 0.))
+    return factor;
   const Principal_axes axes(mesh);
-  for(std::size_t v = 0; v < mesh.points.size(); ++v) {
-    const Eigen::Vector3d q = axes.along(Indexed_mesh::Vertex_index(v));
-    mesh.points[v] = Indexed_mesh::Indexed_triangle_mesh::Point_3(q[0], q[1], q[2]);
-  }
-  return mesh;
+  std::vector<Eigen::Vector3d> turned(mesh.points.size());
+  for(std::size_t v = 0; v < mesh.points.size(); ++v)
+    turned[v] = axes.along(Indexed_mesh::Vertex_index(v));
+  for(std::size_t v = 0; v < mesh.points.size(); ++v)
+    mesh.points[v] = Indexed_mesh::Indexed_triangle_mesh::Point_3(turned[v][0], turned[v][1], turned[v][2]);
+  round_points(mesh);
+  return factor;
 }
 
 #endif // CGAL_HLSCM_TEXTURING_DEFINITIONS

@@ -126,6 +126,9 @@ private:
     std::size_t cuts = 0;
   };
 
+  Packed copy() const { return {m_charts, m_packing, m_number_of_cuts}; }
+  Packed release() { return {std::move(m_charts), std::move(m_packing), m_number_of_cuts}; }
+
   void take(Packed packed)
   {
     m_charts = std::move(packed.charts);
@@ -141,12 +144,12 @@ private:
     constexpr double seconds = 2.;
     if(!(m_options.min_used > 0.))
       return bend_and_cut();
-    Packed start = {m_charts, m_packing, m_number_of_cuts};
+    Packed start = copy();
     bend_and_cut();
     if(!m_packing.is_ok() || missing() <= 0. || missing() > much || !m_why_not_used.empty()
        || start.charts.size() > most_charts || !m_mapping.has_time())
       return;
-    Packed best = {std::move(m_charts), std::move(m_packing), m_number_of_cuts};
+    Packed best = release();
     take(std::move(start));
     m_more_time = seconds;
     m_packing = pack();
@@ -167,7 +170,7 @@ private:
     for(int times_cut = 0; m_packing.is_ok();) {
       Packed rigid;
       if(m_options.min_used > 0.)
-        rigid = {m_charts, m_packing, m_number_of_cuts};
+        rigid = copy();
       set_bounds();
       bend_again(is_wary);
       if(!m_packing.is_ok())
@@ -178,7 +181,7 @@ private:
       is_wary = !is_wary && more < little;
       if(more <= 0. || !m_mapping.has_time() || (!is_wary && times_cut == most_cut))
         return;
-      best = {std::move(m_charts), std::move(m_packing), m_number_of_cuts};
+      best = release();
       const double before = rigid.packing.utilisation;
       take(std::move(rigid));
       if(is_wary)

@@ -30,25 +30,38 @@ public:
 
   const Chart_outline& outline() const { return m_outline; }
 
-  // In each direction, with `density` texels per unit of the outline. Called by several threads.
+  // In each of that many directions, the same for all calls at a level, with `density` texels per unit of the
+  // outline. Called by several threads, most of them at levels of their own.
   const std::vector<Chart_raster>& rasters(int level, double density, int rotations,
                                            const Packing_raster& raster) const
   {
-    const std::lock_guard<std::mutex> guard(m_mutex);
-    std::vector<Chart_raster>& result = m_rasters[level];
-    for(int r = int(result.size()); r < rotations; ++r)
-      result.push_back(chart_raster(m_outline, m_outline.angle + 2. * CGAL_PI * r / rotations,
-                                    density, raster, Rims::ALL));
-    return result;
+    Rasters& rasters = rasters_of(level);
+    const std::lock_guard<std::mutex> guard(rasters.mutex);
+    for(int r = int(rasters.directions.size()); r < rotations; ++r)
+      rasters.directions.push_back(chart_raster(
+        m_outline, m_outline.angle + 2. * CGAL_PI * r / rotations, density, raster, Rims::ALL));
+    return rasters.directions;
   }
 
   // Rasters of lower levels are not needed any more.
   void forget_below(int level) const { m_rasters.erase(m_rasters.begin(), m_rasters.lower_bound(level)); }
 
 private:
+  struct Rasters
+  {
+    std::mutex mutex;
+    std::vector<Chart_raster> directions;
+  };
+
+  Rasters& rasters_of(int level) const
+  {
+    const std::lock_guard<std::mutex> guard(m_mutex);
+    return m_rasters[level];
+  }
+
   Chart_outline m_outline;
   mutable std::mutex m_mutex;
-  mutable std::map<int, std::vector<Chart_raster>> m_rasters; // by level
+  mutable std::map<int, Rasters> m_rasters; // by level
 };
 
 typedef std::shared_ptr<const Packable_shape> Packable;
@@ -104,35 +117,33 @@ private:
 
   bool fits(const std::vector<Packable>& shapes, int level) const
   {
-    const int directions = shapes.size() == 1 ? rotations_alone : rotations;
-    std::vector<const std::vector<Chart_raster>*> rasters;
     Packing_keys keys;
-    for(const Packable& shape : shapes) {
+    for(const Packable& shape : shapes)
       keys.push_back(key_of(shape->outline()));
-      rasters.push_back(&shape->rasters(level, density(level), directions, m_raster));
-    }
     for(std::size_t i = 0; i < (shapes.size() == 1 ? 1 : orders); ++i)
-      if(fits(rasters, order_of(i == 0 ? keys : perturbed(keys, i))))
+      if(fits(shapes, level, order_of(i == 0 ? keys : perturbed(keys, i))))
         return true;
     return false;
   }
 
-  bool fits(const std::vector<const std::vector<Chart_raster>*>& rasters,
-            const std::vector<std::uint32_t>& order) const
+  bool fits(const std::vector<Packable>& shapes, int level, const std::vector<std::uint32_t>& order) const
   {
+    const int directions = shapes.size() == 1 ? rotations_alone : rotations;
     std::vector<Page_raster> pages;
     for(const std::uint32_t shape : order) {
+      const std::vector<Chart_raster>& rasters
+        = shapes[shape]->rasters(level, density(level), directions, m_raster);
       Place_search search(Place_criterion::SNUG);
       for(std::size_t p = 0; p < m_pages && !search.best().is_found(); ++p) {
         if(p == pages.size())
           pages.emplace_back(m_raster.width, m_raster.height);
-        for(std::size_t r = 0; r < rasters[shape]->size(); ++r)
-          search.search((*rasters[shape])[r], pages[p], std::uint32_t(p), int(r));
+        for(std::size_t r = 0; r < rasters.size(); ++r)
+          search.search(rasters[r], pages[p], std::uint32_t(p), int(r));
       }
       const Raster_place& place = search.best();
       if(!place.is_found())
         return false;
-      pages[place.page].take((*rasters[shape])[place.rotation].padded, place.x, place.y);
+      pages[place.page].take(rasters[place.rotation].padded, place.x, place.y);
     }
     return true;
   }

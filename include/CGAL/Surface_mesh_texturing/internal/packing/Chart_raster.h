@@ -226,35 +226,6 @@ struct Chart_raster
   std::vector<int> rim;                // some cells around it, see `rim_of()`
 };
 
-// Cells just outside of the mask, and those two cells further, evenly chosen, as offsets in the
-// rows of a `Page_raster` from the mask's lower left corner. Any of them in a row are from all sides.
-inline std::vector<int> rim_of(const Texel_mask& mask, int stride)
-{
-  constexpr std::size_t samples = 64; // of each rim
-  constexpr std::size_t apart = 11;
-  std::vector<int> chosen, rim, result;
-  for(const int r : {1, 3}) {
-    const Texel_mask inner = dilated(mask, r - 1), outer = dilated(mask, r);
-    rim.clear();
-    for(int y = 0; y < outer.height(); ++y)
-      for(int i = 0; i < outer.words(); ++i) {
-        const bool has_row = y > 0 && y <= inner.height();
-        const Word low = has_row && i < inner.words() ? inner.row(y - 1)[i] : 0;
-        const Word before = has_row && i > 0 ? inner.row(y - 1)[i - 1] : 0;
-        Word ring = outer.row(y)[i] & ~(low << 1 | before >> 63);
-        for(; ring != 0; ring &= ring - 1)
-          rim.push_back((y - r) * stride + 64 * i + lowest_bit(ring) - r);
-      }
-    const std::size_t n = (std::min)(rim.size(), samples);
-    for(std::size_t i = 0; i < n; ++i)
-      chosen.push_back(rim[i * rim.size() / n]);
-  }
-  for(std::size_t first = 0; first < apart; ++first)
-    for(std::size_t i = first; i < chosen.size(); i += apart)
-      result.push_back(chosen[i]);
-  return result;
-}
-
 // Which charts have a rim: it takes more memory than the rest of a small chart.
 enum class Rims { ALL, NONE };
 

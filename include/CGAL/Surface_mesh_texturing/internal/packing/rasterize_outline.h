@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #if defined(_MSC_VER) && !defined(__clang__)
@@ -111,6 +112,20 @@ public:
 
   std::vector<Cell_run> runs() const;
 
+  // Becomes a mask of the same size and, in it, what this is when it moves by so many bits, of all rows one
+  // after the other; no cell may go beyond the words of its row.
+  void set_and_moved(const Texel_mask& mask, int bits)
+  {
+    const std::size_t skip = std::size_t(bits) >> 6, n = m_bits.size();
+    const int s = bits & 63;
+    const Word* from = mask.m_bits.data();
+    std::copy_n(from, (std::min)(skip, n), m_bits.data());
+    if(skip < n)
+      m_bits[skip] = from[skip] | from[0] << s;
+    for(std::size_t i = skip + 1; i < n; ++i)
+      m_bits[i] = from[i] | from[i - skip] << s | from[i - skip - 1] >> 1 >> (63 - s);
+  }
+
 private:
   // The first cell from x on in the row that is in the set or not.
   int find(const Word* words, int x, bool is_in) const
@@ -141,38 +156,75 @@ inline std::vector<Cell_run> Texel_mask::runs() const
   return result;
 }
 
-// Adds to `n` words themselves, shifted to the left by `shift` bits.
-inline void add_shifted(Word* words, int n, int shift)
-{
-  const int skip = shift >> 6, s = shift & 63;
-  for(int i = n - 1; i >= skip; --i)
-    words[i] |= words[i - skip] << s | (i > skip ? words[i - skip - 1] >> 1 >> (63 - s) : 0);
-}
-
 // The cells that a mask's cells touch when it moves up to `n` cells to the right and up: each step moves
 // what was found so far by as much as that reaches, or less at the end.
 inline Texel_mask swept(const Texel_mask& mask, int n)
 {
-  Texel_mask result(mask.width() + n, mask.height() + n);
+  Texel_mask result(mask.width() + n, mask.height() + n), before = result;
   const int words = result.words();
-  for(int y = 0; y < mask.height(); ++y) {
-    Word* row = result.row(y);
-    std::copy_n(mask.row(y), mask.words(), row);
-    for(int reach = 1; reach <= n; reach *= 2)
-      add_shifted(row, words, (std::min)(reach, n + 1 - reach));
-  }
-  for(int reach = 1; reach <= n; reach *= 2) {
-    const int step = (std::min)(reach, n + 1 - reach);
-    for(int y = result.height() - 1; y >= step; --y)
-      for(int i = 0; i < words; ++i)
-        result.row(y)[i] |= result.row(y - step)[i];
-  }
+  for(int y = 0; y < mask.height(); ++y)
+    std::copy_n(mask.row(y), mask.words(), result.row(y));
+  for(const int cells_apart : {1, 64 * words}) // in a row, and in a column
+    for(int reach = 1; reach <= n; reach *= 2) {
+      std::swap(result, before);
+      result.set_and_moved(before, cells_apart * (std::min)(reach, n + 1 - reach));
+    }
   return result;
 }
 
 // The cells at most `r` away from one of the mask's in rows and columns; (x, y) becomes
 // (x + r, y + r).
 inline Texel_mask dilated(const Texel_mask& mask, int r) { return swept(mask, 2 * r); }
+
+// Sets the words of the cells that are in a mask dilated by one, but not in the mask; returns their number.
+inline std::size_t rim_between(const Texel_mask& inner, const Texel_mask& outer, std::vector<Word>& rim)
+{
+  std::size_t size = 0;
+  rim.clear();
+  for(int y = 0; y < outer.height(); ++y)
+    for(int i = 0; i < outer.words(); ++i) {
+      const bool has_row = y > 0 && y <= inner.height();
+      const Word low = has_row && i < inner.words() ? inner.row(y - 1)[i] : 0;
+      const Word before = has_row && i > 0 ? inner.row(y - 1)[i - 1] : 0;
+      rim.push_back(outer.row(y)[i] & ~(low << 1 | before >> 63));
+      size += std::size_t(number_of_bits(rim.back()));
+    }
+  return size;
+}
+
+// Cells just outside of the mask, and those two cells further, evenly chosen, as offsets in
+// rows of `stride` cells from the mask's lower left corner. Any of them in a row are from all sides.
+inline std::vector<int> rim_of(const Texel_mask& mask, int stride)
+{
+  constexpr std::size_t samples = 64; // of each rim
+  constexpr std::size_t apart = 11;
+  std::vector<int> chosen, result;
+  std::vector<Word> rim;
+  Texel_mask inner = mask;
+  for(int r = 1; r <= 3; ++r) {
+    Texel_mask outer = dilated(inner, 1);
+    if(r != 2) {
+      const std::size_t size = rim_between(inner, outer, rim), n = (std::min)(size, samples);
+      std::size_t before = 0, i = 0; // cells, and how many of them were chosen
+      for(std::size_t k = 0; i < n; ++k) {
+        Word ring = rim[k];
+        const std::size_t end = before + std::size_t(number_of_bits(ring));
+        const int y = int(k / std::size_t(outer.words())), x = 64 * int(k % std::size_t(outer.words()));
+        for(; i < n && i * size / n < end; ++i) {
+          for(; before < i * size / n; ++before)
+            ring &= ring - 1;
+          chosen.push_back((y - r) * stride + x + lowest_bit(ring) - r);
+        }
+        before = end;
+      }
+    }
+    inner = std::move(outer);
+  }
+  for(std::size_t first = 0; first < apart; ++first)
+    for(std::size_t i = first; i < chosen.size(); i += apart)
+      result.push_back(chosen[i]);
+  return result;
+}
 
 // A point nearer to a cell than this, in cells, counts as touching it: the coordinates that users
 // compute of placements are rounded.
