@@ -157,7 +157,7 @@ TEST(Real_atlas, does_not_depend_on_how_a_model_is_turned)
     GTEST_SKIP() << "HLSCM_DATA_DIR names no folder with meshes";
   constexpr std::uint64_t seed = 20261128;
   Random random(seed);
-  for(const char* name : {"rotor.off", "bumpy.off"}) {
+  for(const char* name : {"rotor.off", "fandisk.off", "spool.off"}) {
     const Indexed_triangle_mesh mesh = read_indexed_mesh(debian_mesh(name));
     const SMT::Texture_atlas_result atlas = SMT::build_texture_atlas(mesh);
     ASSERT_EQ(atlas.error, "") << name;
