@@ -300,9 +300,9 @@ Mapped_surface map_components(const Input_surface& input, const Program_options&
   map.no_seams = input.surface.diagonals;
   map.pins = pins;
   map.solver = options.library;
+  Program_options of_component = options; // one after the other
   map.map = [&](const SMT::Chart_mesh& component, const std::vector<SMP::HLSCM_pin>& fixed,
                 const SMP::HLSCM_options& library) {
-    Program_options of_component = options;
     of_component.weights_of_faces = component.entries_of(options.weights_of_faces);
     try {
       return map_component(of_component, library, component.mesh, fixed, stretch, progress);

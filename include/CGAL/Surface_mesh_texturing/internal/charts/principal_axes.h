@@ -180,11 +180,10 @@ CGAL_HLSCM_INLINE double turn_along_principal_axes(Indexed_mesh::Indexed_triangl
   if(!(factor > 0.))
     return factor;
   const Principal_axes axes(mesh);
-  std::vector<Eigen::Vector3d> turned(mesh.points.size());
-  for(std::size_t v = 0; v < mesh.points.size(); ++v)
-    turned[v] = axes.along(Indexed_mesh::Vertex_index(v));
-  for(std::size_t v = 0; v < mesh.points.size(); ++v)
-    mesh.points[v] = Indexed_mesh::Indexed_triangle_mesh::Point_3(turned[v][0], turned[v][1], turned[v][2]);
+  for(std::size_t v = 0; v < mesh.points.size(); ++v) {
+    const Eigen::Vector3d q = axes.along(Indexed_mesh::Vertex_index(v));
+    mesh.points[v] = Indexed_mesh::Indexed_triangle_mesh::Point_3(q[0], q[1], q[2]);
+  }
   round_points(mesh);
   return factor;
 }
