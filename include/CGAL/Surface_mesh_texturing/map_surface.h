@@ -97,8 +97,10 @@ class Surface_mapper
 {
 public:
   Surface_mapper(const Indexed_triangle_mesh& mesh, const Surface_map_options& options)
-    : m_mesh(mesh), m_options(options)
-  {}
+    : m_mesh(mesh), m_options(options), m_solver(options.solver)
+  {
+    m_solver.metric.clear();
+  }
 
   Surface_map run()
   {
@@ -214,12 +216,14 @@ private:
     std::vector<Pin> result;
     if(m_options.pins.empty())
       return result;
-    m_place.assign(m_mesh.points.size(), no_vertex);
+    m_place.resize(m_mesh.points.size(), no_vertex); // once: it is as before again at the end
     for(Vertex_index v = Vertex_index(part.vertices.size()); v-- > 0;)
       m_place[part.vertices[v]] = v;
     for(const Pin& pin : m_options.pins)
       if(m_place[pin.vertex] != no_vertex)
         result.push_back({m_place[pin.vertex], pin.u, pin.v});
+    for(const Vertex_index v : part.vertices)
+      m_place[v] = no_vertex;
     return result;
   }
 
@@ -227,7 +231,7 @@ private:
   {
     typedef Surface_mesh_parameterization::Conformal_method Method;
     const std::size_t faces = m_parts[c].triangles.size();
-    Surface_mesh_parameterization::HLSCM_options options = m_options.solver;
+    Surface_mesh_parameterization::HLSCM_options options = m_solver;
     options.metric = m_parts[c].entries_of(m_options.solver.metric);
     if(options.method == Method::HLSCM && m_result.components[c].is_cut && !has_pins)
       options.method = Method::SPECTRAL;
@@ -301,6 +305,7 @@ private:
 
   const Indexed_triangle_mesh& m_mesh;
   const Surface_map_options& m_options;
+  Surface_mesh_parameterization::HLSCM_options m_solver; // but for the metric, of which each gets a part
   Surface_map m_result;
   std::vector<Chart_mesh> m_parts;
   std::vector<std::vector<Point_2>> m_uv; // of each part
