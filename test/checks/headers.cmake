@@ -32,7 +32,7 @@ set(kernels
   CGAL/Surface_mesh_texturing/internal/charts/map_charts.h)
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 set(folder ${CMAKE_CURRENT_BINARY_DIR}/headers)
-execute_process(COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_LIST_DIR}/lone_headers.py
+execute_process(COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_LIST_DIR}/lone_headers.py
                         ${folder} ${include_dir} ${kernels} -- ${headers}
                 OUTPUT_VARIABLE lone_files COMMAND_ERROR_IS_FATAL ANY)
 list(JOIN headers ">\n#include <" all_includes)

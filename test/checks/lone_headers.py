@@ -18,7 +18,8 @@ import re
 import sys
 from pathlib import Path
 
-COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
+from check_layers import COMMENT, included_by
+
 DIRECTIVE = re.compile(r"# *(\w+) *(.*)")
 # The conditions of Blocked_execution/compile_once.h, which are met
 MET = re.compile(r"CGAL_HLSCM_([A-Z]+_)?DEFINITIONS\b")
@@ -37,30 +38,16 @@ def includes_of(header, text):
         name, rest = directive.groups()
         if name.startswith("if"):
             conditions.append(bool(name == "ifdef" and MET.match(rest)))
+        elif name.startswith("el"):
+            conditions[-1] = False
         elif name == "endif":
             conditions.pop()
         elif name == "include":
             if says:
                 sys.exit(f"{header} includes {rest} after it said something else")
-            if not any(not is_met for is_met in conditions[1:]) and rest.startswith("<"):
+            if all(conditions[1:]) and rest.startswith("<"):
                 includes.append(rest[1:rest.index(">")])
     return includes
-
-
-def all_includes(includes):
-    """header -> all of these headers that it includes, itself or by others."""
-    result = {}
-
-    def find(header):
-        if header not in result:
-            result[header] = set() # for headers that include themselves, which another check names
-            ours = [other for other in includes[header] if other in includes]
-            result[header].update(*({other} | find(other) for other in ours))
-        return result[header]
-
-    for header in includes:
-        find(header)
-    return result
 
 
 def chains_of(headers, included):
@@ -91,7 +78,8 @@ def main():
     end = sys.argv.index("--")
     kernels, headers = sys.argv[3:end], sys.argv[end + 1:]
     includes = {header: includes_of(header, (include_dir / header).read_text()) for header in headers}
-    included = all_includes({**includes, **{kernel: [] for kernel in kernels if kernel not in includes}})
+    known = {**dict.fromkeys(kernels, []), **includes}
+    included = {header: included_by(header, known) for header in headers}
     groups = {}
     for header in headers:
         of_header = [kernel for kernel in kernels if kernel == header or kernel in included[header]]
