@@ -154,6 +154,15 @@ TEST(Chart_cuts, large_charts_are_mapped_only_if_there_is_hope)
   EXPECT_EQ(large_maps, 2u);
 }
 
+SMT::Packing_result packing_that_uses(double part, std::size_t charts)
+{
+  SMT::Packing_result result;
+  result.pages = 1;
+  result.placements.resize(charts);
+  result.utilisation = part;
+  return result;
+}
+
 // Where charts bend in vain a packing is searched for longer, and the best of all is taken. Here a usual
 // packing uses 0.6 of the page and a longer search 0.7, and bending adds what it is said to.
 TEST(Filled_packing, is_searched_for_longer_where_charts_bend_in_vain)
@@ -175,14 +184,10 @@ TEST(Filled_packing, is_searched_for_longer_where_charts_bend_in_vain)
     const SMT::internal::Filled_packing::Pack pack
       = [&](const std::vector<SMT::Chart_shape>& shapes, double more_time) {
           longer += more_time > 0. ? 1 : 0;
-          SMT::Packing_result result;
-          result.pages = 1;
-          result.placements.resize(shapes.size());
-          result.utilisation = more_time > 0. ? 0.7 : 0.6;
-          return result;
+          return packing_that_uses(more_time > 0. ? 0.7 : 0.6, shapes.size());
         };
     const SMT::internal::Filled_packing::Bend bend
-      = [&](std::vector<SMT::internal::Mapped_chart>&, SMT::Packing_result& packing, int, bool) {
+      = [&](std::vector<SMT::internal::Mapped_chart>&, SMT::Packing_result& packing, double, bool) {
           const bool is_close = longer > 0;
           packing.utilisation = is_close ? 0.7 + c.close_gain : 0.6 + c.usual_gain;
         };
@@ -192,6 +197,40 @@ TEST(Filled_packing, is_searched_for_longer_where_charts_bend_in_vain)
     EXPECT_DOUBLE_EQ(filled.run(true).utilisation, c.used);
     EXPECT_EQ(longer, c.searched_for_longer) << c.used;
     EXPECT_EQ(filled.why_not_used().empty(), c.used >= options.min_used) << c.used;
+  }
+}
+
+// Where no part of the pages is asked for, charts of larger pages are bent in finer detail, as the root of the
+// side, and once more in the coarsest one if that does not help.
+TEST(Filled_packing, bends_in_finer_detail_on_larger_pages)
+{
+  struct Case
+  {
+    std::size_t width, height;
+    bool helps; // the finest detail
+    std::vector<double> finenesses;
+  };
+  SMT::Texture_atlas_options options;
+  options.seam_price = std::numeric_limits<double>::infinity();
+  const SMT::internal::Chart_mapping mapping;
+  const SMT::internal::Filled_packing::Pack pack
+    = [](const std::vector<SMT::Chart_shape>& shapes, double) { return packing_that_uses(0.6, shapes.size()); };
+  for(const Case& c : {Case{512, 512, true, {1.}}, {1024, 256, false, {1.}}, {4096, 1024, true, {2.}},
+                       {4096, 4096, false, {2., 1.}}, {512, 2048, false, {std::sqrt(2.), 1.}},
+                       {65536, 65536, true, {4.}}}) {
+    std::vector<double> finenesses;
+    const SMT::internal::Filled_packing::Bend bend
+      = [&](std::vector<SMT::internal::Mapped_chart>&, SMT::Packing_result& packing, double fineness, bool) {
+          finenesses.push_back(fineness);
+          packing.utilisation += c.helps || finenesses.size() > 1 ? 0.1 : 0.;
+        };
+    SMT::Packing_options pages = options.packing;
+    pages.width = c.width;
+    pages.height = c.height;
+    std::vector<SMT::internal::Mapped_chart> charts(1);
+    SMT::internal::Filled_packing filled(options, pages, mapping, pack, bend, charts);
+    EXPECT_DOUBLE_EQ(filled.run(true).utilisation, finenesses.size() == 2 || c.helps ? 0.7 : 0.6);
+    EXPECT_EQ(finenesses, c.finenesses) << c.width << " x " << c.height;
   }
 }
 

@@ -316,7 +316,7 @@ inline bool Texture_atlas_builder::pack()
       };
   Filled_packing::Bend bend;
   if(may_bend())
-    bend = [&](std::vector<Mapped_chart>& charts, Packing_result& packed, int fineness, bool is_wary) {
+    bend = [&](std::vector<Mapped_chart>& charts, Packing_result& packed, double fineness, bool is_wary) {
       Bending amount = {m_options.bending};
       amount.squares *= fineness;
       amount.is_wary = is_wary;

@@ -24,7 +24,7 @@ class Filled_packing
 {
 public:
   typedef std::function<Packing_result(const std::vector<Chart_shape>&, double more_time)> Pack;
-  typedef std::function<void(std::vector<Mapped_chart>&, Packing_result&, int fineness, bool is_wary)> Bend;
+  typedef std::function<void(std::vector<Mapped_chart>&, Packing_result&, double fineness, bool is_wary)> Bend;
 
   // All of these must outlive this. `pack` is told for how many seconds more than usual it may search.
   // `bend`, which may be empty, is told in how many times finer detail than usual it shall be done, and
@@ -61,6 +61,7 @@ public:
 private:
   static constexpr double little = 0.02; // of the pages, for which much is tried
   static constexpr double much = 0.1;    // of the pages, which a longer search does not find
+  static constexpr double finest = 4.;   // of the finenesses of bending
 
   // Of the pages, to what shall be used.
   double missing() const { return m_options.min_used - m_packing.utilisation; }
@@ -208,27 +209,37 @@ private:
     }
   }
 
+  // Details are finer on larger pages, of which all else takes longer, too.
+  double usual_fineness() const
+  {
+    constexpr double usual_side = 1024.;
+    const double side = double((std::max)(m_pages.width, m_pages.height));
+    return std::clamp(std::sqrt(side / usual_side), 1., finest);
+  }
+
   // Bent charts are bent again, from where they are then, while that helps and less is used than shall be. In
   // finer detail charts fill more, but thin triangles can do less; so where it does not help they go on in
   // still finer detail, and from the finest one in the coarsest; where little is missing, the other way about
-  // being wary.
+  // being wary. Where nothing is missing they are bent once, and in the coarsest detail if that does not help.
   void bend_again(bool is_wary)
   {
     constexpr double least_gain = 0.001;
-    constexpr int most_bendings = 32, ways = 3, finest = 4; // one way for each fineness
-    int fineness = 1;
+    constexpr int most_bendings = 32, ways = 3; // one way for each fineness
+    double fineness = usual_fineness();
     for(int i = 0, in_vain = 0; i < most_bendings && m_mapping.has_time(); ++i) {
       const double before = m_packing.utilisation;
       m_bend(m_charts, m_packing, fineness, is_wary != (in_vain >= ways));
-      if(!m_packing.is_ok() || missing() <= 0.)
-        return;
       in_vain = m_packing.utilisation < before + least_gain ? in_vain + 1 : 0;
-      if(in_vain >= (missing() < little ? 2 * ways : ways))
+      const bool is_enough = missing() <= 0.;
+      if(!m_packing.is_ok() || (is_enough && (in_vain == 0 || fineness <= 1.))
+         || in_vain >= (missing() < little ? 2 * ways : ways))
         return;
-      if(in_vain == 0)
-        fineness = (std::max)(fineness, 2);
+      if(is_enough)
+        fineness = 1.;
+      else if(in_vain == 0)
+        fineness = (std::max)(fineness, 2.);
       else
-        fineness = fineness < finest ? 2 * fineness : 1;
+        fineness = fineness < finest ? (std::min)(finest, 2. * fineness) : 1.;
     }
   }
 
