@@ -42,5 +42,8 @@ if [ -d "$root/../shared/data" ]; then
   export HLSCM_EXTRA_DATA_DIR
 fi
 
+# Else OpenBLAS starts a thread for each processor in each test, which waits busily for a tenth of a second.
+export OPENBLAS_NUM_THREADS=1
+
 say "testing"
 exec ctest --preset release --parallel "$(nproc)" "$@"

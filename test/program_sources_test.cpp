@@ -64,6 +64,20 @@ TEST_F(Program_sources, are_named_pipes)
   EXPECT_EQ(without_name(finish(child)), without_name(run({"info", in, "--json"})));
 }
 
+// One thread reads, and one waits for signals; the program's libraries have none, which would wait busily.
+TEST_F(Program_sources, are_waited_for_by_two_threads)
+{
+  const std::string pipe = path("pipe");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const pid_t child = start({"info", pipe}, [] { unsetenv("OPENBLAS_NUM_THREADS"); });
+  std::ofstream out(pipe, std::ios::binary); // when the program has opened it
+  const fs::directory_iterator threads("/proc/" + std::to_string(child) + "/task");
+  EXPECT_EQ(std::distance(begin(threads), end(threads)), 2);
+  out << obj(mesh);
+  out.close();
+  EXPECT_EQ(finish(child).exit_code, 0);
+}
+
 TEST_F(Program_sources, are_parameterized_from_the_standard_input_too)
 {
   const std::string in = write("m.obj", obj(mesh));

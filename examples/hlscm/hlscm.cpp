@@ -7,7 +7,7 @@
 // model with a normal map, and `hlscm view IN -o OUT` shows any of these in a browser.
 
 #include "commands/Commands.h"
-#include "common/Blas_memory.h"
+#include "common/Blas.h"
 #include "common/Interruption.h"
 #include "common/Program_error.h"
 
@@ -76,6 +76,7 @@ std::string sentence_of(const std::exception& e)
 int main(int argc, char** argv)
 {
   std::string input = "the program";
+  hlscm::end_blas_threads();
   try {
     hlscm::Interruption::install();
     const hlscm::Parsed_command_line command_line = hlscm::parse_command_line(argc, argv);

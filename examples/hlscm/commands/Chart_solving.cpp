@@ -3,7 +3,7 @@
 
 #include "commands/Chart_solving.h"
 
-#include "common/Blas_memory.h"
+#include "common/Blas.h"
 #include "common/Interruption.h"
 #include "common/Program_error.h"
 

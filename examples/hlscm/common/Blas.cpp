@@ -1,7 +1,7 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "common/Blas_memory.h"
+#include "common/Blas.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -45,15 +45,27 @@ unsigned int possible_buffers(unsigned int wanted)
 
 } // namespace
 
+void end_blas_threads()
+{
+  const auto number = find_function<int()>("openblas_get_num_threads");
+  const auto set_number = find_function<void(int)>("openblas_set_num_threads");
+  const auto end_all = find_function<int()>("blas_thread_shutdown_");
+  if(number == nullptr || set_number == nullptr || end_all == nullptr) {
+    return;
+  }
+  const auto threads = static_cast<unsigned int>(number());
+  set_number(1);
+  if(possible_buffers(threads) == threads) { // else they never end, and ask for theirs
+    end_all();
+  }
+}
+
 unsigned int reserve_blas_memory(unsigned int wanted)
 {
   const auto allocate = find_function<void*(int)>("blas_memory_alloc");
   const auto free = find_function<void(void*)>("blas_memory_free");
   if(allocate == nullptr || free == nullptr) {
     return wanted;
-  }
-  if(const auto set_threads = find_function<void(int)>("openblas_set_num_threads")) {
-    set_threads(1); // the program has its own
   }
   const unsigned int threads = std::max(1u, std::thread::hardware_concurrency());
   const unsigned int possible = possible_buffers(wanted == 0 ? threads : wanted);
