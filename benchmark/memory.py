@@ -31,12 +31,13 @@ SECONDS = "20"  # for the method lscm, which holds all its memory from the first
 # The functions of the stages that allocate, an inner one before the one that calls it
 OWNERS = [
     ("reading", r"read_mesh|diagnose"),
+    ("surface", r"surface_of_soup"),
     ("mesh", r"build_mesh|add_property_map"),
     ("chart", r"extract_chart"),
     ("hierarchy", r"build_levels"),
     ("operators", r"build_operators"),
-    ("factorization", r"solve_coarsest"),
-    ("iterations", r"solve_hierarchy"),
+    ("factorization", r"factorize_coarsest"),
+    ("iterations", r"minimize_energy|climb_by_cycles"),
     ("result", r"measure_distortion|write_mesh"),
 ]
 

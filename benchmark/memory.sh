@@ -19,7 +19,7 @@ say "building"
 # Valgrind does not know all instructions of new processors; it needs the names of functions.
 build="$root/build/memory"
 cmake --preset release -B "$build" -D HLSCM_NATIVE=OFF -D HLSCM_BUILD_TESTS=OFF \
-  -D CMAKE_CXX_FLAGS=-g1 >&2
+  -D HLSCM_BUILD_BENCHMARKS=ON -D CMAKE_CXX_FLAGS=-g1 >&2
 cmake --build "$build" --target hlscm make_chart --parallel "$(number_of_jobs)" >&2
 
 say "measuring"

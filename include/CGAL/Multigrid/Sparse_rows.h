@@ -101,6 +101,8 @@ public:
         m_diagonal[i] = row.diagonal;
         m_length[i] = row.length();
       }
+      block.columns.shrink_to_fit();
+      block.values.shrink_to_fit();
     });
   }
 

@@ -80,6 +80,25 @@ private:
   std::size_t m_count = 0;
 };
 
+// As many as there are vertices around v, or one more.
+template <class Energy>
+std::uint32_t most_neighbours(const Stretch_level<Energy>& level, Vertex_index v)
+{
+  constexpr std::uint32_t few = 16;
+  const Indexed_mesh::Triangles_at_vertices& corners = level.corners();
+  const std::uint32_t number = corners.number(v);
+  if(number > few)
+    return number + 1;
+  std::array<Vertex_index, few> next;
+  const auto end = std::transform(corners.begin(v), corners.end(v), next.begin(), [&](Halfedge c) {
+    return level.triangles()[triangle_of(c)][(corner_of(c) + 1) % 3];
+  });
+  const bool is_inside = std::all_of(corners.begin(v), corners.end(v), [&](Halfedge c) {
+    return std::find(next.begin(), end, level.triangles()[triangle_of(c)][(corner_of(c) + 2) % 3]) != end;
+  });
+  return is_inside ? number : number + 1;
+}
+
 // The projected second derivative of a level after `linearize()`, without rows for fixed vertices: a
 // few very stiff triangles hide all others from single precision. Sets `gradient` to the first one; 0
 // at fixed vertices.
@@ -92,7 +111,7 @@ stretch_matrix(const Stretch_level<Energy>& level, std::vector<Plane_point>& gra
   std::vector<std::uint32_t> lengths(level.size());
   Blocked_execution::blocked_for(level.size(), block_size, [&](std::size_t begin, std::size_t end) {
     for(std::size_t v = begin; v < end; ++v) {
-      lengths[v] = level.is_fixed(v) ? 0 : corners.number(Vertex_index(v)) + 1; // one less inside
+      lengths[v] = level.is_fixed(v) ? 0 : most_neighbours(level, Vertex_index(v));
       if(lengths[v] > 0)
         level.for_each_contact_of(Vertex_index(v), [&](const auto&, int) { lengths[v] += 2; });
     }
