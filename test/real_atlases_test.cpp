@@ -150,11 +150,12 @@ TEST_P(Real_atlas, is_valid_or_there_is_a_reason)
 INSTANTIATE_TEST_SUITE_P(Folders, Real_atlas,
                          ::testing::Values("HLSCM_DATA_DIR", "HLSCM_EXTRA_DATA_DIR"));
 
+class Turned_model : public With_debian_meshes<::testing::Test>
+{};
+
 // Charts that are stretched, cut for the page and bent, too: rounding errors hardly show.
-TEST(Real_atlas, does_not_depend_on_how_a_model_is_turned)
+TEST_F(Turned_model, has_the_same_charts)
 {
-  if(folder_of_environment("HLSCM_DATA_DIR").empty())
-    GTEST_SKIP() << "HLSCM_DATA_DIR names no folder with meshes";
   constexpr std::uint64_t seed = 20261128;
   Random random(seed);
   for(const char* name : {"rotor.off", "fandisk.off", "spool.off"}) {

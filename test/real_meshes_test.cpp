@@ -56,17 +56,6 @@ void expect_agreement(const std::string& name, Surface_mesh mesh,
 
 // --- Debian's meshes
 
-template <class Base>
-class With_debian_meshes : public Base
-{
-protected:
-  void SetUp() override
-  {
-    if(folder_of_environment("HLSCM_DATA_DIR").empty())
-      GTEST_SKIP() << "HLSCM_DATA_DIR names no folder";
-  }
-};
-
 class Debian_chart : public With_debian_meshes<::testing::TestWithParam<const char*>> {};
 class Refined_chart : public With_debian_meshes<::testing::Test> {};
 class One_to_one_chart : public With_debian_meshes<::testing::Test> {};

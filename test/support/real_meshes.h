@@ -4,6 +4,8 @@
 #ifndef HLSCM_TEST_SUPPORT_REAL_MESHES_H
 #define HLSCM_TEST_SUPPORT_REAL_MESHES_H
 
+#include <gtest/gtest.h>
+
 #include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
@@ -29,6 +31,18 @@ inline std::string debian_mesh(const std::string& name)
                              + "scripts/debian_meshes.sh prints");
   return file.string();
 }
+
+// Tests of these meshes, which are skipped where they are not.
+template <class Base>
+class With_debian_meshes : public Base
+{
+protected:
+  void SetUp() override
+  {
+    if(folder_of_environment("HLSCM_DATA_DIR").empty())
+      GTEST_SKIP() << "HLSCM_DATA_DIR names no folder";
+  }
+};
 
 // The folder of further meshes, HLSCM_EXTRA_DATA_DIR; an empty path if there is none.
 inline std::filesystem::path extra_meshes()

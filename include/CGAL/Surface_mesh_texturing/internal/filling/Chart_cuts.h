@@ -105,7 +105,12 @@ private:
 
   void find_loop();
   std::vector<std::size_t> ends_of_chords() const;
-  Vertices find_path(Vertex_index a, Vertex_index b, double band, double& seam) const;
+  struct Path
+  {
+    Vertices vertices;
+    double seam = 0.; // its length, less along creases
+  };
+  Path find_path(Vertex_index a, Vertex_index b, double band) const;
   bool make(const Chord& chord, const std::vector<std::size_t>& ends, Chart_cut& cut) const;
 
   std::vector<Vector_2d> thinned(const Vertices& loop) const
@@ -186,9 +191,8 @@ inline Crease_weights Chart_cut_finder::crease_weights() const
 
 // The shortest path of inner edges between two border vertices that is no farther than `band` from
 // the segment between them, and off the border but for its ends; what is beside the segment counts
-// more, creases less. Empty if there is none; its length with creases as short becomes `seam`.
-inline Chart_cut_finder::Vertices Chart_cut_finder::find_path(Vertex_index a, Vertex_index b,
-                                                              double band, double& seam) const
+// more, creases less. Empty if there is none.
+inline Chart_cut_finder::Path Chart_cut_finder::find_path(Vertex_index a, Vertex_index b, double band) const
 {
   constexpr double price_of_distance = 4.;
   struct Reached
@@ -237,14 +241,14 @@ inline Chart_cut_finder::Vertices Chart_cut_finder::find_path(Vertex_index a, Ve
       offer(v, vertex_of(triangles(), before), before, sum);
     }
   }
-  Vertices path;
+  Path path;
   if(reached.count(b) == 0)
     return path;
-  seam = reached.at(b).seam;
+  path.seam = reached.at(b).seam;
   for(Vertex_index v = b; v != a; v = reached.at(v).from)
-    path.push_back(v);
-  path.push_back(a);
-  std::reverse(path.begin(), path.end());
+    path.vertices.push_back(v);
+  path.vertices.push_back(a);
+  std::reverse(path.vertices.begin(), path.vertices.end());
   return path;
 }
 
@@ -258,14 +262,16 @@ inline bool Chart_cut_finder::make(const Chord& chord, const std::vector<std::si
   const double edge = std::sqrt(std::abs(m_map.report.distortion.uv_area)
                                 / double(triangles().size()));
   double band = (std::max)(first_band * chord.length, 3. * edge);
-  for(cut.path.clear(); cut.path.empty() && band < 4. * widest * chord.length; band *= 4.)
-    cut.path = find_path(m_loop[i], m_loop[j], (std::min)(band, widest * chord.length), cut.length);
+  Path path;
+  for(; path.vertices.empty() && band < 4. * widest * chord.length; band *= 4.)
+    path = find_path(m_loop[i], m_loop[j], (std::min)(band, widest * chord.length));
+  cut.path = std::move(path.vertices);
+  cut.length = path.seam / m_unit;
   double length = 0.;
   for(std::size_t k = 0; k + 1 < cut.path.size(); ++k)
     length += distance(at(cut.path[k]), at(cut.path[k + 1]));
   if(cut.path.empty() || length > most_detour * chord.length)
     return false;
-  cut.length /= m_unit;
   Vertices first(m_loop.begin() + i, m_loop.begin() + j);
   first.insert(first.end(), cut.path.rbegin(), cut.path.rend() - 1);
   Vertices second(m_loop.begin() + j, m_loop.end());
