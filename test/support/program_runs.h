@@ -328,6 +328,7 @@ protected:
       return child;
     }
     std::signal(SIGINT, SIG_DFL);
+    unsetenv("OPENBLAS_NUM_THREADS"); // it is set for tests, not for people
     for(const auto& [name, descriptor] : {std::pair("stdout", 1), std::pair("stderr", 2)}) {
       dup2(open(path(name).c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), descriptor);
     }
