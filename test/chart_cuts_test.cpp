@@ -200,6 +200,27 @@ TEST(Filled_packing, is_searched_for_longer_where_charts_bend_in_vain)
   }
 }
 
+// What is asked for is enough, however little the last bend added.
+TEST(Filled_packing, is_bent_no_more_once_enough_is_used)
+{
+  SMT::Texture_atlas_options options;
+  options.seam_price = std::numeric_limits<double>::infinity();
+  options.min_used = 0.6505;
+  const SMT::internal::Chart_mapping mapping;
+  const SMT::internal::Filled_packing::Pack pack
+    = [](const std::vector<SMT::Chart_shape>& shapes, double) { return packing_that_uses(0.6, shapes.size()); };
+  std::size_t bends = 0;
+  const SMT::internal::Filled_packing::Bend bend
+    = [&](std::vector<SMT::internal::Mapped_chart>&, SMT::Packing_result& packing, double, bool) {
+        packing.utilisation += bends++ == 0 ? 0.05 : 0.0008;
+      };
+  std::vector<SMT::internal::Mapped_chart> charts(1);
+  cuts_of_folded(20., 0., 0., charts[0]);
+  SMT::internal::Filled_packing filled(options, options.packing, mapping, pack, bend, charts);
+  EXPECT_DOUBLE_EQ(filled.run(true).utilisation, 0.6508);
+  EXPECT_EQ(bends, 2u);
+}
+
 // Where no part of the pages is asked for, charts of larger pages are bent in finer detail, as the root of the
 // side, and once more in the coarsest one if that does not help.
 TEST(Filled_packing, bends_in_finer_detail_on_larger_pages)

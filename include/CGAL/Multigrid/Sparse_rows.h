@@ -101,7 +101,7 @@ public:
         m_diagonal[i] = row.diagonal;
         m_length[i] = row.length();
       }
-      block.columns.shrink_to_fit();
+      block.columns.shrink_to_fit(); // they stay as they are
       block.values.shrink_to_fit();
     });
   }

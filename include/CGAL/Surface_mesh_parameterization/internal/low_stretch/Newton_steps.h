@@ -90,11 +90,13 @@ std::uint32_t most_neighbours(const Stretch_level<Energy>& level, Vertex_index v
   if(number > few)
     return number + 1;
   std::array<Vertex_index, few> next;
-  const auto end = std::transform(corners.begin(v), corners.end(v), next.begin(), [&](Halfedge c) {
-    return level.triangles()[triangle_of(c)][(corner_of(c) + 1) % 3];
+  const auto end = std::transform(corners.begin(v), corners.end(v), next.begin(), [&](Halfedge h) {
+    const Indexed_mesh::Triangle_corner corner(h);
+    return level.triangles()[corner.triangle][corner.next];
   });
-  const bool is_inside = std::all_of(corners.begin(v), corners.end(v), [&](Halfedge c) {
-    return std::find(next.begin(), end, level.triangles()[triangle_of(c)][(corner_of(c) + 2) % 3]) != end;
+  const bool is_inside = std::all_of(corners.begin(v), corners.end(v), [&](Halfedge h) {
+    const Indexed_mesh::Triangle_corner corner(h);
+    return std::find(next.begin(), end, level.triangles()[corner.triangle][corner.last]) != end;
   });
   return is_inside ? number : number + 1;
 }

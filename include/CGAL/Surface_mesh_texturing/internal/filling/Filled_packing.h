@@ -230,13 +230,17 @@ private:
       const double before = m_packing.utilisation;
       m_bend(m_charts, m_packing, fineness, is_wary != (in_vain >= ways));
       in_vain = m_packing.utilisation < before + least_gain ? in_vain + 1 : 0;
-      const bool is_enough = missing() <= 0.;
-      if(!m_packing.is_ok() || (is_enough && (in_vain == 0 || fineness <= 1.))
-         || in_vain >= (missing() < little ? 2 * ways : ways))
+      if(!m_packing.is_ok())
         return;
-      if(is_enough)
+      if(missing() <= 0.) {
+        if(in_vain == 0 || i > 0 || fineness <= 1.)
+          return;
         fineness = 1.;
-      else if(in_vain == 0)
+        continue;
+      }
+      if(in_vain >= (missing() < little ? 2 * ways : ways))
+        return;
+      if(in_vain == 0)
         fineness = (std::max)(fineness, 2.);
       else
         fineness = fineness < finest ? (std::min)(finest, 2. * fineness) : 1.;
