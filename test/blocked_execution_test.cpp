@@ -1,6 +1,8 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include <support/mesh_generators.h>
+
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Blocked_execution/sort_and_select.h>
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
@@ -10,8 +12,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <random>
 #include <vector>
@@ -158,6 +162,26 @@ TEST(Blocked_execution, corners_are_at_their_vertices_in_the_order_of_the_triang
         ASSERT_EQ(vertices[*corner], v);
     }
     EXPECT_EQ(sum, vertices.size());
+  }
+}
+
+// Manifold meshes; a fan has a vertex of more edges than are searched one by one.
+TEST(Blocked_execution, what_is_across_an_edge_has_its_ends_the_other_way_round)
+{
+  const std::vector<CGAL::Indexed_mesh::Triangle_indices> meshes[] = {
+    test_support::fan(300).triangles, test_support::shuffled(test_support::grid(90, 90), 19).triangles};
+  for(const auto& triangles : meshes) {
+    std::map<std::array<std::uint32_t, 2>, std::uint32_t> halfedge_of;
+    for(std::uint32_t h = 0; h < 3 * triangles.size(); ++h)
+      halfedge_of[{triangles[h / 3][h % 3], triangles[h / 3][(h + 1) % 3]}] = h;
+    for(const unsigned int threads : numbers_of_threads) {
+      const BE::Thread_scope scope(threads);
+      const CGAL::Indexed_mesh::Triangle_adjacency adjacency(triangles);
+      for(const auto& [ends, h] : halfedge_of) {
+        const auto across = halfedge_of.find({ends[1], ends[0]});
+        ASSERT_EQ(adjacency.opposite(h), across == halfedge_of.end() ? none : across->second);
+      }
+    }
   }
 }
 

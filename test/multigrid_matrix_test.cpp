@@ -13,6 +13,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <filesystem>
+#include <iterator>
 #include <type_traits>
 
 namespace multigrid_matrix_test {
@@ -343,5 +346,37 @@ TEST(Factorizations, of_pins_only)
   Sparse_cholesky<> eigen;
   EXPECT_EQ(solve(eigen, h, Dense_vector::Zero(3)), Dense_vector(Dense_vector::Zero(3)));
 }
+
+#if defined(CGAL_HLSCM_USE_CHOLMOD) && defined(__linux__)
+std::ptrdiff_t number_of_threads_of_this_process()
+{
+  const std::filesystem::directory_iterator tasks("/proc/self/task");
+  return std::distance(begin(tasks), end(tasks));
+}
+
+// OpenMP would start three, and they would wait busily.
+TEST(Factorizations, by_cholmod_start_no_threads)
+{
+  constexpr int side = 200; // of a grid, so that CHOLMOD's loops are long enough for threads
+  std::vector<Eigen::Triplet<double>> entries;
+  for(int i = 0; i < side * side; ++i) {
+    entries.emplace_back(i, i, 4.1);
+    if(i + side < side * side)
+      entries.emplace_back(i + side, i, -1.);
+    if((i + 1) % side != 0)
+      entries.emplace_back(i + 1, i, -1.);
+  }
+  Eigen::SparseMatrix<double> laplacian(side * side, side * side);
+  laplacian.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::VectorXd f = Eigen::VectorXd::Ones(side * side);
+  Eigen::VectorXd x;
+  const std::ptrdiff_t before = number_of_threads_of_this_process();
+  Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>> factorization;
+  ASSERT_TRUE(CGAL::Multigrid::factorize_sparse(factorization, laplacian));
+  CGAL::Multigrid::solve_sparse(factorization, f, x);
+  EXPECT_EQ(number_of_threads_of_this_process(), before);
+  EXPECT_LE((laplacian.selfadjointView<Eigen::Lower>() * x - f).norm(), 1e-10 * f.norm());
+}
+#endif
 
 } // namespace multigrid_matrix_test

@@ -19,6 +19,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <fstream>
@@ -204,6 +206,42 @@ TEST(Writers, obj_does_not_depend_on_the_stream)
   os.precision(2);
   EXPECT_TRUE(SMT::IO::write_OBJ(os, mesh, uv));
   EXPECT_EQ(os.str(), obj_of(mesh, uv));
+}
+
+// The lists are so long that each is cut into blocks; a page and lines of a file begin in the midst of these.
+TEST(Writers, obj_is_the_same_for_any_number_of_threads)
+{
+  Mesh mesh = sheet(120);
+  SMT::Textured_model model;
+  model.name = "sheet";
+  model.mesh = read_obj(obj_of(mesh, add_cut_uv(mesh)));
+  const std::size_t faces = model.mesh.triangles.size();
+  ASSERT_GT(faces, 25000u);
+  for(std::size_t t = 0; t < faces; ++t)
+    model.page.push_back(t < 4999 || t > 20001 ? 0 : 1);
+  model.materials.resize(2);
+  for(const Point_3& p : model.mesh.points)
+    model.frames.normals.emplace_back(std::sin(p.z()), 0., std::cos(p.z()));
+  CGAL::Indexed_mesh::Polygon_soup soup;
+  soup.points = model.mesh.points;
+  for(const SMT::Triangle_indices& t : model.mesh.triangles) {
+    soup.corners.insert(soup.corners.end(), t.begin(), t.end());
+    soup.first_corner.push_back(std::uint32_t(soup.corners.size()));
+  }
+  SMT::IO::OBJ_details details;
+  details.normals = model.frames.normals;
+  details.normal_corners = soup.corners;
+  details.lines = {{0, "mtllib a.mtl"}, {0, "g one"}, {9000, "g two"}, {9000, "# three"}, {faces, "# end"}};
+  const auto texts = [&](unsigned int threads) {
+    const CGAL::Blocked_execution::Thread_scope scope(threads);
+    return std::vector<std::string>{obj_of(model.mesh), obj_of(model), obj_of(soup, details)};
+  };
+  const std::vector<std::string> expected = texts(1);
+  EXPECT_EQ(std::count(expected[1].begin(), expected[1].end(), '\n'),
+            std::ptrdiff_t(1 + 2 * soup.points.size() + model.mesh.uv.size() + 3 + faces));
+  EXPECT_LT(expected[2].find("\ng two\n# three\nf "), expected[2].find("\n# end\n"));
+  for(const unsigned int threads : {2u, 3u, 8u})
+    EXPECT_EQ(texts(threads), expected) << threads << " threads";
 }
 
 TEST(Writers, ply_is_read_by_cgal_with_both_pairs_of_coordinates)

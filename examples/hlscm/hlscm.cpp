@@ -11,6 +11,8 @@
 #include "common/Interruption.h"
 #include "common/Program_error.h"
 
+#include <CGAL/Blocked_execution/blocked_for.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
@@ -31,6 +33,7 @@ int run(hlscm::Program_options options)
   if(factorizes_charts) {
     options.library.threads = hlscm::reserve_blas_memory(options.library.threads);
   }
+  const CGAL::Blocked_execution::Thread_scope threads(options.library.threads);
   switch(options.command) {
   case hlscm::Command::INFO:
     return hlscm::run_info(options);

@@ -124,7 +124,6 @@ Built_atlas build_atlas(const Input_surface& surface, const Program_options& opt
   }
   library.progress = [&progress](double part) { return progress.try_advance(part); };
   progress.start_stage("atlas");
-  const CGAL::Blocked_execution::Thread_scope threads(options.library.threads);
   Layout_report layout;
   std::vector<std::uint8_t> limits = limits_of_charts(surface, options, layout);
   set_layout(surface, options, library);

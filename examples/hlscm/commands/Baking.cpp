@@ -163,7 +163,6 @@ Baked_images bake_images(const Baking_input& input, const Program_options& optio
                          const Time_limit& limit, Progress_bar& progress, Bake_report& report)
 {
   const Stopwatch baking;
-  const CGAL::Blocked_execution::Thread_scope threads(options.library.threads);
   Baked_images images = Baker(input, options, limit, progress).run(report);
   report.seconds_bake = baking.seconds();
   return images;
@@ -174,7 +173,6 @@ void compare_normals(const Baking_input& input, const Baked_images& images,
                      Bake_report& report)
 {
   const Stopwatch comparing;
-  const CGAL::Blocked_execution::Thread_scope threads(options.library.threads);
   const SMT::Rendering_error error = SMT::rendering_error(
       input.fine, input.light, images.frames, normals,
       options.bake.is_object_space ? SMT::Normal_space::OBJECT : SMT::Normal_space::TANGENT);

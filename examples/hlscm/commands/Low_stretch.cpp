@@ -115,7 +115,6 @@ map_with_low_stretch(const Program_options& options,
   library.time_limit = options.library.time_limit;
   library.progress = [&progress](double fraction) { return progress.try_advance(fraction); };
   progress.start_stage("solving");
-  const CGAL::Blocked_execution::Thread_scope threads(options.library.threads);
   SMP::Low_stretch_map map = map_with(options.stretch, component, library);
   Interruption::check();
   if(!map.is_ok()) {

@@ -33,7 +33,6 @@ Progressive_model build_progressive(const SMM::Textured_triangle_mesh& mesh,
   SMM::Textured_progressive_mesh_options build;
   build.progress = [&progress](double part) { return progress.try_advance(part); };
   progress.start_stage("decimating");
-  const CGAL::Blocked_execution::Thread_scope threads(options.library.threads);
   SMM::Textured_progressive_mesh_result result = SMM::build_textured_progressive_mesh(mesh, build);
   Interruption::check();
   if(!result.error.empty()) {

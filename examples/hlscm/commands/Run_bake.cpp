@@ -34,7 +34,6 @@ Textured_triangle_mesh make_level(const Textured_triangle_mesh& fine,
   const Stopwatch simplifying;
   const Progressive_model model = build_progressive(fine, options, progress);
   progress.start_stage("measuring");
-  const CGAL::Blocked_execution::Thread_scope threads(options.library.threads);
   const SMM::Level_extractor levels(model);
   const std::size_t k = options.error
                             ? position_within(model, SMM::Level_error::DISTANCE, *options.error)

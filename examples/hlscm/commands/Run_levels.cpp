@@ -77,7 +77,6 @@ std::vector<Level_of_detail> make_levels(const Progressive_model& model,
                                          Levels_report& report)
 {
   progress.start_stage("measuring");
-  const CGAL::Blocked_execution::Thread_scope threads(options.library.threads);
   const SMM::Level_extractor extractor(model);
   report.smallest_faces = extractor.smallest_number_of_triangles();
   std::vector<Level_of_detail> levels;

@@ -4,6 +4,7 @@
 #ifndef CGAL_INDEXED_MESH_TRIANGLE_ADJACENCY_H
 #define CGAL_INDEXED_MESH_TRIANGLE_ADJACENCY_H
 
+#include <CGAL/Blocked_execution/Uninitialized_vector.h>
 #include <CGAL/Blocked_execution/sort_and_select.h>
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
 
@@ -83,16 +84,19 @@ public:
       const auto e = ends(h);
       return e[0] < e[1] ? e[0] : e[1];
     };
-    std::vector<std::uint32_t> end(n + 1, 0);
-    std::vector<Halfedge> halfedge(m_opposite.size());
-    for(Halfedge h = 0; h < m_opposite.size(); ++h)
-      ++end[smaller(h) + 1];
-    for(std::size_t v = 0; v < n; ++v)
-      end[v + 1] += end[v];
-    for(Halfedge h = 0; h < m_opposite.size(); ++h)
-      halfedge[end[smaller(h)]++] = h;
-    for(std::size_t v = 0, begin = 0; v < n; begin = end[v++])
-      match(halfedge.data() + begin, halfedge.data() + end[v], ends);
+    Blocked_execution::Uninitialized_vector<Halfedge> halfedge;
+    const auto for_each_halfedge = [&](const auto& use) {
+      for(Halfedge h = 0; h < m_opposite.size(); ++h)
+        use(smaller(h), h);
+    };
+    const auto begin = Blocked_execution::sort_by_key(
+      n, for_each_halfedge, [&halfedge](std::size_t count) { halfedge.resize(count); },
+      [&halfedge](std::uint32_t i, Halfedge h) { halfedge[i] = h; });
+    constexpr std::size_t block = 4096;
+    Blocked_execution::blocked_for(n, block, [&](std::size_t first, std::size_t last) {
+      for(std::size_t v = first; v < last; ++v)
+        match(halfedge.data() + begin[v], halfedge.data() + begin[v + 1], ends);
+    });
   }
 
   /// Returns the number of halfedges, three to a triangle.

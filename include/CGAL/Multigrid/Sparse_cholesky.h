@@ -22,10 +22,62 @@
 #include <utility>
 #include <vector>
 
+#if defined(__unix__) || defined(__APPLE__)
+#include <dlfcn.h>
+#endif
+
 namespace CGAL {
 namespace Multigrid {
 
 namespace internal {
+
+// Keeps OpenMP to the calling thread as long as it exists, if the program has OpenMP: CHOLMOD asks for
+// four threads in short loops, and they wait busily between these. A factorization of a million rows
+// takes four fifths of the time without them, charts that are factorized side by side as little.
+class Without_openmp_threads
+{
+public:
+  Without_openmp_threads() : m_levels(openmp().get == nullptr ? 0 : openmp().get())
+  {
+    set(0);
+  }
+
+  ~Without_openmp_threads() { set(m_levels); }
+
+  Without_openmp_threads(const Without_openmp_threads&) = delete;
+  Without_openmp_threads& operator=(const Without_openmp_threads&) = delete;
+
+private:
+  // Those of the libraries of the program, or null
+  struct Functions
+  {
+    int (*get)() = nullptr;
+    void (*set)(int) = nullptr;
+  };
+
+  static const Functions& openmp()
+  {
+    static const Functions functions = [] {
+      Functions found;
+#if defined(__unix__) || defined(__APPLE__)
+      const auto get = dlsym(RTLD_DEFAULT, "omp_get_max_active_levels"),
+                 set = dlsym(RTLD_DEFAULT, "omp_set_max_active_levels");
+      if(get != nullptr && set != nullptr)
+        found = {reinterpret_cast<int (*)()>(get), reinterpret_cast<void (*)(int)>(set)};
+#endif
+      return found;
+    }();
+    return functions;
+  }
+
+  void set(int levels)
+  {
+    if(openmp().set != nullptr)
+      openmp().set(levels);
+  }
+
+  int m_levels; // of nested parallel regions that the thread may begin
+};
 
 template <class Factorization, class = void>
 struct Is_cholmod
@@ -62,6 +114,7 @@ bool factorize_sparse(Factorization& factorization, const Matrix& matrix)
   if constexpr(internal::Is_cholmod<Factorization>::value) {
     factorization.cholmod().print = 0;         // no messages on the standard output
     factorization.cholmod().metis_memory = 2.; // METIS could end the program where memory is short
+    const internal::Without_openmp_threads one_thread;
     factorization.analyzePattern(matrix);
     if(!internal::is_cholmod_well(factorization)) // there is no factor then
       return false;

@@ -144,15 +144,15 @@ inline Mesh_outcome adjacency_error(std::size_t n, const Triangle_adjacency& adj
   for(Halfedge h = 0; h < 3 * n && result.is_ok(); ++h) {
     const Triangle_index t = triangle_of(h);
     const Halfedge o = adjacency.opposite(h);
-    const std::string triangle = "triangle " + std::to_string(t);
+    const auto triangle = [t] { return "triangle " + std::to_string(t); };
     if(o != no_halfedge && adjacency.opposite(o) != h)
-      return {Mesh_status::BAD_MESH, triangle + " has an edge with more than two triangles"};
+      return {Mesh_status::BAD_MESH, triangle() + " has an edge with more than two triangles"};
     if(charts.chart[t] >= charts.number_of_charts)
-      return {Mesh_status::BAD_OPTIONS, triangle + " is in a chart that does not exist"};
+      return {Mesh_status::BAD_OPTIONS, triangle() + " is in a chart that does not exist"};
     if(charts.is_seam(h) ? o != no_halfedge && !charts.is_seam(o)
                          : o == no_halfedge || charts.chart[triangle_of(o)] != charts.chart[t])
       return {Mesh_status::BAD_OPTIONS,
-              "the seams at " + triangle + " are not those between the charts"};
+              "the seams at " + triangle() + " are not those between the charts"};
   }
   return result;
 }

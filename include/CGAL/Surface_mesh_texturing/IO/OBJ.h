@@ -8,9 +8,9 @@
 #include <CGAL/Surface_mesh_texturing/IO/Textured_model.h>
 #include <CGAL/Surface_mesh_texturing/internal/writing/Byte_output.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <initializer_list>
 #include <ostream>
 #include <string>
@@ -38,10 +38,12 @@ inline void put_obj_vertices(Byte_output& out,
                              const std::vector<Textured_triangle_mesh::Point_3>& points,
                              const std::vector<Textured_triangle_mesh::Point_2>& uv)
 {
-  for(const auto& p : points)
-    put_line(out, "v", {p.x(), p.y(), p.z()});
-  for(const auto& p : uv)
-    put_line(out, "vt", {p.x(), p.y()});
+  out.put_each(points.size(), [&](Byte_output& lines, std::size_t v) {
+    put_line(lines, "v", {points[v].x(), points[v].y(), points[v].z()});
+  });
+  out.put_each(uv.size(), [&](Byte_output& lines, std::size_t w) {
+    put_line(lines, "vt", {uv[w].x(), uv[w].y()});
+  });
 }
 
 // A corner v, v/vt, v//vn or v/vt/vn.
@@ -70,6 +72,17 @@ inline void put_obj_face(Byte_output& out, const Triangle_indices& vertices,
   out.put("\n");
 }
 
+// The corners of a face of a soup.
+inline void put_obj_face(Byte_output& out, const Indexed_mesh::Polygon_soup& soup,
+                         const std::vector<std::uint32_t>& normal_corners, std::size_t f)
+{
+  out.put("f");
+  for(std::uint32_t c = soup.first_corner[f]; c < soup.first_corner[f + 1]; ++c)
+    put_obj_corner(out, soup.corners[c], soup.has_uv() ? soup.uv_corners[c] : no_vertex,
+                   normal_corners.empty() ? no_vertex : normal_corners[c]);
+  out.put("\n");
+}
+
 inline bool write_obj(std::ostream& os, const std::vector<Textured_triangle_mesh::Point_3>& points,
                       const std::vector<Triangle_indices>& triangles,
                       const std::vector<Textured_triangle_mesh::Point_2>& uv,
@@ -79,8 +92,9 @@ inline bool write_obj(std::ostream& os, const std::vector<Textured_triangle_mesh
     return false;
   Byte_output out(os);
   put_obj_vertices(out, points, uv);
-  for(std::size_t t = 0; t < triangles.size(); ++t)
-    put_obj_face(out, triangles[t], wedges[t], false);
+  out.put_each(triangles.size(), [&](Byte_output& lines, std::size_t t) {
+    put_obj_face(lines, triangles[t], wedges[t], false);
+  });
   return out.finish();
 }
 
@@ -153,18 +167,22 @@ inline bool write_OBJ(std::ostream& os, const Textured_model& model)
   internal::Byte_output out(os);
   out.put("mtllib " + model.name + ".mtl\n");
   internal::put_obj_vertices(out, model.mesh.points, model.mesh.uv);
-  for(const Vector_3& n : model.frames.normals) {
-    char line[64]; // of unit vectors
-    std::snprintf(line, sizeof line, "vn %.6f %.6f %.6f\n", n.x(), n.y(), n.z());
-    out.put(line);
-  }
-  for(std::size_t t = 0; t < model.mesh.triangles.size(); ++t) {
+  out.put_each(model.frames.normals.size(), [&](internal::Byte_output& lines, std::size_t i) {
+    const Vector_3& n = model.frames.normals[i];
+    lines.put("vn");
+    for(const double x : {n.x(), n.y(), n.z()}) {
+      lines.put(" ");
+      lines.put_text(x, 6);
+    }
+    lines.put("\n");
+  });
+  out.put_each(model.mesh.triangles.size(), [&](internal::Byte_output& lines, std::size_t t) {
     const std::uint32_t page = internal::page_of(model, t);
     if(t == 0 || page != internal::page_of(model, t - 1))
-      out.put("usemtl " + material_name(page) + "\n");
-    internal::put_obj_face(out, model.mesh.triangles[t], model.mesh.wedges[t],
+      lines.put("usemtl " + material_name(page) + "\n");
+    internal::put_obj_face(lines, model.mesh.triangles[t], model.mesh.wedges[t],
                            !model.frames.normals.empty());
-  }
+  });
   return out.finish();
 }
 
@@ -202,21 +220,22 @@ inline bool write_OBJ(std::ostream& os, const Indexed_mesh::Polygon_soup& soup,
   for(; line != details.lines.end() && line->first == 0 && line->second.rfind("mtllib", 0) == 0; ++line)
     out.put(line->second + "\n");
   internal::put_obj_vertices(out, soup.points, soup.uv);
-  for(const Vector_3& n : details.normals)
-    internal::put_line(out, "vn", {n.x(), n.y(), n.z()});
-  for(std::uint32_t f = 0; f <= soup.number_of_faces(); ++f) {
-    for(; line != details.lines.end() && line->first <= f; ++line)
-      out.put(line->second + "\n");
-    if(f == soup.number_of_faces())
-      break;
-    out.put("f");
-    for(std::uint32_t c = soup.first_corner[f]; c < soup.first_corner[f + 1]; ++c)
-      internal::put_obj_corner(out, soup.corners[c],
-                               soup.has_uv() ? soup.uv_corners[c] : Indexed_mesh::no_vertex,
-                               details.normal_corners.empty() ? Indexed_mesh::no_vertex
-                                                              : details.normal_corners[c]);
-    out.put("\n");
+  out.put_each(details.normals.size(), [&](internal::Byte_output& lines, std::size_t n) {
+    const Vector_3& normal = details.normals[n];
+    internal::put_line(lines, "vn", {normal.x(), normal.y(), normal.z()});
+  });
+  std::size_t f = 0;
+  const auto put_faces_before = [&](std::size_t end) {
+    out.put_each(end - f, [&](internal::Byte_output& lines, std::size_t i) {
+      internal::put_obj_face(lines, soup, details.normal_corners, f + i);
+    });
+    f = end;
+  };
+  for(; line != details.lines.end() && line->first <= soup.number_of_faces(); ++line) {
+    put_faces_before((std::max)(f, line->first));
+    out.put(line->second + "\n");
   }
+  put_faces_before(soup.number_of_faces());
   return out.finish();
 }
 

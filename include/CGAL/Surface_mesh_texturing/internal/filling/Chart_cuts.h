@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <queue>
@@ -195,6 +196,7 @@ inline Crease_weights Chart_cut_finder::crease_weights() const
 inline Chart_cut_finder::Path Chart_cut_finder::find_path(Vertex_index a, Vertex_index b, double band) const
 {
   constexpr double price_of_distance = 4.;
+  constexpr double never = std::numeric_limits<double>::infinity();
   struct Reached
   {
     double price, seam;
@@ -209,7 +211,8 @@ inline Chart_cut_finder::Path Chart_cut_finder::find_path(Vertex_index a, Vertex
     const double s = (std::max)(0., (std::min)(1., t));
     return distance(p, {start[0] + s * (end[0] - start[0]), start[1] + s * (end[1] - start[1])});
   };
-  std::unordered_map<Vertex_index, Reached> reached = {{a, {0., 0., a}}};
+  std::vector<Reached> reached(m_map.uv.size(), {never, 0., a});
+  reached[a].price = 0.;
   std::priority_queue<Offer, std::vector<Offer>, std::greater<Offer>> offers;
   offers.push({0., a});
   const auto offer = [&](Vertex_index v, Vertex_index w, Halfedge h, double so_far) {
@@ -222,10 +225,9 @@ inline Chart_cut_finder::Path Chart_cut_finder::find_path(Vertex_index a, Vertex
     if(aside > band)
       return;
     const double edge = seam_length(h), sum = so_far + edge * (1. + price_of_distance * aside / length);
-    const auto [place, is_new] = reached.insert({w, {sum, 0., v}});
-    if(!is_new && !(sum < place->second.price))
+    if(!(sum < reached[w].price))
       return;
-    place->second = {sum, reached.at(v).seam + edge, v};
+    reached[w] = {sum, reached[v].seam + edge, v};
     offers.push({sum, w});
   };
   while(!offers.empty()) {
@@ -233,7 +235,7 @@ inline Chart_cut_finder::Path Chart_cut_finder::find_path(Vertex_index a, Vertex
     offers.pop();
     if(v == b)
       break;
-    if(sum > reached.at(v).price)
+    if(sum > reached[v].price)
       continue;
     for(const Halfedge* h = m_corners->begin(v); h != m_corners->end(v); ++h) {
       offer(v, vertex_of(triangles(), next_halfedge(*h)), *h, sum);
@@ -242,10 +244,10 @@ inline Chart_cut_finder::Path Chart_cut_finder::find_path(Vertex_index a, Vertex
     }
   }
   Path path;
-  if(reached.count(b) == 0)
+  if(reached[b].price == never)
     return path;
-  path.seam = reached.at(b).seam;
-  for(Vertex_index v = b; v != a; v = reached.at(v).from)
+  path.seam = reached[b].seam;
+  for(Vertex_index v = b; v != a; v = reached[v].from)
     path.vertices.push_back(v);
   path.vertices.push_back(a);
   std::reverse(path.vertices.begin(), path.vertices.end());
