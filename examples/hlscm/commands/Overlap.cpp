@@ -27,15 +27,23 @@ public:
     const auto y = std::minmax({p[0][1], p[1][1], p[2][1]});
     const double x1 = p[1][0] - p[0][0], y1 = p[1][1] - p[0][1];
     const double x2 = p[2][0] - p[0][0], y2 = p[2][1] - p[0][1];
-    const double area = x1 * y2 - x2 * y1;
-    for(std::size_t j = first(y.first); j < end(y.second, m_height); ++j) {
-      for(std::size_t i = first(x.first); i < end(x.second, m_width); ++i) {
-        const double u = double(i) + 0.5 - p[0][0], v = double(j) + 0.5 - p[0][1];
-        const double b1 = (u * y2 - v * x2) / area, b2 = (v * x1 - u * y1) / area;
-        if(b1 > rounding && b2 > rounding && 1 - b1 - b2 > rounding) {
-          std::uint8_t& count = m_counts[(page * m_height + j) * m_width + i];
-          count = std::uint8_t(std::min(2, count + 1));
+    const double twice_area = x1 * y2 - x2 * y1, sign = twice_area < 0 ? -1 : 1;
+    const double all = sign * twice_area, least = rounding * all;
+    const std::size_t left = first(x.first), right = end(x.second, m_width), top = end(y.second, m_height);
+    for(std::size_t j = first(y.first); j < top; ++j) {
+      std::uint8_t* row = m_counts.data() + (page * m_height + j) * m_width;
+      const double v = double(j) + 0.5 - p[0][1];
+      bool was_inside = false;
+      for(std::size_t i = left; i < right; ++i) {
+        const double u = double(i) + 0.5 - p[0][0];
+        const double at_1 = sign * (u * y2 - v * x2), at_2 = sign * (v * x1 - u * y1);
+        const bool is_inside = at_1 > least && at_2 > least && all - at_1 - at_2 > least;
+        if(is_inside) {
+          row[i] = row[i] == 0 ? 1 : 2;
+        } else if(was_inside) {
+          break; // triangles are convex
         }
+        was_inside = is_inside;
       }
     }
   }

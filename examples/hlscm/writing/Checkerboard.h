@@ -4,27 +4,38 @@
 #ifndef HLSCM_PROGRAM_CHECKERBOARD_H
 #define HLSCM_PROGRAM_CHECKERBOARD_H
 
-#include "writing/Png_file.h"
+#include <png.h>
 
-#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace hlscm {
 
-/// Returns a PNG file of `width` x `height` pixels: a checkerboard with so many squares in a row.
+/// Returns a PNG file of `width` x `height` pixels, of a palette: a checkerboard with so many squares in
+/// a row.
 inline std::string checkerboard_png(std::size_t width, std::size_t height, std::size_t squares)
 {
-  constexpr std::array<std::uint8_t, 3> light = {250, 247, 242}, dark = {56, 102, 158};
-  std::vector<std::uint8_t> rows[2], rgb; // two kinds of rows
-  for(std::size_t kind = 0; kind < 2; ++kind)
-    for(std::size_t x = 0; x < width; ++x) {
-      const auto& colour = (x * squares / width + kind) % 2 == 1 ? dark : light;
-      rows[kind].insert(rows[kind].end(), colour.begin(), colour.end());
-    }
-  for(std::size_t y = 0; y < height; ++y) {
-    const std::vector<std::uint8_t>& row = rows[y * squares / width % 2];
-    rgb.insert(rgb.end(), row.begin(), row.end());
+  constexpr std::uint8_t colours[] = {250, 247, 242, 56, 102, 158}; // light and dark
+  std::vector<std::uint8_t> pixels(width * height);
+  for(std::size_t y = 0; y < height; ++y)
+    for(std::size_t x = 0; x < width; ++x)
+      pixels[y * width + x] = (x * squares / width + y * squares / width) % 2;
+  png_image image = {};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = png_uint_32(width);
+  image.height = png_uint_32(height);
+  image.format = PNG_FORMAT_RGB_COLORMAP;
+  image.colormap_entries = 2;
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+  std::string bytes(size, '\0');
+  if(!png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels.data(), 0, colours)) {
+    throw std::runtime_error("the PNG file could not be composed");
   }
-  return encode_png(rgb, width);
+  bytes.resize(size);
+  return bytes;
 }
 
 } // namespace hlscm

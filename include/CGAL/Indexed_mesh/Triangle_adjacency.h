@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <numeric>
 #include <utility>
@@ -71,31 +72,26 @@ public:
   explicit Triangle_adjacency(const std::vector<Triangle_indices>& triangles)
     : m_opposite(3 * triangles.size(), no_halfedge)
   {
-    // The halfedges by their smaller vertex, which the two of an edge share
+    // The halfedges by their smaller vertex, which the two of an edge share; meshes may be in any order
     Vertex_index n = 0;
     for(const Triangle_indices& t : triangles)
       for(const Vertex_index v : t)
         n = v < n ? n : v + 1;
-    const auto ends = [&triangles](Halfedge h) {
-      return std::array<Vertex_index, 2>{vertex_of(triangles, h),
-                                         vertex_of(triangles, next_halfedge(h))};
+    const auto for_each_side = [&triangles](const auto& use) {
+      for(Triangle_index t = 0; t < triangles.size(); ++t)
+        for(std::uint32_t c = 0; c < 3; ++c) {
+          const Vertex_index v = triangles[t][c], w = triangles[t][c == 2 ? 0 : c + 1];
+          use((std::min)(v, w), Side{(std::max)(v, w), 3 * t + c, v < w});
+        }
     };
-    const auto smaller = [&ends](Halfedge h) {
-      const auto e = ends(h);
-      return e[0] < e[1] ? e[0] : e[1];
-    };
-    Blocked_execution::Uninitialized_vector<Halfedge> halfedge;
-    const auto for_each_halfedge = [&](const auto& use) {
-      for(Halfedge h = 0; h < m_opposite.size(); ++h)
-        use(smaller(h), h);
-    };
+    Blocked_execution::Uninitialized_vector<Side> sides;
     const auto begin = Blocked_execution::sort_by_key(
-      n, for_each_halfedge, [&halfedge](std::size_t count) { halfedge.resize(count); },
-      [&halfedge](std::uint32_t i, Halfedge h) { halfedge[i] = h; });
+      n, for_each_side, [&sides](std::size_t count) { sides.resize(count); },
+      [&sides](std::uint32_t i, const Side& side) { sides[i] = side; });
     constexpr std::size_t block = 4096;
     Blocked_execution::blocked_for(n, block, [&](std::size_t first, std::size_t last) {
       for(std::size_t v = first; v < last; ++v)
-        match(halfedge.data() + begin[v], halfedge.data() + begin[v + 1], ends);
+        match(sides.data() + begin[v], sides.data() + begin[v + 1]);
     });
   }
 
@@ -110,29 +106,32 @@ public:
   std::vector<Halfedge> take() { return std::move(m_opposite); }
 
 private:
-  // Finds those among these halfedges, which share their smaller vertex and are ascending, that have
-  // the same ends in opposite directions.
-  template <class Ends>
-  void match(Halfedge* begin, Halfedge* end, const Ends& ends)
+  // A halfedge, without a look at its triangle.
+  struct Side
+  {
+    Vertex_index larger;  // of its vertices
+    Halfedge halfedge;
+    bool goes_to_larger;
+  };
+
+  // Finds those among these sides, which share their smaller vertex and are ascending, that have the same
+  // ends in opposite directions.
+  void match(Side* begin, Side* end)
   {
     constexpr std::ptrdiff_t few = 32; // more are sorted by their ends first
-    const auto larger = [&ends](Halfedge h) {
-      const auto e = ends(h);
-      return e[0] < e[1] ? e[1] : e[0];
-    };
     const bool is_sorted = end - begin > few;
     if(is_sorted)
-      std::stable_sort(begin, end, [&](Halfedge g, Halfedge h) { return larger(g) < larger(h); });
-    for(Halfedge* h = begin; h != end; ++h)
-      for(Halfedge* g = h; g != begin;) {
-        const auto e = ends(*--g), f = ends(*h);
-        if(is_sorted && larger(*g) != larger(*h))
-          break;
-        if(e[0] == f[1] && e[1] == f[0]) {
-          m_opposite[*g] = *h;
-          m_opposite[*h] = m_opposite[*h] == no_halfedge ? *g : m_opposite[*h];
+      std::stable_sort(begin, end, [](const Side& g, const Side& h) { return g.larger < h.larger; });
+    for(Side* h = begin; h != end; ++h)
+      for(Side* g = h; g-- != begin;)
+        if(g->larger != h->larger) {
+          if(is_sorted)
+            break;
+        } else if(g->goes_to_larger != h->goes_to_larger) {
+          Halfedge& across = m_opposite[h->halfedge];
+          m_opposite[g->halfedge] = h->halfedge;
+          across = across == no_halfedge ? g->halfedge : across;
         }
-      }
   }
 
   std::vector<Halfedge> m_opposite;
