@@ -18,6 +18,7 @@
 #include <gtest/gtest.h>
 
 #include <complex>
+#include <initializer_list>
 #include <limits>
 #include <string>
 #include <vector>
@@ -126,6 +127,36 @@ TEST(Chart_of_another_mesh, gives_no_levels)
     EXPECT_NE(result.error, "");
     EXPECT_EQ(result.status, CGAL::Indexed_mesh::Mesh_status::BAD_OPTIONS);
   }
+}
+
+TEST(Chart_of_other_arrays, gives_no_levels)
+{
+  const Indexed_triangle_mesh mesh = good_arrays();
+  SMP::HLSCM_options options;
+  EXPECT_TRUE(SMP::conformal_map(mesh, options).progressive_mesh.vertices.empty()); // not asked for
+  options.keep_progressive_mesh = true;
+  const SMP::Conformal_map map = SMP::conformal_map(mesh, options);
+  const SMP::Chart_progressive_mesh& chart = map.progressive_mesh;
+  EXPECT_EQ(SMP::build_textured_progressive_mesh(mesh.points, map.uv, chart).error, "");
+  std::vector<Indexed_triangle_mesh::Point_3> fewer = mesh.points;
+  fewer.pop_back();
+  std::vector<Point_2> fewer_uv = map.uv;
+  fewer_uv.pop_back();
+  CGAL::Surface_mesh_multiresolution::Textured_progressive_mesh_options locked;
+  locked.is_locked.assign(mesh.points.size() + 1, true);
+  for(const Mesh_outcome& outcome : std::initializer_list<Mesh_outcome>{
+        SMP::build_textured_progressive_mesh(fewer, fewer_uv, chart),
+        SMP::build_textured_progressive_mesh(mesh.points, fewer_uv, chart),
+        SMP::build_textured_progressive_mesh(mesh.points, map.uv, chart, locked),
+        SMP::build_textured_progressive_mesh(mesh.points, map.uv, SMP::Chart_progressive_mesh())}) {
+    EXPECT_NE(outcome.error, "");
+    EXPECT_EQ(outcome.status, Mesh_status::BAD_OPTIONS);
+  }
+  std::vector<Indexed_triangle_mesh::Point_3> points = mesh.points;
+  points[2] = Indexed_triangle_mesh::Point_3(0., std::numeric_limits<double>::quiet_NaN(), 0.);
+  const Mesh_outcome bad = SMP::build_textured_progressive_mesh(points, map.uv, chart);
+  EXPECT_EQ(bad.status, Mesh_status::BAD_MESH);
+  EXPECT_NE(bad.error.find("vertex 2"), std::string::npos) << bad.error;
 }
 
 // CGAL's table of texts has one too few.

@@ -8,6 +8,7 @@
 
 #include <CGAL/Surface_mesh_multiresolution/Level_extractor.h>
 #include <CGAL/Surface_mesh_multiresolution/copy_textured_mesh.h>
+#include <CGAL/Surface_mesh_parameterization/conformal_map.h>
 #include <CGAL/Surface_mesh_parameterization/textured_progressive_mesh_of_chart.h>
 
 #include <CGAL/Polyhedron_3.h>
@@ -53,6 +54,17 @@ TEST(Levels_of_detail, share_the_map_of_the_parameterizer)
       ASSERT_EQ(result.mesh.points[v], mesh.point(source)) << name;
       ASSERT_EQ(result.mesh.uv[v], get(uvmap, source)) << name;
     }
+
+    // The mesh as two arrays has the same levels.
+    const SMP::Conformal_map map = SMP::conformal_map(chart, options);
+    ASSERT_EQ(map.error, "") << name;
+    const auto of_arrays
+      = SMP::build_textured_progressive_mesh(chart.points, map.uv, map.progressive_mesh);
+    ASSERT_EQ(of_arrays.error, "") << name;
+    EXPECT_EQ(of_arrays.mesh.points, result.mesh.points) << name;
+    EXPECT_EQ(of_arrays.mesh.uv, result.mesh.uv) << name;
+    EXPECT_EQ(of_arrays.mesh.source_vertex, result.mesh.source_vertex) << name;
+    EXPECT_EQ(of_arrays.mesh.number_of_collapses(), result.mesh.number_of_collapses()) << name;
   }
 }
 

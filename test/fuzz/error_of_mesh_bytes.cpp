@@ -4,10 +4,10 @@
 #include "error_of_mesh_bytes.h"
 
 #include <reading/Diagnosis.h>
-#include <common/Mesh.h>
 #include <reading/Mesh_reading.h>
 #include <common/Program_error.h>
 
+#include <support/chart_generators.h>
 #include <support/soup_properties.h>
 
 #include <CGAL/Indexed_mesh/surface_of_soup.h>
@@ -25,6 +25,9 @@ namespace SMP = CGAL::Surface_mesh_parameterization;
 namespace {
 
 using namespace hlscm;
+using Mesh = test_support::Surface_mesh;
+using Point_2 = CGAL::Simple_cartesian<double>::Point_2;
+using Uv_map = Mesh::Property_map<Mesh::Vertex_index, Point_2>;
 
 constexpr std::size_t most_faces_mapped = 2000; // a fuzzer wants many runs a second
 
@@ -37,7 +40,7 @@ SMP::HLSCM_options options_with_many_levels()
   return options;
 }
 
-bool is_finite(const Kernel::Point_2& p) { return std::isfinite(p.x()) && std::isfinite(p.y()); }
+bool is_finite(const Point_2& p) { return std::isfinite(p.x()) && std::isfinite(p.y()); }
 
 std::string error_in_success(const Mesh& mesh, Uv_map uv, const SMP::HLSCM_report& report)
 {
@@ -74,11 +77,11 @@ std::string error_in_success(const Mesh& mesh, Uv_map uv, const SMP::HLSCM_repor
 
 std::string error_of_map(const CGAL::Indexed_mesh::Indexed_triangle_mesh& arrays)
 {
-  Mesh mesh = build_mesh(arrays);
+  Mesh mesh = test_support::to_surface_mesh(arrays);
   if(mesh.number_of_faces() != arrays.triangles.size()) {
     return "a chart by its diagnosis, but the mesh has not all faces";
   }
-  Uv_map uv = mesh.add_property_map<Mesh::Vertex_index, Kernel::Point_2>("v:uv").first;
+  Uv_map uv = mesh.add_property_map<Mesh::Vertex_index, Point_2>("v:uv").first;
   SMP::HLSCM_parameterizer_3<Mesh> parameterizer(options_with_many_levels());
   const auto border = CGAL::Polygon_mesh_processing::longest_border(mesh).first;
   const SMP::Error_code code = parameterizer.parameterize(mesh, border, uv);

@@ -7,9 +7,7 @@
 #include "common/Interruption.h"
 #include "common/Program_error.h"
 
-#include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Surface_mesh_parameterization/Edge_collapse_decimation.h>
-#include <CGAL/Surface_mesh_parameterization/HLSCM_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/repair_flipped_faces.h>
 
 #include <algorithm>
@@ -55,10 +53,8 @@ std::vector<SMP::HLSCM_pin> checked_pins(const Program_options& options,
 
 namespace {
 
-using Parameterizer =
-    SMP::HLSCM_parameterizer_3<Mesh, CGAL::Default, CGAL::Default,
-                               CGAL::Parallel_if_available_tag>;
-using Vertex_pins = std::vector<std::pair<Mesh::Vertex_index, Kernel::Point_2>>;
+using CGAL::Indexed_mesh::Indexed_triangle_mesh;
+using Pins = std::vector<SMP::HLSCM_pin>;
 
 // Charts for which multigrid is made take at most some 40 iterations.
 constexpr std::size_t patience = 200;
@@ -66,26 +62,19 @@ constexpr std::size_t patience = 200;
 // Whether the direct method may take the place of the one that the program chose. So many faces
 // cost it two seconds and 300 MB.
 bool may_fall_back(const Program_options& options, const SMP::HLSCM_options& library,
-                   const Mesh& mesh)
+                   const Indexed_triangle_mesh& mesh)
 {
   constexpr std::size_t most_faces = 300000;
   const bool is_chosen = library.method == SMP::Conformal_method::HLSCM
                       || library.method == SMP::Conformal_method::SPECTRAL;
   return is_chosen && !options.is_method_given && library.maximal_iterations == 0
-      && library.time_limit == 0 && mesh.number_of_faces() <= most_faces;
+      && library.time_limit == 0 && mesh.triangles.size() <= most_faces;
 }
 
-// A halfedge of the longest border; of any border if lengths are too small for CGAL to add them.
-Mesh::Halfedge_index border_of(const Mesh& mesh)
+SMP::Conformal_map map_of(const Indexed_triangle_mesh& mesh, const Pins& pins,
+                          const SMP::HLSCM_options& options)
 {
-  const auto longest = CGAL::Polygon_mesh_processing::longest_border(mesh).first;
-  if(longest != Mesh::null_halfedge()) {
-    return longest;
-  }
-  const auto all = mesh.halfedges();
-  const auto found
-      = std::find_if(all.begin(), all.end(), [&](auto h) { return mesh.is_border(h); });
-  return found == all.end() ? Mesh::null_halfedge() : *found;
+  return pins.empty() ? SMP::conformal_map(mesh, options) : SMP::conformal_map(mesh, pins, options);
 }
 
 // Whether an iteration ended since no energy was left but what rounding makes, which on long strips
@@ -107,21 +96,18 @@ std::string not_converged(std::size_t iterations)
 }
 
 // The map of the direct method, and why; nothing if it has none either.
-std::optional<Solved_chart> solve_directly(SMP::HLSCM_options library, const Mesh& mesh,
-                                           const Vertex_pins& pins, Uv_map uv,
-                                           std::size_t iterations)
+std::optional<SMP::Conformal_map> solve_directly(SMP::HLSCM_options library,
+                                                 const Indexed_triangle_mesh& mesh,
+                                                 const Pins& pins, std::size_t iterations)
 {
   reserve_blas_memory(1);
   library.method = SMP::Conformal_method::DIRECT;
   library.level_observer = nullptr; // the coarse levels were shown
-  Parameterizer parameterizer(library);
-  parameterizer.set_pins(pins);
-  const SMP::Error_code error = parameterizer.parameterize(mesh, border_of(mesh), uv);
+  SMP::Conformal_map result = map_of(mesh, pins, library);
   Interruption::check();
-  if(error != SMP::OK) {
+  if(!result.is_ok()) {
     return std::nullopt;
   }
-  Solved_chart result = {parameterizer.report(), {}};
   result.report.warnings.push_back("multigrid found no exact map in " + std::to_string(iterations)
                                    + " iterations, this is that of --method direct");
   return result;
@@ -129,9 +115,9 @@ std::optional<Solved_chart> solve_directly(SMP::HLSCM_options library, const Mes
 
 } // namespace
 
-Solved_chart solve_chart(const Program_options& options, SMP::HLSCM_options library,
-                         const Mesh& mesh, const std::vector<SMP::HLSCM_pin>& pins, Uv_map uv,
-                         Progress_bar& progress)
+SMP::Conformal_map solve_chart(const Program_options& options, SMP::HLSCM_options library,
+                               const Indexed_triangle_mesh& mesh, const Pins& pins,
+                               Progress_bar& progress)
 {
   if(options.repairs_flips) {
     library.repair_flips = SMP::Flip_repairer();
@@ -149,30 +135,22 @@ Solved_chart solve_chart(const Program_options& options, SMP::HLSCM_options libr
   if(library.method == SMP::Conformal_method::DIRECT) {
     reserve_blas_memory(1);
   }
-  Vertex_pins pinned;
-  for(const SMP::HLSCM_pin& pin : pins) {
-    pinned.emplace_back(Mesh::Vertex_index(Mesh::size_type(pin.vertex)),
-                        Kernel::Point_2(pin.u, pin.v));
-  }
-  Parameterizer parameterizer(library);
-  parameterizer.set_pins(pinned);
-
   progress.start_stage("solving");
-  const SMP::Error_code error = parameterizer.parameterize(mesh, border_of(mesh), uv);
+  SMP::Conformal_map map = map_of(mesh, pins, library);
   Interruption::check();
-  const SMP::HLSCM_report& report = parameterizer.report();
-  const bool gave_up = error != SMP::OK && report.iterations > 0 && !report.converged;
+  const SMP::HLSCM_report& report = map.report;
+  const bool gave_up = !map.is_ok() && report.iterations > 0 && !report.converged;
   if(falls_back && (gave_up || is_vague(report, library))) {
-    const auto direct = solve_directly(library, mesh, pinned, uv, report.iterations);
+    const auto direct = solve_directly(library, mesh, pins, report.iterations);
     if(direct) {
       return *direct;
     }
   }
-  if(error != SMP::OK) {
+  if(!map.is_ok()) {
     throw Program_error(options.input,
                         gave_up ? not_converged(report.iterations) : report.message);
   }
-  return {report, parameterizer.progressive_mesh()};
+  return map;
 }
 
 Similarity fit_to_unit_square(std::vector<Kernel::Point_2>& uv)

@@ -5,11 +5,11 @@
 #define HLSCM_PROGRAM_CHART_SOLVING_H
 
 #include "pictures/Level_snapshots.h"
-#include "common/Mesh.h"
+#include "common/Kernel.h"
 #include "common/Program_options.h"
 #include "common/Progress_bar.h"
 
-#include <CGAL/Surface_mesh_parameterization/HLSCM_report.h>
+#include <CGAL/Surface_mesh_parameterization/conformal_map.h>
 
 #include <string>
 #include <vector>
@@ -21,21 +21,15 @@ namespace hlscm {
 std::vector<CGAL::Surface_mesh_parameterization::HLSCM_pin>
 checked_pins(const Program_options& options, std::size_t number_of_vertices);
 
-struct Solved_chart
-{
-  CGAL::Surface_mesh_parameterization::HLSCM_report report;
-  /// Empty unless the options of the library keep it.
-  CGAL::Surface_mesh_parameterization::Chart_progressive_mesh progressive_mesh;
-};
-
 /// Parameterizes a chart with the given pins, vertices of the mesh; throws `Program_error`. Where the
 /// method is the program's choice and finds no exact map, and the user has set no limits, it is the
 /// map of the direct method, which has no progressive mesh, and a warning says so.
-Solved_chart solve_chart(const Program_options& options,
-                         CGAL::Surface_mesh_parameterization::HLSCM_options library,
-                         const Mesh& mesh,
-                         const std::vector<CGAL::Surface_mesh_parameterization::HLSCM_pin>& pins,
-                         Uv_map uv, Progress_bar& progress);
+CGAL::Surface_mesh_parameterization::Conformal_map
+solve_chart(const Program_options& options,
+            CGAL::Surface_mesh_parameterization::HLSCM_options library,
+            const CGAL::Indexed_mesh::Indexed_triangle_mesh& mesh,
+            const std::vector<CGAL::Surface_mesh_parameterization::HLSCM_pin>& pins,
+            Progress_bar& progress);
 
 /// Moves a map into the unit square, as large as possible without turning it.
 Similarity fit_to_unit_square(std::vector<Kernel::Point_2>& uv);

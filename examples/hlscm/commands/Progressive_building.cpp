@@ -6,7 +6,6 @@
 #include "commands/Chart_solving.h"
 #include "commands/Surface_mapping.h"
 #include "common/Interruption.h"
-#include "common/Mesh.h"
 #include "common/Program_error.h"
 #include "common/Stopwatch.h"
 
@@ -79,35 +78,25 @@ Progressive_model read_progressive(const std::string& name, std::vector<std::str
 Progressive_model build_from_chart(const Input_surface& input, const Program_options& options,
                                    Progress_bar& progress, Levels_report& report)
 {
-  Mesh mesh = build_mesh(input.surface.mesh);
+  const CGAL::Indexed_mesh::Indexed_triangle_mesh& mesh = input.surface.mesh;
   const Stopwatch solving;
-  Uv_map uv = mesh.add_property_map<Mesh::Vertex_index, Kernel::Point_2>("v:uv").first;
   SMP::HLSCM_options library = options.library;
   library.keep_progressive_mesh = true;
-  Solved_chart chart = solve_chart(options, library, mesh, {}, uv, progress);
-  std::vector<Kernel::Point_2> points;
-  for(const auto v : mesh.vertices()) {
-    points.push_back(uv[v]);
-  }
-  move_report(fit_to_unit_square(points), chart.report);
-  for(const auto v : mesh.vertices()) {
-    uv[v] = points[v];
-  }
+  SMP::Conformal_map chart = solve_chart(options, library, mesh, {}, progress);
+  move_report(fit_to_unit_square(chart.uv), chart.report);
   report.solver = chart.report;
   report.warnings.insert(report.warnings.end(), chart.report.warnings.begin(),
                          chart.report.warnings.end());
   report.seconds_parameterize = solving.seconds();
   const Stopwatch building;
   if(chart.progressive_mesh.vertices.empty()) { // the method has no levels
-    const auto uv_at = [&](Mesh::Halfedge_index h) { return uv[mesh.target(h)]; };
-    Progressive_model model
-        = build_progressive(SMM::textured_triangle_mesh(mesh, uv_at), options, progress);
+    Progressive_model model = build_progressive(
+        {mesh.points, mesh.triangles, chart.uv, mesh.triangles}, options, progress);
     report.seconds_build = building.seconds();
     return model;
   }
-  SMM::Textured_progressive_mesh_options build;
   SMM::Textured_progressive_mesh_result result
-      = SMP::build_textured_progressive_mesh(mesh, uv, chart.progressive_mesh, build);
+      = SMP::build_textured_progressive_mesh(mesh.points, chart.uv, chart.progressive_mesh);
   if(!result.error.empty()) {
     throw Program_error(options.input, result.error + ", repair the mesh first");
   }

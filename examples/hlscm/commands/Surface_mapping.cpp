@@ -104,14 +104,7 @@ SMP::Conformal_map map_component(const Program_options& options, SMP::HLSCM_opti
     return map_with_low_stretch(options, component, pins, std::move(library.metric), {}, stretch.back(),
                                 progress);
   }
-  Mesh mesh = build_mesh(component);
-  const Uv_map uv = mesh.add_property_map<Mesh::Vertex_index, Kernel::Point_2>("v:uv").first;
-  SMP::Conformal_map result;
-  result.report = solve_chart(options, std::move(library), mesh, pins, uv, progress).report;
-  for(const auto v : mesh.vertices()) {
-    result.uv.push_back(uv[v]);
-  }
-  return result;
+  return solve_chart(options, std::move(library), component, pins, progress);
 }
 
 // From the elements of the surface to those of the file.

@@ -5,7 +5,7 @@
 #define HLSCM_PROGRAM_LEVEL_SNAPSHOTS_H
 
 #include "pictures/Drawn_surface.h"
-#include "common/Mesh.h"
+#include "common/Kernel.h"
 #include "pictures/Unit_cube.h"
 
 #include <CGAL/Surface_mesh_multiresolution/Textured_triangle_mesh.h>

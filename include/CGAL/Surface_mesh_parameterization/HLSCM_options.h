@@ -138,7 +138,8 @@ struct HLSCM_options
   /// before the map of the coarsest level, which comes after about two thirds of the whole time.
   double time_limit = 0.;
   /// Whether the collapses that lead to the levels are kept, for levels of detail that share the
-  /// map as their texture coordinates: see `HLSCM_parameterizer_3::progressive_mesh()`.
+  /// map as their texture coordinates: see `HLSCM_parameterizer_3::progressive_mesh()` and
+  /// `Conformal_map`.
   bool keep_progressive_mesh = false;
   /// Told the part done in [0, 1] from time to time; returning `false` cancels.
   std::function<bool(double)> progress;

@@ -26,6 +26,8 @@ struct Conformal_map
   std::vector<Simple_cartesian<double>::Point_2> uv;
   HLSCM_report report;  ///< what was done; its `message` is `error`
   Error_code code = OK; ///< what `HLSCM_parameterizer_3` would return
+  /// The collapses, if `HLSCM_options::keep_progressive_mesh` was set and the method has a hierarchy.
+  Chart_progressive_mesh progressive_mesh;
 };
 
 namespace internal {
@@ -58,6 +60,8 @@ CGAL_HLSCM_INLINE Conformal_map map_arrays(Indexed_mesh::Indexed_triangle_mesh m
     repair_arrays(kept, Indexed_mesh::ranks(map.source, n), map.pins, run, map.z);
   if(!run.is_stopped())
     result.uv = points_of_values(map.source, map.z, n);
+  if(options.keep_progressive_mesh && !run.is_stopped())
+    result.progressive_mesh = {std::move(map.progressive_mesh), std::move(map.source)};
   result.code = run.finish();
   const bool is_unsolved = result.code == ERROR_CANNOT_SOLVE_LINEAR_SYSTEM;
   result.fail(result.report.cancelled ? Mesh_status::CANCELLED
@@ -73,7 +77,7 @@ CGAL_HLSCM_INLINE Conformal_map map_arrays(Indexed_mesh::Indexed_triangle_mesh m
 
 Returns the least squares conformal map with a free border of a connected mesh of genus 0 that has a
 border: what `HLSCM_parameterizer_3` computes, with pins of its own choice, for a mesh that is two
-arrays. `HLSCM_options::keep_progressive_mesh` does not count here.
+arrays.
 
 \tparam ConcurrencyTag `Sequential_tag`, `Parallel_tag` (`HLSCM_options::threads`) or `Default` for
         the threads of the caller's `Blocked_execution::Thread_scope`
