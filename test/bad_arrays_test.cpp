@@ -135,6 +135,9 @@ TEST(Chart_of_other_arrays, gives_no_levels)
   SMP::HLSCM_options options;
   EXPECT_TRUE(SMP::conformal_map(mesh, options).progressive_mesh.vertices.empty()); // not asked for
   options.keep_progressive_mesh = true;
+  options.method = SMP::Conformal_method::DIRECT; // which has no collapses
+  EXPECT_TRUE(SMP::conformal_map(mesh, options).progressive_mesh.vertices.empty());
+  options.method = SMP::Conformal_method::HLSCM;
   const SMP::Conformal_map map = SMP::conformal_map(mesh, options);
   const SMP::Chart_progressive_mesh& chart = map.progressive_mesh;
   EXPECT_EQ(SMP::build_textured_progressive_mesh(mesh.points, map.uv, chart).error, "");

@@ -141,9 +141,9 @@ SMP::Conformal_map solve_chart(const Program_options& options, SMP::HLSCM_option
   const SMP::HLSCM_report& report = map.report;
   const bool gave_up = !map.is_ok() && report.iterations > 0 && !report.converged;
   if(falls_back && (gave_up || is_vague(report, library))) {
-    const auto direct = solve_directly(library, mesh, pins, report.iterations);
+    auto direct = solve_directly(library, mesh, pins, report.iterations);
     if(direct) {
-      return *direct;
+      return std::move(*direct);
     }
   }
   if(!map.is_ok()) {

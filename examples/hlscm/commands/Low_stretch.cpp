@@ -11,6 +11,7 @@
 #include <CGAL/Surface_mesh_parameterization/low_stretch_map.h>
 
 #include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/Circular_border_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/Square_border_parameterizer_3.h>
@@ -40,28 +41,14 @@ SMP::Low_stretch_map map_with(Stretch energy, const CGAL::Indexed_mesh::Indexed_
 
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
-Mesh build_mesh(const CGAL::Indexed_mesh::Indexed_triangle_mesh& arrays)
-{
-  Mesh mesh;
-  const std::size_t vertices = arrays.points.size(), faces = arrays.triangles.size();
-  mesh.reserve(Mesh::size_type(vertices), Mesh::size_type(vertices + faces),
-               Mesh::size_type(faces));
-  for(const Kernel::Point_3& p : arrays.points) {
-    mesh.add_vertex(p);
-  }
-  for(const auto& t : arrays.triangles) {
-    mesh.add_face(Mesh::Vertex_index(t[0]), Mesh::Vertex_index(t[1]), Mesh::Vertex_index(t[2]));
-  }
-  return mesh;
-}
-
 // Where a border parameterizer puts the longest border, with the area of the surface.
 template <typename Parameterizer>
 std::vector<SMP::HLSCM_pin>
 pins_by(Parameterizer parameterizer, const Program_options& options,
         const CGAL::Indexed_mesh::Indexed_triangle_mesh& component)
 {
-  Mesh mesh = build_mesh(component);
+  Mesh mesh;
+  CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(component.points, component.triangles, mesh);
   const auto uv = mesh.add_property_map<Mesh::Vertex_index, Kernel::Point_2>("v:uv").first;
   const auto index = mesh.add_property_map<Mesh::Vertex_index, int>("v:index").first;
   const auto is_set = mesh.add_property_map<Mesh::Vertex_index, bool>("v:set").first;

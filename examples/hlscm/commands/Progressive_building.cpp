@@ -89,7 +89,7 @@ Progressive_model build_from_chart(const Input_surface& input, const Program_opt
                          chart.report.warnings.end());
   report.seconds_parameterize = solving.seconds();
   const Stopwatch building;
-  if(chart.progressive_mesh.progressive_mesh.triangles.empty()) { // the method has no levels
+  if(chart.progressive_mesh.vertices.empty()) { // the method has no levels
     Progressive_model model = build_progressive(
         {mesh.points, mesh.triangles, chart.uv, mesh.triangles}, options, progress);
     report.seconds_build = building.seconds();

@@ -106,7 +106,7 @@ public:
   std::vector<Halfedge> take() { return std::move(m_opposite); }
 
 private:
-  // A halfedge, without a look at its triangle.
+  // A halfedge, without a look at its triangle. (`Edge_table` has sides of polygons too, which it sorts.)
   struct Side
   {
     Vertex_index larger;  // of its vertices

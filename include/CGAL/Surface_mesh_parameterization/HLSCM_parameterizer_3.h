@@ -307,10 +307,10 @@ parameterize(const TriangleMesh& mesh, halfedge_descriptor bhd, VertexUVMap uvma
   const auto rank = Indexed_mesh::ranks(map.source, num_vertices(mesh));
   if(m_options.repair_flips && !run.is_stopped())
     internal::repair_chart(mesh, rank, map.pins, run, map.z);
-  if(!run.is_stopped())
+  if(!run.is_stopped()) {
     write_map(mesh, rank, map, uvmap, vpmap);
-  if(m_options.keep_progressive_mesh && !run.is_stopped())
-    *m_progressive_mesh = {std::move(map.progressive_mesh), std::move(map.source)};
+    *m_progressive_mesh = internal::take_collapses(map);
+  }
   run.lap(m_report->seconds_solve);
   return run.finish();
 }

@@ -58,10 +58,10 @@ CGAL_HLSCM_INLINE Conformal_map map_arrays(Indexed_mesh::Indexed_triangle_mesh m
   Chart_map map = map_chart_conformally(std::move(prepared), n, wanted, Coarsest_solver(), run);
   if(options.repair_flips && !run.is_stopped())
     repair_arrays(kept, Indexed_mesh::ranks(map.source, n), map.pins, run, map.z);
-  if(!run.is_stopped())
+  if(!run.is_stopped()) {
     result.uv = points_of_values(map.source, map.z, n);
-  if(options.keep_progressive_mesh && !run.is_stopped())
-    result.progressive_mesh = {std::move(map.progressive_mesh), std::move(map.source)};
+    result.progressive_mesh = take_collapses(map);
+  }
   result.code = run.finish();
   const bool is_unsolved = result.code == ERROR_CANNOT_SOLVE_LINEAR_SYSTEM;
   result.fail(result.report.cancelled ? Mesh_status::CANCELLED

@@ -22,14 +22,15 @@ namespace CGAL {
 namespace Surface_mesh_texturing {
 namespace internal {
 
-// A line of a text file: a keyword and numbers.
-inline void put_line(Byte_output& out, std::string_view keyword,
-                     std::initializer_list<double> numbers)
+// A line of a text file: a keyword and numbers, in their shortest form or with so many digits behind the point.
+template <class... Digits>
+void put_line(Byte_output& out, std::string_view keyword, std::initializer_list<double> numbers,
+              Digits... digits)
 {
   out.put(keyword);
   for(const double x : numbers) {
     out.put(" ");
-    out.put_text(x);
+    out.put_text(x, digits...);
   }
   out.put("\n");
 }
@@ -169,12 +170,7 @@ inline bool write_OBJ(std::ostream& os, const Textured_model& model)
   internal::put_obj_vertices(out, model.mesh.points, model.mesh.uv);
   out.put_each(model.frames.normals.size(), [&](internal::Byte_output& lines, std::size_t i) {
     const Vector_3& n = model.frames.normals[i];
-    lines.put("vn");
-    for(const double x : {n.x(), n.y(), n.z()}) {
-      lines.put(" ");
-      lines.put_text(x, 6);
-    }
-    lines.put("\n");
+    internal::put_line(lines, "vn", {n.x(), n.y(), n.z()}, 6);
   });
   out.put_each(model.mesh.triangles.size(), [&](internal::Byte_output& lines, std::size_t t) {
     const std::uint32_t page = internal::page_of(model, t);

@@ -30,6 +30,14 @@ struct Chart_map
   Surface_mesh_multiresolution::Progressive_mesh progressive_mesh; // if the options keep it
 };
 
+// The collapses that were kept, taken from the map; none if the method has no hierarchy.
+inline Chart_progressive_mesh take_collapses(Chart_map& map)
+{
+  if(map.progressive_mesh.triangles.empty())
+    return {};
+  return {std::move(map.progressive_mesh), std::move(map.source)};
+}
+
 // Maps a chart of an input with so many vertices; the report and the status of `run` say what came
 // of it. Knows no mesh but arrays: whatever maps a chart, comes by here.
 CGAL_HLSCM_INLINE Chart_map
