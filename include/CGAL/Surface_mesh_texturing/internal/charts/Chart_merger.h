@@ -97,8 +97,12 @@ private:
     return result;
   }
   void try_all(const Chart_state& state, const Some_candidates& candidates);
-  void try_arcs(const Chart_state& state, const Some_candidates& candidates,
-                std::vector<Chart_union*>& fresh);
+  std::vector<Chart_union*> try_arcs(const Chart_state& state, const Some_candidates& candidates,
+                                     bool may_be_draft);
+  void finish_drafts(const Chart_state& state, const Some_candidates& candidates)
+  {
+    try_arcs(state, candidates, false);
+  }
   double cost(const Chart_state& state, const Pair& pair, const Chart_union& candidate,
               const Merge_weights& weights) const;
   bool may_merge(const Chart_state& state, const Pair& pair) const
@@ -165,6 +169,7 @@ inline Chart_state Chart_merger::start(const Seam_graph& graph, const Indices& l
     candidates[Pair(c, c)];
   }
   try_all(state, all_of(candidates));
+  finish_drafts(state, all_of(candidates));
   for(const auto& [pair, candidate] : candidates)
     state.pieces[pair.first].trial = candidate.trial;
   return state;
@@ -189,24 +194,22 @@ Chart_merger::add_candidates(Chart_state& state, std::uint32_t c, Candidates& ca
 // without; (a, a) stands for chart a alone.
 inline void Chart_merger::try_all(const Chart_state& state, const Some_candidates& candidates)
 {
-  std::vector<Chart_union*> fresh;
-  try_arcs(state, candidates, fresh);
   bool has_darts = false;
-  for(Chart_union* c : fresh)
+  for(Chart_union* c : try_arcs(state, candidates, true))
     if(c->trial.is_disk && !c->trial.distortion.is_within(m_bound)
        && m_finder.make_dart(state, *c)) {
       c->is_known = false;
       has_darts = true;
     }
   if(has_darts)
-    try_arcs(state, candidates, fresh);
+    try_arcs(state, candidates, true);
   for(Candidates::value_type* item : candidates)
     item->second.is_hopeless = item->second.is_hopeless || is_far_beyond_bound(item->second.trial);
 }
 
-// The same without cuts; appends those that were not known to `fresh`.
-inline void Chart_merger::try_arcs(const Chart_state& state, const Some_candidates& candidates,
-                                   std::vector<Chart_union*>& fresh)
+// The same without cuts; returns those that were not known, or known as drafts if that is not enough.
+inline std::vector<Chart_union*> Chart_merger::try_arcs(const Chart_state& state,
+                                                        const Some_candidates& candidates, bool may_be_draft)
 {
   struct Item
   {
@@ -214,7 +217,9 @@ inline void Chart_merger::try_arcs(const Chart_state& state, const Some_candidat
     std::uint64_t key;
     Chart_mesh chart;
   };
+  std::vector<Chart_union*> fresh;
   std::vector<Item> items;
+  const auto is_enough = [&](const Trial_map& trial) { return may_be_draft || !trial.is_draft; };
   const auto is_open = [&](Halfedge h) { return m_is_opened[h] || !state.graph.is_seam(h); };
   const auto set_opened = [&](const Chart_union& candidate, std::uint8_t value) {
     for(const Halfedge h : candidate.opened)
@@ -222,7 +227,7 @@ inline void Chart_merger::try_arcs(const Chart_state& state, const Some_candidat
   };
   for(Candidates::value_type* item : candidates) {
     auto& [pair, candidate] = *item;
-    if(candidate.is_known || candidate.is_hopeless)
+    if((candidate.is_known && is_enough(candidate.trial)) || candidate.is_hopeless)
       continue;
     candidate.is_known = true;
     fresh.push_back(&candidate);
@@ -230,19 +235,20 @@ inline void Chart_merger::try_arcs(const Chart_state& state, const Some_candidat
     Indices triangles = state.union_of(pair);
     const std::uint64_t key = hash_of(triangles, is_open);
     const auto known = m_known.find(key);
-    if(known != m_known.end())
+    if(known != m_known.end() && is_enough(known->second))
       candidate.trial = known->second;
     else
       items.push_back({&candidate, key, m_cutter(std::move(triangles), is_open)});
     set_opened(candidate, 0);
   }
   Blocked_execution::blocked_for(items.size(), 1, [&](std::size_t i, std::size_t) {
-    items[i].candidate->trial = try_map(items[i].chart, m_bound, m_may_stretch);
+    items[i].candidate->trial = try_map(items[i].chart, m_bound, m_may_stretch, may_be_draft);
   });
   for(const Item& item : items) {
-    m_known.emplace(item.key, item.candidate->trial);
+    m_known.insert_or_assign(item.key, item.candidate->trial);
     m_work += item.chart.mesh.triangles.size();
   }
+  return fresh;
 }
 
 inline double Chart_merger::cost(const Chart_state& state, const Pair& pair,
@@ -315,29 +321,41 @@ inline void Chart_merger::merge(Chart_state& state, const Indices& active,
   };
   std::priority_queue<Offer> offers;
   Candidates candidates;
+  const auto offer = [&](const Candidates::value_type& item) {
+    const auto& [pair, candidate] = item;
+    if(!is_good(candidate.trial) || has_thin_neck(state, pair, candidate))
+      return;
+    const double c = cost(state, pair, candidate, weights);
+    if(c < (std::numeric_limits<double>::max)())
+      offers.push({c, pair, candidate.stamp});
+  };
   for(const std::uint32_t c : active)
     add_candidates(state, c, candidates);
   Some_candidates fresh = all_of(candidates);
   while(!m_goes_on || m_goes_on()) {
+    fresh.erase(std::remove_if(fresh.begin(), fresh.end(), [&](const Candidates::value_type* item) {
+      return has_thin_neck(state, item->first, item->second);
+    }), fresh.end());
     try_all(state, fresh);
-    for(const Candidates::value_type* item : fresh) {
-      const auto& [pair, candidate] = *item;
-      if(!is_good(candidate.trial) || has_thin_neck(state, pair, candidate))
-        continue;
-      const double c = cost(state, pair, candidate, weights);
-      if(c < (std::numeric_limits<double>::max)())
-        offers.push({c, pair, candidate.stamp});
-    }
-    const auto may_be_taken = [&](const Offer& offer) {
-      const auto found = candidates.find(offer.pair);
-      return found != candidates.end() && found->second.stamp == offer.stamp
-          && may_merge(state, offer.pair);
+    for(const Candidates::value_type* item : fresh)
+      offer(*item);
+    fresh.clear();
+    Candidates::iterator best;
+    const auto may_be_taken = [&](const Offer& o) {
+      best = candidates.find(o.pair);
+      return best != candidates.end() && best->second.stamp == o.stamp && may_merge(state, o.pair);
     };
     while(!offers.empty() && !may_be_taken(offers.top()))
       offers.pop();
     if(offers.empty())
       return;
-    fresh = merge_pair(state, Pair(offers.top().pair), candidates);
+    if(best->second.trial.is_draft) {
+      offers.pop();
+      finish_drafts(state, {&*best});
+      offer(*best);
+    } else {
+      fresh = merge_pair(state, Pair(best->first), candidates);
+    }
   }
 }
 
@@ -350,9 +368,10 @@ inline void Chart_merger::merge_down_to(Chart_state& state, std::size_t number)
     for(auto& [pair, candidate] : candidates)
       candidate.is_hopeless = false;
     try_all(state, all_of(candidates));
-    const Pair* best = nullptr;
+    Candidates::value_type* best = nullptr;
     std::pair<int, double> least;
-    for(const auto& [pair, candidate] : candidates) {
+    for(auto& item : candidates) {
+      const auto& [pair, candidate] = item;
       const Trial_map& trial = candidate.trial;
       if(!may_merge(state, pair) || candidate.opened.empty())
         continue;
@@ -361,12 +380,15 @@ inline void Chart_merger::merge_down_to(Chart_state& state, std::size_t number)
         defect, trial.distortion.area_scale * trial.distortion.quasi_conformal);
       if(best == nullptr || c < least) {
         least = c;
-        best = &pair;
+        best = &item;
       }
     }
     if(best == nullptr)
       return;
-    merge_pair(state, Pair(*best), candidates);
+    if(best->second.trial.is_draft)
+      finish_drafts(state, {best});
+    else
+      merge_pair(state, Pair(best->first), candidates);
   }
 }
 

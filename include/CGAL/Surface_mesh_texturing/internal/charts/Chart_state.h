@@ -80,6 +80,7 @@ struct Trial_map
   Chart_distortion distortion;
   bool is_disk = false;       // and has been mapped
   bool is_one_to_one = false; // no flipped triangle, and the border does not meet itself
+  bool is_draft = false;      // the border may still meet itself; to be tried in full before it counts
   double fill = 0.;           // the part of its convex hull that the chart fills in the plane
 
   bool is_within(const Distortion_bound& bound) const
@@ -123,8 +124,10 @@ inline Trial_map judge_map(const Chart_mesh& chart, const std::vector<Border_edg
 }
 
 // Maps the chart, if it is a disk, as the whole chart will be mapped later: conformally, or, if it may
-// be, with little stretch where only then it is within the bound.
-inline Trial_map try_map(const Chart_mesh& chart, const Distortion_bound& bound, bool may_stretch)
+// be, with little stretch where only then it is within the bound. A draft leaves out what takes longest,
+// to keep the border of a map with little stretch from meeting itself.
+inline Trial_map try_map(const Chart_mesh& chart, const Distortion_bound& bound, bool may_stretch,
+                         bool may_be_draft = false)
 {
   const auto map = Surface_mesh_parameterization::border_first_map(chart.mesh);
   if(!map.is_ok())
@@ -133,9 +136,18 @@ inline Trial_map try_map(const Chart_mesh& chart, const Distortion_bound& bound,
   const Trial_map conformal = judge_map(chart, border, map.uv);
   if(!may_stretch || !is_worth_stretching(conformal.distortion, bound))
     return conformal;
-  const std::vector<Trial_uv> uv = stretch_map(chart.mesh, border, bound);
-  const Trial_map stretched = uv.empty() ? Trial_map() : judge_map(chart, border, uv);
-  return stretched.is_within(bound) ? stretched : conformal;
+  const auto stretched = [&](bool is_one_to_one) {
+    const std::vector<Trial_uv> uv = stretch_map(chart.mesh, is_one_to_one);
+    return uv.empty() ? Trial_map() : judge_map(chart, border, uv);
+  };
+  Trial_map result = stretched(false);
+  if(result.is_disk && !result.is_one_to_one && result.distortion.is_within(bound)) {
+    if(may_be_draft)
+      result.is_draft = result.is_one_to_one = true;
+    else
+      result = stretched(true);
+  }
+  return result.is_within(bound) ? result : conformal;
 }
 
 // A chart, or nothing if it has no triangles.
