@@ -190,6 +190,7 @@ TEST(Filled_packing, is_searched_for_longer_where_charts_bend_in_vain)
       = [&](std::vector<SMT::internal::Mapped_chart>&, SMT::Packing_result& packing, double, bool) {
           const bool is_close = longer > 0;
           packing.utilisation = is_close ? 0.7 + c.close_gain : 0.6 + c.usual_gain;
+          return 0.;
         };
     std::vector<SMT::internal::Mapped_chart> charts(1);
     cuts_of_folded(20., 0., 0., charts[0]);
@@ -213,12 +214,41 @@ TEST(Filled_packing, is_bent_no_more_once_enough_is_used)
   const SMT::internal::Filled_packing::Bend bend
     = [&](std::vector<SMT::internal::Mapped_chart>&, SMT::Packing_result& packing, double, bool) {
         packing.utilisation += bends++ == 0 ? 0.05 : 0.0008;
+        return 0.;
       };
   std::vector<SMT::internal::Mapped_chart> charts(1);
   cuts_of_folded(20., 0., 0., charts[0]);
   SMT::internal::Filled_packing filled(options, options.packing, mapping, pack, bend, charts);
   EXPECT_DOUBLE_EQ(filled.run(true).utilisation, 0.6508);
   EXPECT_EQ(bends, 2u);
+}
+
+// However much is asked for, charts are bent for so long only; with more time for packing, for longer.
+TEST(Filled_packing, ends_when_charts_have_been_bent_for_long)
+{
+  SMT::Texture_atlas_options options;
+  options.seam_price = std::numeric_limits<double>::infinity();
+  options.min_used = 0.9;
+  options.max_charts = 1; // no cuts
+  const SMT::internal::Chart_mapping mapping;
+  const SMT::internal::Filled_packing::Pack pack
+    = [](const std::vector<SMT::Chart_shape>& shapes, double) { return packing_that_uses(0.6, shapes.size()); };
+  for(const double seconds : {0., 50.}) {
+    std::size_t bends = 0;
+    const SMT::internal::Filled_packing::Bend bend
+      = [&](std::vector<SMT::internal::Mapped_chart>&, SMT::Packing_result& packing, double, bool) {
+          packing.utilisation += 0.002;
+          ++bends;
+          return 1e6;
+        };
+    options.packing.time_budget = seconds;
+    std::vector<SMT::internal::Mapped_chart> charts(1);
+    cuts_of_folded(20., 0., 0., charts[0]);
+    SMT::internal::Filled_packing filled(options, options.packing, mapping, pack, bend, charts);
+    EXPECT_NEAR(filled.run(true).utilisation, 0.6 + 0.002 * double(bends), 1e-9);
+    EXPECT_EQ(bends, seconds > 0. ? 5u : 3u);
+    EXPECT_NE(filled.why_not_used().find("more time for packing"), std::string::npos) << filled.why_not_used();
+  }
 }
 
 // Where no part of the pages is asked for, charts of larger pages are bent in finer detail, as the root of the
@@ -244,6 +274,7 @@ TEST(Filled_packing, bends_in_finer_detail_on_larger_pages)
       = [&](std::vector<SMT::internal::Mapped_chart>&, SMT::Packing_result& packing, double fineness, bool) {
           finenesses.push_back(fineness);
           packing.utilisation += c.helps || finenesses.size() > 1 ? 0.1 : 0.;
+          return 0.;
         };
     SMT::Packing_options pages = options.packing;
     pages.width = c.width;

@@ -71,10 +71,10 @@ bool may_fall_back(const Program_options& options, const SMP::HLSCM_options& lib
       && library.time_limit == 0 && mesh.triangles.size() <= most_faces;
 }
 
-SMP::Conformal_map map_of(const Indexed_triangle_mesh& mesh, const Pins& pins,
-                          const SMP::HLSCM_options& options)
+SMP::Conformal_map map_of(Indexed_triangle_mesh mesh, const Pins& pins, const SMP::HLSCM_options& options)
 {
-  return pins.empty() ? SMP::conformal_map(mesh, options) : SMP::conformal_map(mesh, pins, options);
+  return pins.empty() ? SMP::conformal_map(std::move(mesh), options)
+                      : SMP::conformal_map(std::move(mesh), pins, options);
 }
 
 // Whether an iteration ended since no energy was left but what rounding makes, which on long strips
@@ -97,13 +97,13 @@ std::string not_converged(std::size_t iterations)
 
 // The map of the direct method, and why; nothing if it has none either.
 std::optional<SMP::Conformal_map> solve_directly(SMP::HLSCM_options library,
-                                                 const Indexed_triangle_mesh& mesh,
+                                                 Indexed_triangle_mesh mesh,
                                                  const Pins& pins, std::size_t iterations)
 {
   reserve_blas_memory(1);
   library.method = SMP::Conformal_method::DIRECT;
   library.level_observer = nullptr; // the coarse levels were shown
-  SMP::Conformal_map result = map_of(mesh, pins, library);
+  SMP::Conformal_map result = map_of(std::move(mesh), pins, library);
   Interruption::check();
   if(!result.is_ok()) {
     return std::nullopt;
@@ -116,7 +116,7 @@ std::optional<SMP::Conformal_map> solve_directly(SMP::HLSCM_options library,
 } // namespace
 
 SMP::Conformal_map solve_chart(const Program_options& options, SMP::HLSCM_options library,
-                               const Indexed_triangle_mesh& mesh, const Pins& pins,
+                               Indexed_triangle_mesh mesh, const Pins& pins,
                                Progress_bar& progress)
 {
   if(options.repairs_flips) {
@@ -136,12 +136,13 @@ SMP::Conformal_map solve_chart(const Program_options& options, SMP::HLSCM_option
     reserve_blas_memory(1);
   }
   progress.start_stage("solving");
-  SMP::Conformal_map map = map_of(mesh, pins, library);
+  SMP::Conformal_map map
+      = map_of(falls_back ? Indexed_triangle_mesh(mesh) : std::move(mesh), pins, library);
   Interruption::check();
   const SMP::HLSCM_report& report = map.report;
   const bool gave_up = !map.is_ok() && report.iterations > 0 && !report.converged;
   if(falls_back && (gave_up || is_vague(report, library))) {
-    auto direct = solve_directly(library, mesh, pins, report.iterations);
+    auto direct = solve_directly(library, std::move(mesh), pins, report.iterations);
     if(direct) {
       return std::move(*direct);
     }

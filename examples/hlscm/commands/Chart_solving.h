@@ -27,7 +27,7 @@ checked_pins(const Program_options& options, std::size_t number_of_vertices);
 CGAL::Surface_mesh_parameterization::Conformal_map
 solve_chart(const Program_options& options,
             CGAL::Surface_mesh_parameterization::HLSCM_options library,
-            const CGAL::Indexed_mesh::Indexed_triangle_mesh& mesh,
+            CGAL::Indexed_mesh::Indexed_triangle_mesh mesh,
             const std::vector<CGAL::Surface_mesh_parameterization::HLSCM_pin>& pins,
             Progress_bar& progress);
 

@@ -26,17 +26,17 @@ namespace SMP = CGAL::Surface_mesh_parameterization;
 
 namespace {
 
-SMP::Low_stretch_map map_with(Stretch energy, const CGAL::Indexed_mesh::Indexed_triangle_mesh& mesh,
+SMP::Low_stretch_map map_with(Stretch energy, CGAL::Indexed_mesh::Indexed_triangle_mesh mesh,
                               const SMP::Low_stretch_options& options)
 {
   switch(energy) {
-  case Stretch::MIPS: return SMP::low_stretch_map(mesh, options, SMP::Mips_energy());
+  case Stretch::MIPS: return SMP::low_stretch_map(std::move(mesh), options, SMP::Mips_energy());
   case Stretch::ARAP: // with a barrier: files are no place for triangles of nearly no area
-    return SMP::low_stretch_map(mesh, options, SMP::Barrier_energy<SMP::Arap_energy>{{}, 1e-3});
-  case Stretch::AREA: return SMP::low_stretch_map(mesh, options, SMP::Area_weighted_mips_energy());
+    return SMP::low_stretch_map(std::move(mesh), options, SMP::Barrier_energy<SMP::Arap_energy>{{}, 1e-3});
+  case Stretch::AREA: return SMP::low_stretch_map(std::move(mesh), options, SMP::Area_weighted_mips_energy());
   case Stretch::SYMMETRIC_DIRICHLET: break;
   }
-  return SMP::low_stretch_map(mesh, options, SMP::Symmetric_dirichlet_energy());
+  return SMP::low_stretch_map(std::move(mesh), options, SMP::Symmetric_dirichlet_energy());
 }
 
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
@@ -97,7 +97,7 @@ border_pins(const Program_options& options, const CGAL::Indexed_mesh::Indexed_tr
 
 SMP::Conformal_map
 map_with_low_stretch(const Program_options& options,
-                     const CGAL::Indexed_mesh::Indexed_triangle_mesh& component,
+                     CGAL::Indexed_mesh::Indexed_triangle_mesh component,
                      const std::vector<SMP::HLSCM_pin>& pins,
                      std::vector<CGAL::Indexed_mesh::Space_tensor> metric,
                      std::vector<CGAL::Simple_cartesian<double>::Point_2> start,
@@ -120,7 +120,11 @@ map_with_low_stretch(const Program_options& options,
   library.time_limit = options.library.time_limit;
   library.progress = [&progress](double fraction) { return progress.try_advance(fraction); };
   progress.start_stage("solving");
-  SMP::Low_stretch_map map = map_with(options.stretch, component, library);
+  SMP::Conformal_map result;
+  SMP::HLSCM_report& report = result.report;
+  report.vertices = component.points.size();
+  report.faces = component.triangles.size();
+  SMP::Low_stretch_map map = map_with(options.stretch, std::move(component), library);
   Interruption::check();
   if(!map.is_ok()) {
     throw Program_error(options.input, map.error
@@ -131,15 +135,11 @@ map_with_low_stretch(const Program_options& options,
                                                   : ""));
   }
   stretch = map.report;
-  SMP::Conformal_map result;
   result.uv = std::move(map.uv);
-  SMP::HLSCM_report& report = result.report;
   report.pins = pins;
   report.method = "low-stretch";
   report.converged = stretch.converged;
   report.stopped_early = stretch.is_cut_short;
-  report.vertices = component.points.size();
-  report.faces = component.triangles.size();
   report.borders = stretch.borders;
   report.levels.resize(stretch.levels.size());
   for(std::size_t l = 0; l < stretch.levels.size(); ++l) {

@@ -19,7 +19,7 @@ namespace hlscm {
 /// empty. Throws `Program_error`.
 CGAL::Surface_mesh_parameterization::Conformal_map
 map_with_low_stretch(const Program_options& options,
-                     const CGAL::Indexed_mesh::Indexed_triangle_mesh& component,
+                     CGAL::Indexed_mesh::Indexed_triangle_mesh component,
                      const std::vector<CGAL::Surface_mesh_parameterization::HLSCM_pin>& pins,
                      std::vector<CGAL::Indexed_mesh::Space_tensor> metric,
                      std::vector<CGAL::Simple_cartesian<double>::Point_2> start,

@@ -105,7 +105,7 @@ Progressive_model build_from_chart(const Input_surface& input, const Program_opt
 }
 
 // What is no chart and has no texture coordinates is mapped in one piece for each component first.
-SMM::Textured_triangle_mesh map_first(const Input_surface& input, const Program_options& options,
+SMM::Textured_triangle_mesh map_first(Input_surface& input, const Program_options& options,
                                       Progress_bar& progress, Levels_report& report)
 {
   const Stopwatch solving;
@@ -129,7 +129,7 @@ Progressive_model make_progressive(const Program_options& options, Progress_bar&
     report.seconds_read = reading.seconds();
     return model;
   }
-  const Input_surface input
+  Input_surface input
       = read_surface(options.input, options, surface_obstacles, progress, report.warnings);
   report.repairs = input.surface.repairs;
   report.seconds_read = reading.seconds();

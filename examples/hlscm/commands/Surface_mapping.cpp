@@ -95,16 +95,16 @@ std::optional<SMP::Low_stretch_report> mean_of(const Stretch_reports& reports)
 
 // One connected component with a border, without handles.
 SMP::Conformal_map map_component(const Program_options& options, SMP::HLSCM_options library,
-                                 const Indexed_triangle_mesh& component,
+                                 Indexed_triangle_mesh component,
                                  const std::vector<SMP::HLSCM_pin>& pins,
                                  Stretch_reports& stretch, Progress_bar& progress)
 {
   if(!options.method) {
     stretch.emplace_back();
-    return map_with_low_stretch(options, component, pins, std::move(library.metric), {}, stretch.back(),
-                                progress);
+    return map_with_low_stretch(options, std::move(component), pins, std::move(library.metric), {},
+                                stretch.back(), progress);
   }
-  return solve_chart(options, std::move(library), component, pins, progress);
+  return solve_chart(options, std::move(library), std::move(component), pins, progress);
 }
 
 // From the elements of the surface to those of the file.
@@ -172,14 +172,18 @@ SMP::HLSCM_report sum(const std::vector<SMT::Mapped_component>& components)
   return all;
 }
 
-Mapped_surface map_chart(const Input_surface& input, const Program_options& options,
+// While the solver has the mesh, the file is all that is kept beside it.
+Mapped_surface map_chart(Input_surface& input, const Program_options& options,
                          const std::vector<SMP::HLSCM_pin>& pins, Level_snapshots* snapshots,
                          Progress_bar& progress)
 {
-  const Indexed_triangle_mesh& mesh = input.surface.mesh;
   Stretch_reports stretch;
-  SMP::Conformal_map map
-      = map_component(options, observed(options, snapshots), mesh, pins, stretch, progress);
+  Indexed_triangle_mesh its_own = std::move(input.surface.mesh);
+  input.surface = {};
+  SMP::Conformal_map map = map_component(options, observed(options, snapshots), std::move(its_own),
+                                         pins, stretch, progress);
+  input.surface = CGAL::Indexed_mesh::surface_of_soup(input.file.soup, input.diagnosis);
+  const Indexed_triangle_mesh& mesh = input.surface.mesh;
   Mapped_surface result;
   result.stretch = mean_of(stretch);
   result.mesh.points = mesh.points;
@@ -354,7 +358,7 @@ void choose_component(Input_surface& input, const Program_options& options)
   input.surface = part_of(input.surface, is_chosen);
 }
 
-Mapped_surface map_input(const Input_surface& input, const Program_options& given,
+Mapped_surface map_input(Input_surface& input, const Program_options& given,
                          Level_snapshots* snapshots, Progress_bar& progress)
 {
   Program_options options = given;

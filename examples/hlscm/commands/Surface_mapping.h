@@ -36,8 +36,8 @@ struct Mapped_surface
 void choose_component(Input_surface& input, const Program_options& options);
 
 /// Maps all of a surface; `snapshots` may be null, and sees the levels of a single component. Throws
-/// `Program_error`.
-Mapped_surface map_input(const Input_surface& input, const Program_options& options,
+/// `Program_error`, and may leave nothing of the surface then.
+Mapped_surface map_input(Input_surface& input, const Program_options& options,
                          Level_snapshots* snapshots, Progress_bar& progress);
 
 } // namespace hlscm

@@ -78,7 +78,7 @@ public:
   }
 
 private:
-  const std::vector<Kernel::Point_3>& m_points;
+  const std::vector<Kernel::Point_3> m_points;
   Unit_cube m_cube;
   std::vector<Drawn_surface> m_levels;
 };

@@ -67,7 +67,9 @@ struct Texture_atlas_options
   /// The part of the pages that is to be used: charts bend many times, see `bending`, each time from where
   /// they are; where that does not do they are cut, whatever the seams cost, and bend anew; at last a few
   /// charts, of which not much is missing, are packed once more, for two seconds longer, and all is tried from
-  /// there. If nothing helps any more, `Texture_atlas_report::utilisation` is less. 0 for what `seam_price` says.
+  /// there. If nothing helps any more, or charts have been bent for some 50 seconds on a usual machine and
+  /// `Packing_options::time_budget` more, `Texture_atlas_report::utilisation` is less. The seconds are counted
+  /// in what is done. 0 for what `seam_price` says.
   double min_used = 0.;
   /// How far charts bend on their pages so that they fill more of them: the change of lengths, as a root
   /// mean square over all charts and directions. They grow together, and where they touch each other or the

@@ -320,8 +320,8 @@ inline bool Texture_atlas_builder::pack()
       Bending amount = {m_options.bending};
       amount.squares *= fineness;
       amount.is_wary = is_wary;
-      bend_charts(amount, packing, mapping,
-                  [&] { return !is_over() && proceed(0.8, 1., 1. - 0.5 * left); }, charts, packed);
+      return bend_charts(amount, packing, mapping,
+                         [&] { return !is_over() && proceed(0.8, 1., 1. - 0.5 * left); }, charts, packed);
     };
   std::vector<std::vector<Mapped_chart>> sets
     = sets_of_pages(m_options.page_set, std::move(m_maps));

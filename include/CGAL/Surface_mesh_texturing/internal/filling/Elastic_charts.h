@@ -134,6 +134,9 @@ public:
   // Takes a step of Newton's method; returns whether there was one.
   bool step();
 
+  // The control points of all steps so far, each time anew.
+  double work() const { return m_work; }
+
 private:
   typedef Surface_mesh_parameterization::Stretch_element<double> Stretch_element;
   typedef Surface_mesh_parameterization::Plane_jacobian<double> Jacobian;
@@ -175,6 +178,7 @@ private:
   double m_scale = 1., m_worst = 0.;
   double m_farthest = (std::numeric_limits<double>::infinity)();
   double m_value = 0.;                     // what is minimized
+  double m_work = 0.;
   enum Knowledge { NOTHING, CONTACTS, VALUE } m_knowledge = NOTHING; // of the points, and what is before that
   std::array<double, 3> m_sums = {1., 1., 1.}; // of I, I / D^2 and 1 over the area
   Ordered_cholesky m_solver;
@@ -299,6 +303,7 @@ inline void Elastic_charts::stiffen_bent(double ratio, double factor)
 
 inline bool Elastic_charts::step()
 {
+  m_work += double(m_points.size());
   if(m_knowledge == NOTHING)
     m_contacts.find(m_points);
   if(m_knowledge != VALUE)

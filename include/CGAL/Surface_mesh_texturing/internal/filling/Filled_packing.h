@@ -24,11 +24,13 @@ class Filled_packing
 {
 public:
   typedef std::function<Packing_result(const std::vector<Chart_shape>&, double more_time)> Pack;
-  typedef std::function<void(std::vector<Mapped_chart>&, Packing_result&, double fineness, bool is_wary)> Bend;
+  typedef std::function<double(std::vector<Mapped_chart>&, Packing_result&, double fineness, bool is_wary)>
+    Bend;
 
   // All of these must outlive this. `pack` is told for how many seconds more than usual it may search.
   // `bend`, which may be empty, is told in how many times finer detail than usual it shall be done, and
-  // whether it shall be wary of invalid maps; the bounds of charts are those of bent ones then.
+  // whether it shall be wary of invalid maps, and returns how much it did; the bounds of charts are those of
+  // bent ones then.
   Filled_packing(const Texture_atlas_options& options, const Packing_options& pages,
                  const Chart_mapping& mapping, const Pack& pack, const Bend& bend,
                  std::vector<Mapped_chart>& charts)
@@ -63,6 +65,15 @@ private:
   static constexpr double much = 0.1;    // of the pages, which a longer search does not find
   static constexpr double finest = 4.;   // of the finenesses of bending
 
+  // What is done in so many seconds, beyond which charts are not bent once more. It is counted in steps, so
+  // that the result does not depend on the machine.
+  double most_work() const
+  {
+    constexpr double in_a_second = 5e4, seconds = 50.; // on a usual machine
+    return in_a_second * (seconds + m_pages.time_budget);
+  }
+  bool has_time() const { return m_mapping.has_time() && m_work < most_work(); }
+
   // Of the pages, to what shall be used.
   double missing() const { return m_options.min_used - m_packing.utilisation; }
 
@@ -80,6 +91,8 @@ private:
   {
     if(!m_mapping.has_time())
       return "the time was up";
+    if(!has_time())
+      return "charts were bent for as long as they may be, which is longer with more time for packing";
     if(m_options.max_charts > 0 && m_charts.size() >= m_options.max_charts)
       return "there are as many charts as there may be";
     return "no further cut of a chart that is tried lets them be packed more densely";
@@ -148,7 +161,7 @@ private:
     Packed start = copy();
     bend_and_cut();
     if(!m_packing.is_ok() || missing() <= 0. || missing() > much || !m_why_not_used.empty()
-       || start.charts.size() > most_charts || !m_mapping.has_time())
+       || start.charts.size() > most_charts || !has_time())
       return;
     Packed best = release();
     take(std::move(start));
@@ -180,7 +193,7 @@ private:
         take(std::move(best));
       const double more = missing();
       is_wary = !is_wary && more < little;
-      if(more <= 0. || !m_mapping.has_time() || (!is_wary && times_cut == most_cut))
+      if(more <= 0. || !has_time() || (!is_wary && times_cut == most_cut))
         return;
       best = release();
       const double before = rigid.packing.utilisation;
@@ -226,9 +239,9 @@ private:
     constexpr double least_gain = 0.001;
     constexpr int most_bendings = 32, ways = 3; // one way for each fineness
     double fineness = usual_fineness();
-    for(int i = 0, in_vain = 0; i < most_bendings && m_mapping.has_time(); ++i) {
+    for(int i = 0, in_vain = 0; i < most_bendings && has_time(); ++i) {
       const double before = m_packing.utilisation;
-      m_bend(m_charts, m_packing, fineness, is_wary != (in_vain >= ways));
+      m_work += m_bend(m_charts, m_packing, fineness, is_wary != (in_vain >= ways));
       in_vain = m_packing.utilisation < before + least_gain ? in_vain + 1 : 0;
       if(!m_packing.is_ok())
         return;
@@ -299,6 +312,7 @@ private:
   Packing_result m_packing;
   std::size_t m_number_of_cuts = 0;
   double m_more_time = 0.; // for packings, in seconds
+  double m_work = 0.;      // of bending
   std::string m_why_not_used;
 };
 

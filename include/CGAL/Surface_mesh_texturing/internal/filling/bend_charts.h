@@ -54,11 +54,11 @@ public:
     m_square = side / amount.squares;
   }
 
-  void run()
+  double run()
   {
     if(m_maps.empty() || m_maps.size() > most_charts
        || !std::all_of(m_maps.begin(), m_maps.end(), is_bendable))
-      return;
+      return m_work;
     m_is_affine.clear();
     for(const Mapped_chart& map : m_maps)
       m_is_affine.push_back(is_at_its_bound(map) ? 1 : 0);
@@ -70,8 +70,9 @@ public:
     for(int round = 0; round < rounds; ++round) {
       m_has_more_affine = false;
       if(bend_all() || !m_has_more_affine)
-        return;
+        return m_work;
     }
+    return m_work;
   }
 
 private:
@@ -126,6 +127,7 @@ private:
   std::vector<Control_net> m_nets;
   std::vector<char> m_is_affine; // of the maps of each chart
   bool m_has_more_affine = false;
+  double m_work = 0.;
 };
 
 // Returns whether there is nothing more to be tried.
@@ -138,15 +140,14 @@ inline bool Chart_bending::bend_all()
   for(const Control_net& net : m_nets)
     charts.add_chart(net.elements(), net.differences());
   std::vector<Elastic_charts::State> states;
-  if(!grow(charts, states))
-    return true;
-  for(int i = 0; i < most_states && !states.empty() && charts.scale() > 1.; ++i) {
-    if(try_to_take(charts))
-      return true;
+  bool is_done = !grow(charts, states);
+  for(int i = 0; !is_done && i < most_states && !states.empty() && charts.scale() > 1.; ++i) {
+    is_done = try_to_take(charts);
     charts.restore(states.back());
     states.pop_back();
   }
-  return false;
+  m_work += charts.work();
+  return is_done;
 }
 
 // Adds the control points and borders of the charts.
@@ -379,14 +380,15 @@ inline Chart_bending::Faults Chart_bending::take(Elastic_charts& charts, bool ch
 // Bends the charts of a packing so that they are larger, until their lengths are changed by that amount, or
 // the pages are full; changes nothing if that comes to nothing. The packing stays one, charts one-to-one and
 // within the bound of each. `goes_on` is asked from time to time, and all stays as it was if it says no.
+// Returns how much was done: control points times steps.
 //
 // Complexity: some 30 steps of Newton's method for control points, whose number does not depend on the mesh,
 // and linear time for the maps.
-inline void bend_charts(const Bending& amount, const Packing_options& options, const Chart_mapping& mapping,
-                        const std::function<bool()>& goes_on, std::vector<Mapped_chart>& maps,
-                        Packing_result& packing)
+inline double bend_charts(const Bending& amount, const Packing_options& options, const Chart_mapping& mapping,
+                          const std::function<bool()>& goes_on, std::vector<Mapped_chart>& maps,
+                          Packing_result& packing)
 {
-  Chart_bending(amount, options, mapping, goes_on, maps, packing).run();
+  return Chart_bending(amount, options, mapping, goes_on, maps, packing).run();
 }
 
 } // namespace internal
