@@ -30,6 +30,7 @@ namespace SMT = CGAL::Surface_mesh_texturing;
 using namespace test_support;
 using SMT::internal::Control_net;
 using SMT::internal::Control_weights;
+using SMT::internal::Elastic_charts;
 using SMT::internal::Strain_element;
 typedef SMT::internal::Plane_vector_d Vector;
 typedef SMT::Chart_shape::Point_2 Point_2;
@@ -243,7 +244,7 @@ struct Lone_square
   Indexed_triangle_mesh mesh;
   std::vector<Point_2> uv;
   std::optional<Control_net> net;
-  std::optional<SMT::internal::Elastic_charts> charts;
+  std::optional<Elastic_charts> charts;
 };
 
 // How much the gap of a bay of 6 texels is too small, of which 3 are wanted, where one of its sides leans
@@ -290,6 +291,11 @@ TEST(Elastic_charts, grow_until_they_meet_the_sides)
       free.charts->step();
     EXPECT_NEAR(free.charts->scale(), 1.5, 1e-9) << n;
     EXPECT_NEAR(free.charts->strain(), 0., 1e-9) << n;
+    const Elastic_charts::State grown = free.charts->state();
+    free.charts->grow(1.1);
+    free.charts->step();
+    free.charts->restore(grown);
+    EXPECT_NEAR(free.charts->scale(), 1.5, 1e-9) << n;
     Lone_square held(10., 90., n);
     held.charts->grow(1.3);
     for(int i = 0; i < 20; ++i)

@@ -100,6 +100,20 @@ TEST(Raster_packer_test, is_not_worse_with_more_time)
   }
 }
 
+// What a draft leaves out is only the search beyond the budget.
+TEST(Raster_packer_test, drafts_take_the_time_of_the_budget_only)
+{
+  const Charts charts = mixed_charts();
+  Packing_options options = small_page(1024, 1024);
+  const double usual = pack_charts(charts, options).utilisation;
+  options.is_draft = true;
+  const Packing_result draft = pack_charts(charts, options);
+  EXPECT_EQ(packing_error(charts, options, draft), "");
+  EXPECT_LT(draft.utilisation, usual);
+  options.time_budget = 0.2;
+  EXPECT_GE(pack_charts(charts, options).utilisation, usual);
+}
+
 TEST(Raster_packer_test, uses_the_time_it_is_given)
 {
   const Charts charts = mixed_charts();

@@ -327,6 +327,7 @@ inline bool Texture_atlas_builder::pack()
     = sets_of_pages(m_options.page_set, std::move(m_maps));
   m_maps.clear();
   for(std::size_t i = 0; i < sets.size() && m_result.is_ok(); ++i) {
+    packing.is_draft = bend && can_be_bent(sets[i]);
     Filled_packing filled(m_options, packing, mapping, pack_shapes, bend, sets[i]);
     Packing_result packed = filled.run(m_models.is_bounded);
     m_result.report.page_cuts += filled.number_of_cuts();

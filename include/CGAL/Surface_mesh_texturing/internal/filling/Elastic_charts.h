@@ -77,6 +77,7 @@ public:
     m_contacts.set_gaps(m_points);
     m_contacts.widen_nothing();
     m_knowledge = NOTHING;
+    measure();
   }
 
   // How much larger the charts are than at rest, and how much they are bent beside that: the mean of the

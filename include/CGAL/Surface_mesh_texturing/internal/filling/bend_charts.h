@@ -30,6 +30,17 @@ struct Bending
   bool is_wary = false; // whether maps are checked before charts are pressed apart, too
 };
 
+// Whether `bend_charts()` can do anything for these charts.
+inline bool can_be_bent(const std::vector<Mapped_chart>& maps)
+{
+  constexpr std::size_t most_charts = 100; // more are bent hardly at all, and that takes seconds
+  const auto is_valid = [](const Mapped_chart& map) {
+    return map.report.is_one_to_one && !map.chart.mesh.triangles.empty()
+        && map.report.distortion.flipped_faces + map.report.distortion.degenerate_faces == 0;
+  };
+  return !maps.empty() && maps.size() <= most_charts && std::all_of(maps.begin(), maps.end(), is_valid);
+}
+
 // Lets charts grow and bend on their pages; see `bend_charts()`.
 class Chart_bending
 {
@@ -56,8 +67,7 @@ public:
 
   double run()
   {
-    if(m_maps.empty() || m_maps.size() > most_charts
-       || !std::all_of(m_maps.begin(), m_maps.end(), is_bendable))
+    if(!can_be_bent(m_maps))
       return m_work;
     m_is_affine.clear();
     for(const Mapped_chart& map : m_maps)
@@ -69,25 +79,18 @@ public:
     // Those that became invalid where they bent are only stretched in the next round
     for(int round = 0; round < rounds; ++round) {
       m_has_more_affine = false;
-      if(bend_all() || !m_has_more_affine)
-        return m_work;
+      bend_all();
+      if(!m_has_more_affine)
+        break;
     }
     return m_work;
   }
 
 private:
   static constexpr double margin = 0.4; // of gaps, in units: for what samples of borders do not tell
-  static constexpr int rounds = 3;
-  static constexpr int most_states = 4; // that are tried
+  static constexpr int rounds = 5;
   static constexpr double most_strain = 2.7; // to that at which charts stop growing
   static constexpr double first_stiffness = 40., harder = 1.3; // of contacts, and with each attempt
-  static constexpr std::size_t most_charts = 100; // more are bent hardly at all, and that takes seconds
-
-  static bool is_bendable(const Mapped_chart& map)
-  {
-    return map.report.is_one_to_one && !map.chart.mesh.triangles.empty()
-        && map.report.distortion.flipped_faces + map.report.distortion.degenerate_faces == 0;
-  }
 
   // Then it can hardly bend.
   static bool is_at_its_bound(const Mapped_chart& map)
@@ -98,10 +101,10 @@ private:
         || d.quasi_conformal > near * map.bound.quasi_conformal;
   }
 
-  bool bend_all();
+  void bend_all();
   void add_nets(std::vector<Plane_vector_d>& points, Border_contacts& contacts);
-  bool grow(Elastic_charts& charts, std::vector<Elastic_charts::State>& states) const;
-  bool try_to_take(Elastic_charts& charts);
+  bool grow(Elastic_charts& charts) const;
+  void try_to_take(Elastic_charts& charts);
   bool settle(Elastic_charts& charts) const;
   // What speaks against bent charts: places where they are no packing, or charts whose maps are not valid.
   struct Faults
@@ -130,8 +133,7 @@ private:
   double m_work = 0.;
 };
 
-// Returns whether there is nothing more to be tried.
-inline bool Chart_bending::bend_all()
+inline void Chart_bending::bend_all()
 {
   std::vector<Plane_vector_d> points;
   Border_contacts contacts(m_sizes);
@@ -139,15 +141,9 @@ inline bool Chart_bending::bend_all()
   Elastic_charts charts(std::move(points), std::move(contacts), m_sizes);
   for(const Control_net& net : m_nets)
     charts.add_chart(net.elements(), net.differences());
-  std::vector<Elastic_charts::State> states;
-  bool is_done = !grow(charts, states);
-  for(int i = 0; !is_done && i < most_states && !states.empty() && charts.scale() > 1.; ++i) {
-    is_done = try_to_take(charts);
-    charts.restore(states.back());
-    states.pop_back();
-  }
+  if(grow(charts) && charts.scale() > 1.)
+    try_to_take(charts);
   m_work += charts.work();
-  return is_done;
 }
 
 // Adds the control points and borders of the charts.
@@ -163,9 +159,8 @@ inline void Chart_bending::add_nets(std::vector<Plane_vector_d>& points, Border_
   }
 }
 
-// Until they are bent so much, or fill the pages; adds the states before they grew further, the first of
-// which is that at rest. Returns whether there was time for it.
-inline bool Chart_bending::grow(Elastic_charts& charts, std::vector<Elastic_charts::State>& states) const
+// Until they are bent so much, or fill the pages. Returns whether there was time for it.
+inline bool Chart_bending::grow(Elastic_charts& charts) const
 {
   constexpr int most_steps = 100, patience = 4, steps_to_relax = 2; // in all, and without better gaps
   constexpr int most_halvings = 2;                   // of a growth that entangles charts
@@ -180,7 +175,7 @@ inline bool Chart_bending::grow(Elastic_charts& charts, std::vector<Elastic_char
   bool is_careful = false;
   charts.set_stiffness_of_contacts(first_stiffness);
   charts.set_farthest(far * m_sizes.unit);
-  states.push_back(charts.state());
+  Elastic_charts::State last = charts.state(); // before they grew further
   for(int i = 0, since = 0, in_vain = 0; i < most_steps; ++i) {
     if(!m_goes_on())
       return false;
@@ -193,11 +188,9 @@ inline bool Chart_bending::grow(Elastic_charts& charts, std::vector<Elastic_char
       if(is_moved && in_vain <= patience)
         continue;
       // Some charts are entangled
-      charts.restore(states.back());
-      if(is_careful && (growth == 0. || ++halvings > most_halvings)) {
-        states.pop_back();
+      charts.restore(last);
+      if(is_careful && (growth == 0. || ++halvings > most_halvings))
         break;
-      }
       if(is_careful)
         growth *= 0.5;
       is_careful = true;
@@ -210,7 +203,7 @@ inline bool Chart_bending::grow(Elastic_charts& charts, std::vector<Elastic_char
         break;
       before = charts.scale();
       growth = largest * (std::max)(0.25, left);
-      states.push_back(charts.state());
+      last = charts.state();
     }
     charts.grow(1. + growth);
     since = in_vain = 0;
@@ -219,9 +212,8 @@ inline bool Chart_bending::grow(Elastic_charts& charts, std::vector<Elastic_char
   return true;
 }
 
-// Presses the charts apart until they are a packing, which then is taken; returns whether there is nothing
-// more to be tried.
-inline bool Chart_bending::try_to_take(Elastic_charts& charts)
+// Presses the charts apart until they are a packing, which then is taken, or one of them can only be stretched.
+inline void Chart_bending::try_to_take(Elastic_charts& charts)
 {
   constexpr int attempts = 12, patience = 4;
   double stiffness = first_stiffness;
@@ -229,19 +221,16 @@ inline bool Chart_bending::try_to_take(Elastic_charts& charts)
   std::size_t fewest = any;
   charts.set_stiffness_of_contacts(stiffness);
   for(int i = 0, in_vain = 0; i < attempts && in_vain < patience; ++i) {
-    if(!settle(charts))
-      return true;
-    if(charts.strain() > most_strain * m_strain)
-      return false;
+    if(!settle(charts) || charts.strain() > most_strain * m_strain)
+      return;
     const Faults faults = take(charts, m_is_wary && i == 0);
-    if(faults.places + faults.charts == 0)
-      return true;
+    if(faults.places + faults.charts == 0 || m_has_more_affine)
+      return;
     in_vain = faults.charts > 0 || faults.places < fewest ? 0 : in_vain + 1;
     fewest = faults.charts > 0 ? any : (std::min)(fewest, faults.places); // stiffer ones need other places
     stiffness *= harder;
     charts.set_stiffness_of_contacts(stiffness);
   }
-  return false;
 }
 
 // Until gaps are about what they shall be; returns whether there was time for it.

@@ -81,13 +81,13 @@ private:
   double coarse_cells() const { return (std::max)(128. * 128., 64. * m_outlines.size()); }
 
   // For higher densities, before the work of the budget: less for few charts, small pages and small
-  // meshes, more for large ones, of which all else takes longer. None for many charts, of which so short
-  // a time does not make a denser packing.
+  // meshes, more for large ones, of which all else takes longer. None for drafts, and for many charts, of
+  // which so short a time does not make a denser packing.
   double raising_work() const
   {
     constexpr double most_charts = 40., least_size = 0.15, largest_size = 4., largest = 8.;
     const double charts = double(m_outlines.size());
-    if(charts > most_charts)
+    if(charts > most_charts || m_options.is_draft)
       return 0.;
     double triangles = 0.;
     for(const Chart_outline& outline : m_outlines)
