@@ -375,6 +375,15 @@ TEST(Chart_bending, fills_pages_more_and_keeps_what_charts_promise)
   }
 }
 
+// Those of the triangles of a map.
+std::vector<double> areas_of(const SMT::internal::Mapped_chart& map)
+{
+  std::vector<double> result;
+  for(const Triangle_indices& t : map.chart.mesh.triangles)
+    result.push_back(CGAL::area(map.uv[t[0]], map.uv[t[1]], map.uv[t[2]]));
+  return result;
+}
+
 // The more charts may bend the fuller the page, and the more lengths change.
 TEST(Chart_bending, goes_as_far_as_it_may)
 {
@@ -388,7 +397,8 @@ TEST(Chart_bending, goes_as_far_as_it_may)
   }
 }
 
-// All but those that are as bad as they may be.
+// All but those that are as bad as they may be, and one that became invalid before, which may be stretched:
+// areas in it all change alike.
 TEST(Chart_bending, is_for_all_but_charts_at_their_bounds)
 {
   for(const std::size_t bounded : {2u, 3u}) { // each of so many
@@ -417,6 +427,9 @@ TEST(Chart_bending, is_for_all_but_charts_at_their_bounds)
       bounds.push_back(maps.back().bound);
     }
     ASSERT_GE(maps.size(), 3u) << seed_text;
+    SMT::internal::Mapped_chart& stretched = maps[bounded - 2];
+    stretched.is_affine = true;
+    const std::vector<double> areas = areas_of(stretched);
     const SMT::internal::Chart_mapping mapping = {};
     SMT::internal::bend_charts({0.03}, options.packing, mapping, [] { return true; }, maps, packing);
     EXPECT_GT(packing.utilisation, rigid.report.utilisation + 0.01) << bounded << seed_text;
@@ -424,6 +437,10 @@ TEST(Chart_bending, is_for_all_but_charts_at_their_bounds)
       const SMT::Chart_distortion after = SMT::measure_chart_distortion(maps[i].chart.mesh, maps[i].uv);
       EXPECT_TRUE(after.is_within(bounds[i])) << i << seed_text;
     }
+    EXPECT_TRUE(stretched.is_affine) << bounded << seed_text;
+    const std::vector<double> bent = areas_of(stretched);
+    for(std::size_t t = 0; t < areas.size(); ++t)
+      EXPECT_NEAR(bent[t] / areas[t], bent[0] / areas[0], 1e-6 * bent[0] / areas[0]) << bounded << seed_text;
   }
 }
 

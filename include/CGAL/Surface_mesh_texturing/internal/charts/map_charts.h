@@ -54,6 +54,7 @@ struct Mapped_chart
   Distortion_bound bound; // of itself and of its parts
   bool is_stretched = false; // to be within the bound
   bool is_valid = false;
+  bool is_affine = false; // whether bending only stretches it: its map became invalid where it bent
 };
 
 // The triangles that are flipped, and those without area, by exact predicates.

@@ -67,22 +67,28 @@ public:
 
   double run()
   {
+    constexpr double least_gain = 0.001; // of the pages
     if(!can_be_bent(m_maps))
       return m_work;
     m_is_affine.clear();
     for(const Mapped_chart& map : m_maps)
-      m_is_affine.push_back(is_at_its_bound(map) ? 1 : 0);
+      m_is_affine.push_back(is_at_its_bound(map) || map.is_affine ? 1 : 0);
     m_rest.assign(m_maps.size(), {});
     for(std::size_t i = 0; i < m_maps.size(); ++i)
       for(const Point_2& p : m_maps[i].uv)
         m_rest[i].push_back(m_packing.placements[i](p));
-    // Those that became invalid where they bent are only stretched in the next round
+    const double before = m_packing.utilisation;
+    // Those that became invalid where they bent are only stretched in the next round, and when they are bent
+    // once more, unless that came to nothing
     for(int round = 0; round < rounds; ++round) {
       m_has_more_affine = false;
       bend_all();
       if(!m_has_more_affine)
         break;
     }
+    const bool is_better = m_packing.utilisation >= before + least_gain;
+    for(std::size_t i = 0; i < m_maps.size(); ++i)
+      m_maps[i].is_affine = is_better && m_is_affine[i] != 0;
     return m_work;
   }
 
