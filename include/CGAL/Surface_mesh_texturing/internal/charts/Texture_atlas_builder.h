@@ -315,9 +315,12 @@ inline bool Texture_atlas_builder::pack()
         return result;
       };
   Filled_packing::Bend bend;
+  Bending usual = {m_options.bending};
+  if(m_options.min_used > 0.)
+    usual.most_charts *= 2; // what that gains is asked for
   if(may_bend())
     bend = [&](std::vector<Mapped_chart>& charts, Packing_result& packed, double fineness, bool is_wary) {
-      Bending amount = {m_options.bending};
+      Bending amount = usual;
       amount.squares *= fineness;
       amount.is_wary = is_wary;
       return bend_charts(amount, packing, mapping,
@@ -327,7 +330,7 @@ inline bool Texture_atlas_builder::pack()
     = sets_of_pages(m_options.page_set, std::move(m_maps));
   m_maps.clear();
   for(std::size_t i = 0; i < sets.size() && m_result.is_ok(); ++i) {
-    packing.is_draft = bend && can_be_bent(sets[i]);
+    packing.is_draft = bend && can_be_bent(sets[i], usual.most_charts);
     Filled_packing filled(m_options, packing, mapping, pack_shapes, bend, sets[i]);
     Packing_result packed = filled.run(m_models.is_bounded);
     m_result.report.page_cuts += filled.number_of_cuts();

@@ -27,13 +27,13 @@ struct Bending
 {
   double change;       // of lengths, as a root mean square
   double squares = 7.; // along a page, of the grid of control points
+  std::size_t most_charts = 100; // more are bent hardly at all, and that takes seconds
   bool is_wary = false; // whether maps are checked before charts are pressed apart, too
 };
 
-// Whether `bend_charts()` can do anything for these charts.
-inline bool can_be_bent(const std::vector<Mapped_chart>& maps)
+// Whether `bend_charts()` can do anything for these charts, of which there are not too many.
+inline bool can_be_bent(const std::vector<Mapped_chart>& maps, std::size_t most_charts)
 {
-  constexpr std::size_t most_charts = 100; // more are bent hardly at all, and that takes seconds
   const auto is_valid = [](const Mapped_chart& map) {
     return map.report.is_one_to_one && !map.chart.mesh.triangles.empty()
         && map.report.distortion.flipped_faces + map.report.distortion.degenerate_faces == 0;
@@ -49,8 +49,8 @@ public:
   Chart_bending(const Bending& amount, const Packing_options& options, const Chart_mapping& mapping,
                 const std::function<bool()>& goes_on, std::vector<Mapped_chart>& maps,
                 Packing_result& packing)
-    : m_strain(2. * amount.change * amount.change), m_is_wary(amount.is_wary), m_options(options), m_mapping(mapping)
-    , m_goes_on(goes_on), m_maps(maps), m_packing(packing)
+    : m_strain(2. * amount.change * amount.change), m_most_charts(amount.most_charts), m_is_wary(amount.is_wary)
+    , m_options(options), m_mapping(mapping), m_goes_on(goes_on), m_maps(maps), m_packing(packing)
   {
     const Packing_raster raster = exact_raster(options);
     const double side = double((std::max)(options.width, options.height));
@@ -68,7 +68,7 @@ public:
   double run()
   {
     constexpr double least_gain = 0.001; // of the pages
-    if(!can_be_bent(m_maps))
+    if(!can_be_bent(m_maps, m_most_charts))
       return m_work;
     m_is_affine.clear();
     for(const Mapped_chart& map : m_maps)
@@ -124,6 +124,7 @@ private:
   Chart_outline outline(std::size_t i, const Elastic_charts& charts) const;
 
   double m_strain; // see `Elastic_charts::strain()`
+  std::size_t m_most_charts;
   bool m_is_wary;
   const Packing_options& m_options;
   const Chart_mapping& m_mapping;
