@@ -375,15 +375,6 @@ TEST(Chart_bending, fills_pages_more_and_keeps_what_charts_promise)
   }
 }
 
-// Those of the triangles of a map.
-std::vector<double> areas_of(const SMT::internal::Mapped_chart& map)
-{
-  std::vector<double> result;
-  for(const Triangle_indices& t : map.chart.mesh.triangles)
-    result.push_back(CGAL::area(map.uv[t[0]], map.uv[t[1]], map.uv[t[2]]));
-  return result;
-}
-
 // The more charts may bend the fuller the page, and the more lengths change.
 TEST(Chart_bending, goes_as_far_as_it_may)
 {
@@ -395,6 +386,15 @@ TEST(Chart_bending, goes_as_far_as_it_may)
     EXPECT_GT(built.report.utilisation, before + 0.01) << bending;
     before = built.report.utilisation;
   }
+}
+
+// The areas of the triangles of a map.
+std::vector<double> areas_of(const SMT::internal::Mapped_chart& map)
+{
+  std::vector<double> result;
+  for(const Triangle_indices& t : map.chart.mesh.triangles)
+    result.push_back(CGAL::area(map.uv[t[0]], map.uv[t[1]], map.uv[t[2]]));
+  return result;
 }
 
 // All but those that are as bad as they may be, and one that became invalid before, which may be stretched:

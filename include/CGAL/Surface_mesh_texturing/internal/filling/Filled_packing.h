@@ -243,6 +243,8 @@ private:
       const double before = m_packing.utilisation;
       m_work += m_bend(m_charts, m_packing, fineness, is_wary != (in_vain >= ways));
       in_vain = m_packing.utilisation < before + least_gain ? in_vain + 1 : 0;
+      for(Mapped_chart& map : m_charts) // may bend again where stretching some of them came to nothing
+        map.is_affine = map.is_affine && in_vain == 0;
       if(!m_packing.is_ok())
         return;
       if(missing() <= 0.) {

@@ -27,8 +27,8 @@ struct Bending
 {
   double change;       // of lengths, as a root mean square
   double squares = 7.; // along a page, of the grid of control points
-  std::size_t most_charts = 100; // more are bent hardly at all, and that takes seconds
   bool is_wary = false; // whether maps are checked before charts are pressed apart, too
+  std::size_t most_charts = 100; // more are bent hardly at all, and that takes seconds
 };
 
 // Whether `bend_charts()` can do anything for these charts, of which there are not too many.
@@ -49,8 +49,8 @@ public:
   Chart_bending(const Bending& amount, const Packing_options& options, const Chart_mapping& mapping,
                 const std::function<bool()>& goes_on, std::vector<Mapped_chart>& maps,
                 Packing_result& packing)
-    : m_strain(2. * amount.change * amount.change), m_most_charts(amount.most_charts), m_is_wary(amount.is_wary)
-    , m_options(options), m_mapping(mapping), m_goes_on(goes_on), m_maps(maps), m_packing(packing)
+    : m_strain(2. * amount.change * amount.change), m_is_wary(amount.is_wary), m_options(options), m_mapping(mapping)
+    , m_goes_on(goes_on), m_maps(maps), m_packing(packing)
   {
     const Packing_raster raster = exact_raster(options);
     const double side = double((std::max)(options.width, options.height));
@@ -67,9 +67,6 @@ public:
 
   double run()
   {
-    constexpr double least_gain = 0.001; // of the pages
-    if(!can_be_bent(m_maps, m_most_charts))
-      return m_work;
     m_is_affine.clear();
     for(const Mapped_chart& map : m_maps)
       m_is_affine.push_back(is_at_its_bound(map) || map.is_affine ? 1 : 0);
@@ -77,18 +74,16 @@ public:
     for(std::size_t i = 0; i < m_maps.size(); ++i)
       for(const Point_2& p : m_maps[i].uv)
         m_rest[i].push_back(m_packing.placements[i](p));
-    const double before = m_packing.utilisation;
     // Those that became invalid where they bent are only stretched in the next round, and when they are bent
-    // once more, unless that came to nothing
+    // once more
     for(int round = 0; round < rounds; ++round) {
       m_has_more_affine = false;
       bend_all();
       if(!m_has_more_affine)
         break;
     }
-    const bool is_better = m_packing.utilisation >= before + least_gain;
     for(std::size_t i = 0; i < m_maps.size(); ++i)
-      m_maps[i].is_affine = is_better && m_is_affine[i] != 0;
+      m_maps[i].is_affine = m_is_affine[i] != 0;
     return m_work;
   }
 
@@ -124,7 +119,6 @@ private:
   Chart_outline outline(std::size_t i, const Elastic_charts& charts) const;
 
   double m_strain; // see `Elastic_charts::strain()`
-  std::size_t m_most_charts;
   bool m_is_wary;
   const Packing_options& m_options;
   const Chart_mapping& m_mapping;
@@ -384,7 +378,8 @@ inline double bend_charts(const Bending& amount, const Packing_options& options,
                           const std::function<bool()>& goes_on, std::vector<Mapped_chart>& maps,
                           Packing_result& packing)
 {
-  return Chart_bending(amount, options, mapping, goes_on, maps, packing).run();
+  return can_be_bent(maps, amount.most_charts)
+       ? Chart_bending(amount, options, mapping, goes_on, maps, packing).run() : 0.;
 }
 
 } // namespace internal
