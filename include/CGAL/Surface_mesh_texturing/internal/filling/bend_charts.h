@@ -6,6 +6,7 @@
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_texturing/internal/filling/Elastic_charts.h>
+#include <CGAL/Surface_mesh_texturing/internal/filling/Roomy_places.h>
 #include <CGAL/Surface_mesh_texturing/internal/mapped_charts/Straight_chains.h>
 #include <CGAL/Surface_mesh_texturing/internal/packing/Page_check.h>
 
@@ -74,6 +75,8 @@ public:
     for(std::size_t i = 0; i < m_maps.size(); ++i)
       for(const Point_2& p : m_maps[i].uv)
         m_rest[i].push_back(m_packing.placements[i](p));
+    move_to_room(m_maps, m_packing.placements, exact_raster(m_options), small * m_sizes.unit, m_sizes.gap,
+                 m_rest);
     // Those that became invalid where they bent are only stretched in the next round, and when they are bent
     // once more
     for(int round = 0; round < rounds; ++round) {
@@ -89,6 +92,7 @@ public:
 
 private:
   static constexpr double margin = 0.4; // of gaps, in units: for what samples of borders do not tell
+  static constexpr double small = 20.;  // extents of charts, in units: they go to where there is room first
   static constexpr int rounds = 5;
   static constexpr double most_strain = 2.7; // to that at which charts stop growing
   static constexpr double first_stiffness = 40., harder = 1.3; // of contacts, and with each attempt
@@ -116,7 +120,6 @@ private:
   bool bend(std::size_t i, const Elastic_charts& charts, std::vector<Point_2>& places,
             Chart_distortion& distortion) const;
   double changes_of_length(std::size_t i, const std::vector<Point_2>& places, double scale) const;
-  Chart_outline outline(std::size_t i, const Elastic_charts& charts) const;
 
   double m_strain; // see `Elastic_charts::strain()`
   bool m_is_wary;
@@ -216,7 +219,7 @@ inline bool Chart_bending::grow(Elastic_charts& charts) const
 // Presses the charts apart until they are a packing, which then is taken, or one of them can only be stretched.
 inline void Chart_bending::try_to_take(Elastic_charts& charts)
 {
-  constexpr int attempts = 12, patience = 4;
+  constexpr int attempts = 20, patience = 8;
   double stiffness = first_stiffness;
   constexpr std::size_t any = (std::numeric_limits<std::size_t>::max)();
   std::size_t fewest = any;
@@ -283,21 +286,6 @@ inline double Chart_bending::changes_of_length(std::size_t i, const std::vector<
   return sum;
 }
 
-// That of a bent chart on its page, whose border vertices stay where they are when flipped triangles are
-// repaired.
-inline Chart_outline Chart_bending::outline(std::size_t i, const Elastic_charts& charts) const
-{
-  const auto at = [&](Vertex_index v) {
-    const Plane_vector_d p = m_nets[i].place(v, charts.points());
-    return Vector_2d{p.x, p.y};
-  };
-  Chart_outline result;
-  result.parts.emplace_back();
-  for(const Border_edge& e : m_maps[i].chart.border_edges())
-    result.parts[0].push_back({at(e[0]), at(e[1]), 1});
-  return result;
-}
-
 // Where bent charts are no packing they give way, and become stiffer or rigid if their maps are not valid, which
 // is found out where they are a packing, or if that is asked for. If all is right, they are those of the packing,
 // unless that uses more of the pages already.
@@ -305,8 +293,10 @@ inline Chart_bending::Faults Chart_bending::take(Elastic_charts& charts, bool ch
 {
   constexpr double stiffer = 8.;
   Page_check check(m_options, m_packing.pages);
-  for(std::size_t i = 0; i < m_maps.size(); ++i)
-    check.add(outline(i, charts), m_packing.placements[i].page);
+  for(std::size_t i = 0; i < m_maps.size(); ++i) { // border vertices stay there when flips are repaired
+    const auto place = [&](Vertex_index v) { return m_nets[i].place(v, charts.points()); };
+    check.add(outline_at(m_maps[i], place), m_packing.placements[i].page);
+  }
   charts.widen_gaps(check.faults(), 0.5 * m_sizes.unit);
   if(!check.faults().empty() && !checks_maps)
     return {check.faults().size(), 0};
