@@ -84,7 +84,7 @@ TEST(Roomy_places, finds_the_most_room)
       const double left = 1.5 + double(random() % 80), bottom = 1.5 + double(random() % 80);
       const double side = double(1 + random() % 12);
       squares.add(left, bottom, side);
-      rooms.add(squares.outline(std::size_t(i)));
+      rooms.add(rooms.cells(squares.outline(std::size_t(i))));
       for(int y = int(bottom - raster.origin[1]); y <= int(bottom + side - raster.origin[1]); ++y)
         for(int x = int(left - raster.origin[0]); x <= int(left + side - raster.origin[0]); ++x)
           if(x < raster.width && y < raster.height)

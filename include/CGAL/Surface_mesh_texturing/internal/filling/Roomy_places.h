@@ -10,9 +10,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
-#include <map>
-#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -39,15 +36,23 @@ class Roomy_places
 {
 public:
   explicit Roomy_places(const Packing_raster& exact)
-    : m_raster(coarser_raster(exact, cells)), m_taken(m_raster.width, m_raster.height)
+    : m_raster(coarser_raster(exact, number_of_cells)), m_taken(m_raster.width, m_raster.height)
   {}
 
-  // Takes what a chart covers; its outline is in texels on the page.
-  void add(const Chart_outline& outline)
+  // What a chart covers, whose outline is in texels on the page.
+  std::vector<Cell_run> cells(const Chart_outline& outline) const
   {
+    Texel_mask mask(m_raster.width, m_raster.height);
     const double scale = 1. / m_raster.cell;
     add_outline(outline, Rotation_and_scale(0., scale),
-                {-scale * m_raster.origin[0], -scale * m_raster.origin[1]}, m_taken);
+                {-scale * m_raster.origin[0], -scale * m_raster.origin[1]}, mask);
+    return mask.runs();
+  }
+
+  void add(const std::vector<Cell_run>& cells)
+  {
+    for(const Cell_run& run : cells)
+      m_taken.add(run);
     m_rooms.clear();
   }
 
@@ -77,7 +82,7 @@ public:
   }
 
 private:
-  static constexpr double cells = 256. * 256.; // about
+  static constexpr double number_of_cells = 256. * 256.; // about
 
   std::size_t index(int x, int y) const
   {
@@ -112,11 +117,11 @@ private:
   std::vector<int> m_rooms; // of cells; empty where they are not known
 };
 
-// Moves charts smaller than `small` to where on their pages there is the most room, if there is more than where
-// they are and `gap` around them: between larger charts that grow they are in the way. All lengths, and `places`
-// of vertices, are in texels.
+// Moves charts smaller than `small` to where on their pages there is the most room, the largest first, if there is
+// more than where they are and `gap` around them: between larger charts that grow they are in the way. All
+// lengths, and `places` of vertices, are in texels.
 //
-// Complexity: linear, beside 65000 cells for each small chart.
+// Complexity: linear, beside some 65000 cells for each small chart.
 inline void move_to_room(const std::vector<Mapped_chart>& maps, const std::vector<Chart_placement>& placements,
                          const Packing_raster& raster, double small, double gap,
                          std::vector<std::vector<Chart_shape::Point_2>>& places)
@@ -128,7 +133,6 @@ inline void move_to_room(const std::vector<Mapped_chart>& maps, const std::vecto
     double extent;
   };
   std::vector<Box> boxes;
-  std::vector<char> is_small(maps.size(), 0);
   for(std::size_t i = 0; i < maps.size(); ++i) {
     Plane_vector_d low = vector_of(places[i][0]), high = low;
     for(const Chart_shape::Point_2& p : places[i]) {
@@ -136,30 +140,32 @@ inline void move_to_room(const std::vector<Mapped_chart>& maps, const std::vecto
       high = {(std::max)(high.x, p.x()), (std::max)(high.y, p.y())};
     }
     const double extent = (std::max)(high.x - low.x, high.y - low.y);
-    is_small[i] = extent < small;
-    if(is_small[i])
+    if(extent < small)
       boxes.push_back({i, (low + high) * 0.5, extent});
   }
-  std::stable_sort(boxes.begin(), boxes.end(), [](const Box& a, const Box& b) { return a.extent > b.extent; });
-  const auto add_if = [&](const auto& is_wanted, Roomy_places& rooms) {
-    for(std::size_t i = 0; i < maps.size(); ++i)
-      if(is_wanted(i))
-        rooms.add(outline_at(maps[i], [&](Vertex_index v) { return vector_of(places[i][v]); }));
+  if(boxes.empty())
+    return;
+  std::stable_sort(boxes.begin(), boxes.end(),
+                   [](const Box& a, const Box& b) { return a.extent > b.extent; });
+  const Roomy_places empty_page(raster);
+  const auto cells_of = [&](std::size_t i) {
+    return empty_page.cells(outline_at(maps[i], [&](Vertex_index v) { return vector_of(places[i][v]); }));
   };
-  std::map<std::uint32_t, Roomy_places> beside_large; // by pages
+  std::vector<std::vector<Cell_run>> cells;
+  for(std::size_t i = 0; i < maps.size(); ++i)
+    cells.push_back(cells_of(i));
   for(const Box& box : boxes) {
-    const std::uint32_t page = placements[box.chart].page;
-    const auto [it, is_new] = beside_large.emplace(page, Roomy_places(raster));
-    if(is_new)
-      add_if([&](std::size_t i) { return !is_small[i] && placements[i].page == page; }, it->second);
-    Roomy_places rooms = it->second;
-    add_if([&](std::size_t i) { return is_small[i] && i != box.chart && placements[i].page == page; }, rooms);
+    Roomy_places rooms = empty_page;
+    for(std::size_t i = 0; i < maps.size(); ++i)
+      if(i != box.chart && placements[i].page == placements[box.chart].page)
+        rooms.add(cells[i]);
     const Roomy_places::Place best = rooms.best();
     if(best.room < 0.5 * box.extent + gap || best.room <= rooms.room_at(box.middle))
       continue;
     const Plane_vector_d way = best.place - box.middle;
     for(Chart_shape::Point_2& p : places[box.chart])
       p = Chart_shape::Point_2(p.x() + way.x, p.y() + way.y);
+    cells[box.chart] = cells_of(box.chart);
   }
 }
 
