@@ -11,7 +11,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <random>
 #include <vector>
@@ -50,7 +49,8 @@ struct Squares
 
   SMT::internal::Chart_outline outline(std::size_t i) const
   {
-    return SMT::internal::outline_at(maps[i], [&](std::uint32_t v) { return SMT::internal::vector_of(places[i][v]); });
+    const auto place = [&](std::uint32_t v) { return SMT::internal::vector_of(places[i][v]); };
+    return SMT::internal::outline_at(maps[i], place);
   }
 
   void move(double small, double gap)

@@ -121,7 +121,7 @@ private:
 // more than where they are and `gap` around them: between larger charts that grow they are in the way. All
 // lengths, and `places` of vertices, are in texels.
 //
-// Complexity: linear, beside some 65000 cells for each small chart.
+// Complexity: linear in the borders, beside some 65000 cells for each small chart.
 inline void move_to_room(const std::vector<Mapped_chart>& maps, const std::vector<Chart_placement>& placements,
                          const Packing_raster& raster, double small, double gap,
                          std::vector<std::vector<Chart_shape::Point_2>>& places)
@@ -132,28 +132,26 @@ inline void move_to_room(const std::vector<Mapped_chart>& maps, const std::vecto
     Plane_vector_d middle;
     double extent;
   };
+  const auto outline_of = [&](std::size_t i) {
+    return outline_at(maps[i], [&](Vertex_index v) { return vector_of(places[i][v]); });
+  };
+  std::vector<Chart_outline> outlines;
   std::vector<Box> boxes;
   for(std::size_t i = 0; i < maps.size(); ++i) {
-    Plane_vector_d low = vector_of(places[i][0]), high = low;
-    for(const Chart_shape::Point_2& p : places[i]) {
-      low = {(std::min)(low.x, p.x()), (std::min)(low.y, p.y())};
-      high = {(std::max)(high.x, p.x()), (std::max)(high.y, p.y())};
-    }
-    const double extent = (std::max)(high.x - low.x, high.y - low.y);
+    outlines.push_back(outline_of(i));
+    const auto [low, high] = bounding_box(outlines[i], Rotation_and_scale(0., 1.));
+    const double extent = (std::max)(high[0] - low[0], high[1] - low[1]);
     if(extent < small)
-      boxes.push_back({i, (low + high) * 0.5, extent});
+      boxes.push_back({i, Plane_vector_d{low[0] + high[0], low[1] + high[1]} * 0.5, extent});
   }
   if(boxes.empty())
     return;
   std::stable_sort(boxes.begin(), boxes.end(),
                    [](const Box& a, const Box& b) { return a.extent > b.extent; });
   const Roomy_places empty_page(raster);
-  const auto cells_of = [&](std::size_t i) {
-    return empty_page.cells(outline_at(maps[i], [&](Vertex_index v) { return vector_of(places[i][v]); }));
-  };
   std::vector<std::vector<Cell_run>> cells;
-  for(std::size_t i = 0; i < maps.size(); ++i)
-    cells.push_back(cells_of(i));
+  for(const Chart_outline& outline : outlines)
+    cells.push_back(empty_page.cells(outline));
   for(const Box& box : boxes) {
     Roomy_places rooms = empty_page;
     for(std::size_t i = 0; i < maps.size(); ++i)
@@ -165,7 +163,7 @@ inline void move_to_room(const std::vector<Mapped_chart>& maps, const std::vecto
     const Plane_vector_d way = best.place - box.middle;
     for(Chart_shape::Point_2& p : places[box.chart])
       p = Chart_shape::Point_2(p.x() + way.x, p.y() + way.y);
-    cells[box.chart] = cells_of(box.chart);
+    cells[box.chart] = empty_page.cells(outline_of(box.chart));
   }
 }
 
