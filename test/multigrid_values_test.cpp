@@ -96,6 +96,64 @@ protected:
     return a;
   }
 
+  template <class Rest>
+  static Eigen::MatrixXd to_real_dense(const Split_matrix<Value, Rest>& h)
+  {
+    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(rows * size, rows * size);
+    const auto put = [&a](std::uint32_t i, std::uint32_t j, const auto& value) {
+      for(int k = 0; k < rows * rows; ++k)
+        a(rows * i + k / rows, rows * j + k % rows)
+          = Value_traits<Value>::coefficient(value, k / rows, k % rows);
+    };
+    for(std::uint32_t i = 0; i < size; ++i) {
+      put(i, i, h.diagonal(i));
+      h.for_each_entry(h.slot_of_row(i), [&](std::uint32_t j, const Value& value) { put(i, j, value); });
+    }
+    return a;
+  }
+
+  // Builds a split matrix by its rows.
+  template <class Split>
+  void expect_rows_make(const Split& expected)
+  {
+    Split split(std::vector<std::uint32_t>(size, size), [&](std::uint32_t i, auto& row) {
+      std::vector<std::uint32_t> columns;
+      std::vector<Double> values;
+      for(std::uint32_t j = 0; j < size; ++j)
+        if(j != i && !Value_traits<Double>::is_zero(block(dense, int(i), int(j)))) {
+          columns.push_back(j);
+          values.push_back(block(dense, int(i), int(j)));
+        }
+      row.set(block(dense, int(i), int(i)), columns.size(), columns.data(), values.data());
+    });
+    ASSERT_EQ(split.size(), expected.size());
+    EXPECT_EQ(to_real_dense(split), to_real_dense(expected));
+    EXPECT_EQ(to_real_dense(split.single()), to_real_dense(expected.single()));
+    const Vector x = to_values(random_numbers());
+    Vector y(size), z(size);
+    split(x, y);
+    expected(x, z);
+    EXPECT_EQ(to_numbers(y), to_numbers(z));
+    std::size_t entries = 0;
+    for(std::uint32_t i = 0; i < size; ++i) {
+      std::size_t in_row = 0;
+      split.for_each_entry(split.slot_of_row()[i], [&](std::uint32_t, const Value&) { ++in_row; });
+      EXPECT_LE(in_row, split.width(split.slot_of_row(i)));
+      entries += in_row;
+    }
+    EXPECT_GT(entries, std::size_t(size));
+    const auto single = split.take_single();
+    EXPECT_EQ(to_real_dense(single), to_real_dense(expected.single()));
+    EXPECT_EQ(split.size(), 0u);
+    EXPECT_EQ(split.memory(), 0u);
+  }
+
+  // Whether each entry is right up to `error`, a part of it.
+  static bool is_nearly(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double error)
+  {
+    return ((a - b).array().abs() <= error * b.array().abs()).all();
+  }
+
   static Vector to_values(const Eigen::VectorXd& x)
   {
     Vector result;
@@ -268,18 +326,7 @@ TYPED_TEST(Real_values, are_split)
             Eigen::MatrixXd(this->to_real_dense(h).template cast<float>().template cast<double>()));
   EXPECT_EQ(split.size(), h.size());
   constexpr double two_floats = 1e-14; // 48 bits
-  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(Test::rows * Test::size, Test::rows * Test::size);
-  const auto put = [&a](std::uint32_t i, std::uint32_t j, const auto& value) {
-    for(int k = 0; k < Test::rows * Test::rows; ++k)
-      a(Test::rows * i + k / Test::rows, Test::rows * j + k % Test::rows)
-        = Value_traits<TypeParam>::coefficient(value, k / Test::rows, k % Test::rows);
-  };
-  for(std::uint32_t i = 0; i < Test::size; ++i) {
-    put(i, i, split.diagonal(i));
-    split.for_each_entry(split.slot_of_row(i),
-                         [&](std::uint32_t j, const TypeParam& value) { put(i, j, value); });
-  }
-  EXPECT_LE((a - this->to_real_dense(h)).cwiseAbs().maxCoeff(), two_floats * a.cwiseAbs().maxCoeff());
+  EXPECT_TRUE(Test::is_nearly(Test::to_real_dense(split), Test::to_real_dense(h), two_floats));
   const Eigen::VectorXd x = this->random_numbers();
   typename Test::Vector y(Test::size);
   split(Test::to_values(x), y);
@@ -288,42 +335,47 @@ TYPED_TEST(Real_values, are_split)
   static_assert(std::is_same_v<typename Value_traits<typename Single::Vector_value>::Real, float>);
 }
 
+// The same with 16 bits beside a float: in half the memory, each entry to 39 bits.
+TYPED_TEST(Real_values, are_split_in_less_memory)
+{
+  typedef TestFixture Test;
+  const auto h = this->sparse();
+  const Split_matrix<TypeParam> longer(h);
+  const Split_matrix<TypeParam, std::int16_t> split(h);
+  EXPECT_EQ(Test::to_real_dense(split.single()), Test::to_real_dense(longer.single()));
+  EXPECT_TRUE(Test::is_nearly(Test::to_real_dense(split), Test::to_real_dense(h), 0x1p-39));
+  const Eigen::VectorXd x = this->random_numbers();
+  typename Test::Vector y(Test::size);
+  split(Test::to_values(x), y);
+  EXPECT_LE((Test::to_numbers(y) - this->dense * x).norm(), Test::tolerance * x.norm());
+  EXPECT_EQ(2 * split.memory(), longer.memory());
+}
+
 // The same row by row, without the whole in double precision; what is taken from it is gone.
 TYPED_TEST(Real_values, are_split_row_by_row)
 {
-  typedef TestFixture Test;
-  typedef typename Test::Double Double;
-  const Split_matrix<TypeParam> expected(this->sparse());
-  Split_matrix<TypeParam> split(
-    std::vector<std::uint32_t>(Test::size, Test::size), [&](std::uint32_t i, auto& row) {
-      std::vector<std::uint32_t> columns;
-      std::vector<Double> values;
-      for(std::uint32_t j = 0; j < Test::size; ++j)
-        if(j != i && !Value_traits<Double>::is_zero(Test::block(this->dense, int(i), int(j)))) {
-          columns.push_back(j);
-          values.push_back(Test::block(this->dense, int(i), int(j)));
-        }
-      row.set(Test::block(this->dense, int(i), int(i)), columns.size(), columns.data(), values.data());
-    });
-  ASSERT_EQ(split.size(), expected.size());
-  EXPECT_EQ(Test::to_real_dense(split.single()), Test::to_real_dense(expected.single()));
-  const auto x = Test::to_values(this->random_numbers());
-  typename Test::Vector y(Test::size), z(Test::size);
-  split(x, y);
-  expected(x, z);
-  EXPECT_EQ(Test::to_numbers(y), Test::to_numbers(z));
-  std::size_t entries = 0;
-  for(std::uint32_t i = 0; i < Test::size; ++i) {
-    std::size_t in_row = 0;
-    split.for_each_entry(split.slot_of_row()[i], [&](std::uint32_t, const TypeParam&) { ++in_row; });
-    EXPECT_LE(in_row, split.width(split.slot_of_row(i)));
-    entries += in_row;
-  }
-  EXPECT_GT(entries, Test::size);
-  const auto single = split.take_single();
-  EXPECT_EQ(Test::to_real_dense(single), Test::to_real_dense(expected.single()));
-  EXPECT_EQ(split.size(), 0u);
-  EXPECT_EQ(split.memory(), 0u);
+  this->expect_rows_make(Split_matrix<TypeParam>(this->sparse()));
+  this->expect_rows_make(Split_matrix<TypeParam, std::int16_t>(this->sparse()));
+}
+
+// Numbers of any size, those that are rounded to a power of 2, or by the most, too.
+TEST(Split_number, is_the_number_to_39_bits)
+{
+  typedef CGAL::Multigrid::internal::Split_number<std::int16_t> Split;
+  Random_numbers random(31);
+  const auto expect_split = [](double number) {
+    const float rounded = float(number);
+    const double sum = Split::sum(rounded, Split::rest(number, rounded));
+    EXPECT_LE(std::abs(sum - number), 0x1p-39 * std::abs(number)) << number;
+  };
+  for(int i = 0; i < 100000; ++i)
+    expect_split(std::ldexp(random.real() + (random.chance(0.5) ? 1. : -2.), int(random.below(200)) - 100));
+  for(const int exponent : {-60, 0, 1, 90})
+    for(const double sign : {-1., 1.})
+      for(const double part : {0., 0x1p-24, 0x1p-25, 0x1p-26, 0x1p-23 + 0x1p-24, 0x1p-40})
+        for(const double off : {-1., 1.})
+          expect_split(sign * std::ldexp(1. + off * part, exponent));
+  EXPECT_EQ(Split::sum(0.f, Split::rest(0., 0.f)), 0.);
 }
 
 // The product P^T A P by the definition, from rows and from a matrix that was split; the pin takes no

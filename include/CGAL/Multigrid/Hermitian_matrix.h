@@ -132,7 +132,7 @@ public:
   void put_row(std::uint32_t i, const Row& row);
 
   template <class Other> friend class Self_adjoint_matrix;
-  template <class Other> friend class Split_matrix;
+  template <class Other, class Rest> friend class Split_matrix;
   friend class Matrix_builder;
 
   /// Constructs a matrix of the same entries in another precision; the pattern is shared.

@@ -5,6 +5,7 @@
 #define CGAL_MULTIGRID_MATRIX_BUILDER_H
 
 #include <CGAL/Multigrid/Hermitian_matrix.h>
+#include <CGAL/Multigrid/Split_number.h>
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Blocked_execution/Uninitialized_vector.h>
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <type_traits>
 #include <utility>
 
 namespace CGAL {
@@ -22,13 +24,15 @@ namespace Multigrid {
 
 The place of a row in a matrix that is being built, for a row without imaginary parts, of real
 numbers or blocks. Entries that are not set become padding. What rounding takes off them may have
-places of its own.
+places of its own, for numbers of type `Rest`.
 */
-template <class Stored>
+template <class Stored, class Rest = typename Value_traits<Stored>::Real>
 class Real_row
 {
 public:
   typedef typename Value_traits<Stored>::Double Double; ///< an entry in double precision
+  /// What rounding takes off an entry
+  typedef typename internal::Entry_numbers<Stored>::template Rests<Rest> Rests;
 
   /// Constructs the place whose entry `k` is at `k * Sliced_pattern::slice_rows`.
   Real_row(std::uint32_t* column, Stored* re, Stored& diagonal)
@@ -36,7 +40,7 @@ public:
   {}
 
   /// Gives what rounding takes off places as those of the entries.
-  void keep_rest(Stored* re, Stored& diagonal)
+  void keep_rest(Rests* re, Rests& diagonal)
   {
     m_rest = re;
     m_rest_diagonal = &diagonal;
@@ -56,24 +60,20 @@ public:
     m_count = count;
     if(m_rest == nullptr)
       return;
-    *m_rest_diagonal = rest(diagonal, m_diagonal);
+    internal::set_rests<Rest>(diagonal, m_diagonal, *m_rest_diagonal);
     for(std::size_t k = 0; k < count; ++k)
-      m_rest[k * Sliced_pattern::slice_rows] = rest(re[k], m_re[k * Sliced_pattern::slice_rows]);
+      internal::set_rests<Rest>(re[k], m_re[k * Sliced_pattern::slice_rows],
+                                m_rest[k * Sliced_pattern::slice_rows]);
   }
 
   /// Returns the number of entries that have been set.
   std::size_t count() const { return m_count; }
 
 private:
-  static Stored rest(const Double& entry, const Stored& stored)
-  {
-    return Value_traits<Stored>::from(Double(entry - Value_traits<Double>::from(stored)));
-  }
-
   std::uint32_t* m_column;
   Stored* m_re;
   Stored& m_diagonal;
-  Stored *m_rest = nullptr, *m_rest_diagonal = nullptr;
+  Rests *m_rest = nullptr, *m_rest_diagonal = nullptr;
   std::size_t m_count = 0;
 };
 
@@ -104,7 +104,8 @@ public:
   static Self_adjoint_matrix<Value> build_matrix(const std::vector<std::uint32_t>& row_lengths,
                                                  const Fill_real& fill_real, const Fill& fill)
   {
-    return build_with_rest<Value>(row_lengths, fill_real, fill, nullptr);
+    Rest<Value, typename Value_traits<Value>::Real>* const none = nullptr;
+    return build_with_rest<Value>(row_lengths, fill_real, fill, none);
   }
 
   /// Returns `build_matrix()` of complex numbers.
@@ -116,21 +117,24 @@ public:
   }
 
 private:
-  template <class Value> friend class Split_matrix;
+  template <class Value, class Rest> friend class Split_matrix;
 
   // What rounding takes off the entries of a matrix without imaginary parts.
-  template <class Value>
+  template <class Value, class Real>
   struct Rest
   {
-    std::vector<typename Value_traits<Value>::Diagonal> diagonal;
-    Blocked_execution::Uninitialized_vector<typename Value_traits<Value>::Stored> main;
+    template <class Entry>
+    using Rests = typename internal::Entry_numbers<Entry>::template Rests<Real>;
+
+    std::vector<Rests<typename Value_traits<Value>::Diagonal>> diagonal;
+    Blocked_execution::Uninitialized_vector<Rests<typename Value_traits<Value>::Stored>> main;
   };
 
   // `build_matrix()`, with the rest if one is given.
-  template <class Value, class Fill_real, class Fill>
+  template <class Value, class Real, class Fill_real, class Fill>
   static Self_adjoint_matrix<Value> build_with_rest(const std::vector<std::uint32_t>& row_lengths,
                                                     const Fill_real& fill_real, const Fill& fill,
-                                                    Rest<Value>* rest);
+                                                    Rest<Value, Real>* rest);
 
   static constexpr std::size_t rows = Sliced_pattern::slice_rows;
   static constexpr std::size_t block_slices = 512;
@@ -146,9 +150,9 @@ private:
   static void store_row(const typename Self_adjoint_matrix<Value>::Row& row, std::size_t slot,
                         Sliced_pattern& pattern, Self_adjoint_matrix<Value>& matrix,
                         Imaginary<Value>& imaginary_of_block);
-  template <class Value>
+  template <class Value, class Real>
   static void pad_row(std::size_t count, std::size_t slot, Sliced_pattern& pattern,
-                      Self_adjoint_matrix<Value>& matrix, Rest<Value>* rest);
+                      Self_adjoint_matrix<Value>& matrix, Rest<Value, Real>* rest);
   template <class Value>
   static void join_imaginary(std::vector<Imaginary<Value>>& blocks, Sliced_pattern& pattern,
                              Self_adjoint_matrix<Value>& matrix);
@@ -223,17 +227,18 @@ void Matrix_builder::store_row(const typename Self_adjoint_matrix<Value>::Row& r
 
 // Fills what is left of a row of `count` entries. Padding refers to the row itself, which is in the
 // cache.
-template <class Value>
+template <class Value, class Real>
 void Matrix_builder::pad_row(std::size_t count, std::size_t slot, Sliced_pattern& pattern,
-                             Self_adjoint_matrix<Value>& matrix, Rest<Value>* rest)
+                             Self_adjoint_matrix<Value>& matrix, Rest<Value, Real>* rest)
 {
-  const auto zero = Value_traits<typename Value_traits<Value>::Stored>::zero();
+  typedef typename Value_traits<Value>::Stored Stored;
   const std::size_t s = slot / rows, end = pattern.slice_begin[s + 1];
   for(std::size_t k = pattern.slice_begin[s] + count; k < end; ++k) {
     pattern.column[k * rows + slot % rows] = pattern.row_of_slot[slot];
-    matrix.m_main[k * rows + slot % rows] = zero;
+    matrix.m_main[k * rows + slot % rows] = internal::Entry_numbers<Stored>::zero();
     if(rest != nullptr)
-      rest->main[k * rows + slot % rows] = zero;
+      rest->main[k * rows + slot % rows]
+        = internal::Entry_numbers<typename Rest<Value, Real>::template Rests<Stored>>::zero();
   }
 }
 
@@ -252,13 +257,13 @@ void Matrix_builder::join_imaginary(std::vector<Imaginary<Value>>& blocks,
   }
 }
 
-template <class Value, class Fill_real, class Fill>
+template <class Value, class Real, class Fill_real, class Fill>
 Self_adjoint_matrix<Value>
 Matrix_builder::build_with_rest(const std::vector<std::uint32_t>& row_lengths,
-                                const Fill_real& fill_real, const Fill& fill, Rest<Value>* rest)
+                                const Fill_real& fill_real, const Fill& fill,
+                                Rest<Value, Real>* rest)
 {
   typedef Value_traits<Value> Traits;
-  typedef Value_traits<typename Traits::Diagonal> Diagonal_traits;
   typedef typename Self_adjoint_matrix<Value>::Row Row;
   auto pattern = std::make_shared<Sliced_pattern>();
   sort_slots(row_lengths, *pattern);
@@ -268,11 +273,12 @@ Matrix_builder::build_with_rest(const std::vector<std::uint32_t>& row_lengths,
   Blocked_execution::resize_blocked(pattern->column, size);
   Self_adjoint_matrix<Value> matrix;
   const auto make = [&](auto& main, auto& diagonal) {
+    typedef std::decay_t<decltype(main[0])> Entry;
     main.resize(size);
     if(slices > 0) // its last slots may have no row
       std::fill(main.begin() + pattern->slice_begin[slices - 1] * rows, main.end(),
-                Value_traits<typename Traits::Stored>::zero());
-    diagonal.assign(pattern->rows, Diagonal_traits::zero());
+                internal::Entry_numbers<Entry>::zero());
+    diagonal.assign(pattern->rows, internal::Entry_numbers<std::decay_t<decltype(diagonal[0])>>::zero());
   };
   make(matrix.m_main, matrix.m_diagonal);
   if(rest != nullptr)
@@ -286,7 +292,7 @@ Matrix_builder::build_with_rest(const std::vector<std::uint32_t>& row_lengths,
       const std::uint32_t i = pattern->row_of_slot[slot];
       const std::size_t at // somewhere in the arrays even if the row has no entries
         = (std::min)(pattern->slice_begin[slot / rows] * rows + slot % rows, size);
-      Real_row<typename Traits::Stored> place(pattern->column.data() + at,
+      Real_row<typename Traits::Stored, Real> place(pattern->column.data() + at,
                                               matrix.m_main.data() + at, matrix.m_diagonal[i]);
       if constexpr(!Traits::is_complex)
         if(rest != nullptr)

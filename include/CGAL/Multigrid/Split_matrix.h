@@ -10,6 +10,7 @@
 #include <complex>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -33,15 +34,17 @@ struct Single_precision<Columns<Real, N>> { typedef Columns<float, N> type; };
 /*!
 \ingroup PkgHLSCMMultigrid
 
-The class `Split_matrix` is a `Self_adjoint_matrix` whose entries are sums of two in single
-precision, with 48 bits together: the first parts are a matrix of their own, which a cycle needs
-anyway, and the second ones take half the memory of a matrix in double precision beside it.
+The class `Split_matrix` is a `Self_adjoint_matrix` whose entries are sums of two, with 48 bits
+together: the first parts are a matrix of their own in single precision, which a cycle needs anyway,
+and the second ones take half the memory of a matrix in double precision beside it.
 
 \tparam Value an entry, in double precision
+\tparam Rest a number of the second parts: `float`, or `std::int16_t`, with 39 bits together and half
+        of that memory, if `Value` is not complex
 
 \cgalModels{MultigridOperator}
 */
-template <class Value>
+template <class Value, class Rest = float>
 class Split_matrix
 {
 public:
@@ -58,9 +61,9 @@ public:
   explicit Split_matrix(const Self_adjoint_matrix<Value>& matrix)
   {
     m_first.assign(matrix);
-    subtract(matrix.m_diagonal, m_first.m_diagonal, m_rest.diagonal);
-    subtract(matrix.m_main, m_first.m_main, m_rest.main);
-    subtract(matrix.m_im, m_first.m_im, m_rest_im);
+    set_rests(matrix.m_diagonal, m_first.m_diagonal, m_rest.diagonal);
+    set_rests(matrix.m_main, m_first.m_main, m_rest.main);
+    set_rests(matrix.m_im, m_first.m_im, m_rest_im);
   }
 
   /// Constructs a matrix of real numbers or blocks row by row, without one in double precision beside
@@ -71,7 +74,7 @@ public:
     static_assert(!Traits::is_complex, "imaginary parts have no Real_row");
     m_first = Matrix_builder::build_with_rest<typename Single_precision<Value>::type>(
       row_lengths,
-      [&fill](std::uint32_t i, Real_row<Stored_single>& row) {
+      [&fill](std::uint32_t i, Real_row<Stored_single, Rest>& row) {
         fill(i, row);
         return true;
       },
@@ -90,7 +93,10 @@ public:
     return single;
   }
   /// Returns the diagonal entry of row `i`.
-  Diagonal diagonal(std::size_t i) const { return sum(m_first.m_diagonal[i], m_rest.diagonal[i]); }
+  Diagonal diagonal(std::size_t i) const
+  {
+    return sum<Diagonal>(m_first.m_diagonal[i], m_rest.diagonal[i]);
+  }
   /// Returns the slot of row `i`. Constant time.
   std::size_t slot_of_row(std::uint32_t i) const { return m_first.slot_of_row(i); }
   /// Returns for each row its slot.
@@ -121,7 +127,7 @@ public:
     const std::size_t s = slot / internal::slice_rows, r = slot % internal::slice_rows;
     for(std::size_t k = p.slice_begin[s]; k < p.slice_begin[s + 1]; ++k) {
       const std::size_t at = k * internal::slice_rows + r;
-      Value value(sum(m_first.m_main[at], m_rest.main[at]));
+      Value value(sum<Stored>(m_first.m_main[at], m_rest.main[at]));
       if constexpr(Traits::is_complex)
         if(p.imaginary[s] != Sliced_pattern::none) {
           const std::size_t im = (p.imaginary[s] + k - p.slice_begin[s]) * internal::slice_rows + r;
@@ -135,39 +141,32 @@ public:
   /// Returns the bytes that it takes beside `single()`.
   std::size_t memory() const
   {
-    return m_rest.diagonal.size() * sizeof(Diagonal_single)
-           + m_rest.main.size() * sizeof(Stored_single)
-           + m_rest_im.size() * sizeof(float);
+    return m_rest.diagonal.size() * sizeof(m_rest.diagonal[0])
+           + m_rest.main.size() * sizeof(m_rest.main[0]) + m_rest_im.size() * sizeof(float);
   }
 
 private:
+  static_assert(std::is_same<Rest, float>::value || !Traits::is_complex, "of real numbers only");
+
   typedef typename Traits::Stored Stored;
-  typedef Value_traits<typename Single_precision<Value>::type> Single_traits;
-  typedef typename Single_traits::Stored Stored_single;
-  typedef typename Single_traits::Diagonal Diagonal_single;
+  typedef typename Single_precision<Value>::type Single_value;
+  typedef typename Value_traits<Single_value>::Stored Stored_single;
 
-  // A number, or a block, of two in single precision.
-  static double sum(float a, float b) { return double(a) + double(b); }
-  template <class Block>
-  static Stored sum(const Block& a, const Block& b)
+  template <class Entry, class Single_entry, class Rests>
+  static Entry sum(const Single_entry& first, const Rests& rests)
   {
-    return (a.template cast<double>() + b.template cast<double>())
-      .template cast<typename Traits::Real>();
-  }
-  static float difference(double a, float b) { return float(a - double(b)); }
-  static float difference(float a, float b) { return a - b; }
-  template <class Block, class Single_block>
-  static Single_block difference(const Block& a, const Single_block& b)
-  {
-    return (a.template cast<double>() - b.template cast<double>()).template cast<float>();
+    Entry entry;
+    internal::set_sums<Rest>(&first, &rests, 1, &entry);
+    return entry;
   }
 
-  template <class Entries, class Parts, class Rest>
-  static void subtract(const Entries& entries, const Parts& parts, Rest& rest)
+  template <class Entries, class Parts, class Rests>
+  static void set_rests(const Entries& entries, const Parts& parts, Rests& rests)
   {
-    rest.resize(entries.size());
-    for_each_index(entries.size(),
-                   [&](std::size_t i) { rest[i] = difference(entries[i], parts[i]); });
+    rests.resize(entries.size());
+    for_each_index(entries.size(), [&](std::size_t i) {
+      internal::set_rests<Rest>(entries[i], parts[i], rests[i]);
+    });
   }
 
   // The entries of a slice, joined.
@@ -186,22 +185,19 @@ private:
       return join(matrix.m_first.m_im, matrix.m_rest_im, begin, count, imaginary_parts);
     }
 
-    template <class Parts, class Entry>
-    static const Entry* join(const Parts& first, const Parts& rest, std::size_t begin,
+    template <class Parts, class Rests, class Entry>
+    static const Entry* join(const Parts& first, const Rests& rest, std::size_t begin,
                              std::size_t count, std::vector<Entry>& entries)
     {
       if(entries.size() < count)
         entries.resize(count);
-      const auto *a = first.data() + begin, *b = rest.data() + begin;
-      Entry* const e = entries.data();
-      for(std::size_t i = 0; i < count; ++i)
-        e[i] = sum(a[i], b[i]);
-      return e;
+      internal::set_sums<Rest>(first.data() + begin, rest.data() + begin, count, entries.data());
+      return entries.data();
     }
   };
 
   Single m_first;
-  Matrix_builder::Rest<typename Single_precision<Value>::type> m_rest;
+  Matrix_builder::Rest<Single_value, Rest> m_rest;
   std::vector<float> m_rest_im;
 };
 

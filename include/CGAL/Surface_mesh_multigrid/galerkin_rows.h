@@ -189,12 +189,12 @@ Multigrid::Sparse_rows<Double> galerkin_rows(const Multigrid::Sparse_rows<Double
 
 Returns the same for a matrix, without a copy of its rows.
 */
-template <class Value>
-auto galerkin_rows(const Multigrid::Split_matrix<Value>& fine,
+template <class Value, class Rest>
+auto galerkin_rows(const Multigrid::Split_matrix<Value, Rest>& fine,
                    const Surface_mesh_multiresolution::Prolongation& p)
 {
   typedef typename Multigrid::Value_traits<Value>::Double Double;
-  return internal::products<Double>(internal::Rows_of_matrix<Multigrid::Split_matrix<Value>>(fine), p);
+  return internal::products<Double>(internal::Rows_of_matrix<Multigrid::Split_matrix<Value, Rest>>(fine), p);
 }
 
 } // namespace Surface_mesh_multigrid

@@ -134,7 +134,8 @@ public:
   /// Returns \f$ g_j \f$.
   Vector half_gradient(int j) const
   {
-    return j == 0 ? Vector() - m_g1 - m_g2 : j == 1 ? m_g1 : m_g2;
+    const Vector along = {FT(0), m_along};
+    return j == 0 ? Vector() - m_other - along : (j == 1) == (m_along > FT(0)) ? m_other : along;
   }
 
 private:
@@ -151,16 +152,13 @@ private:
     m_area = twice_area / FT(2);
     // The longer of the two edges along the first axis; grad_j = i W_j / (2A), W_j opposite to j
     const bool is_first = e >= g;
-    const FT length = sqrt(is_first ? e : g);
-    const Vector along = {length, FT(0)};
-    const Vector other = {f / length, (is_first ? twice_area : -twice_area) / length};
-    const Vector p1 = is_first ? along : other, p2 = is_first ? other : along;
-    const FT s = FT(1) / (FT(2) * twice_area);
-    m_g1 = Vector{p2.y, -p2.x} * s; // i (P_0 - P_2) / (4A)
-    m_g2 = Vector{-p1.y, p1.x} * s; // i (P_1 - P_0) / (4A)
+    const FT length = sqrt(is_first ? e : g), s = FT(1) / (FT(2) * twice_area);
+    m_along = is_first ? length * s : -length * s;
+    m_other = Vector{twice_area / length, is_first ? -f / length : f / length} * s;
   }
 
-  Vector m_g1, m_g2;
+  Vector m_other;        // g_1, if m_along > 0, or g_2: of the edge that is not along the axis
+  FT m_along = FT(0);    // the second coordinate of the other of them, whose first one is 0
   FT m_area = FT(0);
 };
 

@@ -101,12 +101,13 @@ std::uint32_t most_neighbours(const Stretch_level<Energy>& level, Vertex_index v
   return is_inside ? number : number + 1;
 }
 
-// The projected second derivative of a level after `linearize()`, without rows for fixed vertices: a
-// few very stiff triangles hide all others from single precision. Sets `gradient` to the first one; 0
+// A few very stiff triangles hide all others from single precision.
+typedef Multigrid::Split_matrix<Eigen::Matrix2d, std::int16_t> Stretch_matrix;
+
+// The projected second derivative of a level after `linearize()`, without rows for fixed vertices. Sets `gradient` to the first one; 0
 // at fixed vertices.
 template <class Energy>
-Multigrid::Split_matrix<Eigen::Matrix2d>
-stretch_matrix(const Stretch_level<Energy>& level, std::vector<Plane_point>& gradient)
+Stretch_matrix stretch_matrix(const Stretch_level<Energy>& level, std::vector<Plane_point>& gradient)
 {
   constexpr std::size_t block_size = 16384;
   const Indexed_mesh::Triangles_at_vertices& corners = level.corners();
@@ -144,7 +145,7 @@ stretch_matrix(const Stretch_level<Energy>& level, std::vector<Plane_point>& gra
     row.write(result);
     gradient[v] = sum;
   };
-  return Multigrid::Split_matrix<Eigen::Matrix2d>(lengths, fill);
+  return Stretch_matrix(lengths, fill);
 }
 
 // Where the cycles get the matrices of coarser levels from.
@@ -172,7 +173,7 @@ public:
     m_next_rest = 1;
     m_is_solved = true;
     if(!m_transfers.empty())
-      m_coarser.push_back(std::make_unique<Split::Single>(m_matrix.take_single()));
+      m_coarser.push_back(std::make_unique<Stretch_matrix::Single>(m_matrix.take_single()));
     m_transfers.push_back(from_coarser);
   }
 
@@ -226,7 +227,6 @@ public:
   std::size_t iterations() const { return m_iterations; } // of all steps
 
 private:
-  typedef Multigrid::Split_matrix<Eigen::Matrix2d> Split;
   typedef Multigrid::Sparse_cholesky<Multigrid::Real_factorization> Coarsest;
   typedef Multigrid::Multigrid_levels<Surface_mesh_multiresolution::Prolongation, Coarsest,
                                       Eigen::Matrix2f> Levels;
@@ -250,14 +250,14 @@ private:
   {
     Multigrid::Sparse_rows<Eigen::Matrix2d> rows;
     for(const auto& matrix : m_coarser)
-      *matrix = Split::Single();
+      *matrix = Stretch_matrix::Single();
     if(m_coarser.empty())
       rows = Multigrid::Sparse_rows<Eigen::Matrix2d>(m_matrix);
     for(std::size_t l = m_coarser.size(); l-- > 0;) {
       const auto& transfer = *m_transfers[l + 1];
       rows = l + 1 == m_coarser.size() ? Surface_mesh_multigrid::galerkin_rows(m_matrix, transfer)
                                        : Surface_mesh_multigrid::galerkin_rows(rows, transfer);
-      *m_coarser[l] = rows.matrix<Split::Single::Traits::Stored>();
+      *m_coarser[l] = rows.matrix<Stretch_matrix::Single::Traits::Stored>();
     }
     rows.shift_diagonal(shift);
     m_coarsest = rows.matrix<Eigen::Matrix2d>();
@@ -265,8 +265,8 @@ private:
 
   Coarse_matrices m_coarse;
   std::vector<const Surface_mesh_multiresolution::Prolongation*> m_transfers;
-  Split m_matrix; // of the finest level so far
-  std::vector<std::unique_ptr<Split::Single>> m_coarser;
+  Stretch_matrix m_matrix; // of the finest level so far
+  std::vector<std::unique_ptr<Stretch_matrix::Single>> m_coarser;
   Multigrid::Self_adjoint_matrix<Eigen::Matrix2d> m_coarsest;
   Past_steps m_past;
   std::size_t m_rest = 0, m_next_rest = 1; // steps without the past
@@ -281,7 +281,7 @@ Newton_steps::Vectors Newton_steps::direction(Stretch_level<Energy>& level, cons
 {
   typedef Eigen::Vector2d Vector;
   level.linearize();
-  m_matrix = Split(); // before there is another one
+  m_matrix = Stretch_matrix(); // before there is another one
   Vectors its_own;
   m_matrix = stretch_matrix(level, its_own);
   const bool is_noted = pulled.empty() && m_rest == 0;
@@ -326,6 +326,8 @@ Newton_steps::Vectors Newton_steps::direction(Stretch_level<Energy>& level, cons
   m_is_solved = report.converged || report.energy_gap <= -report.energy;
   m_unsolved = report.converged ? 0.
              : (std::min)(report.energy_gap, tail * report.decrease) * size * size;
+  if(is_noted)
+    m_past.leave(level.places());
   Vectors direction(x.size());
   for(std::size_t v = 0; v < x.size(); ++v)
     direction[v] = Plane_point{x[v].x(), x[v].y()} * size;

@@ -33,21 +33,24 @@ public:
     m_places.clear();
   }
 
-  // Takes note of where the iteration has come to.
+  // Takes note of where the iteration has come to; of the places until then only what was changed is kept.
   void add(const Vectors& places, Vectors gradient)
   {
     constexpr double least = 1e-12; // cosine of a step and its change: smaller ones may be rounding
     if(m_places.size() == places.size()) {
-      Step step = {difference(places, m_places), difference(gradient, m_gradient), 0., 0.};
+      Step step = {differences(places, m_places), differences(gradient, m_gradient), 0., 0.};
       step.curvature = product(step.way, step.change);
       if(step.curvature > least * std::sqrt(product(step.way, step.way) * product(step.change, step.change)))
         m_steps.push_back(std::move(step));
       if(m_steps.size() > memory)
         m_steps.pop_front();
     }
-    m_places = places;
+    Vectors().swap(m_places);
     m_gradient = std::move(gradient);
   }
+
+  // Takes note that the iteration goes on from the places that were added last.
+  void leave(const Vectors& places) { m_places = places; }
 
   const Vectors& gradient() const { return m_gradient; } // that was added last
 
@@ -68,39 +71,52 @@ public:
       add_scaled(-step.share - product(step.change, direction) / step.curvature, step.way, direction);
   }
 
-  static double product(const Vectors& a, const Vectors& b)
+  template <class Real, class Other_real>
+  static double product(const std::vector<Plane_vector<Real>>& a,
+                        const std::vector<Plane_vector<Other_real>>& b)
   {
     return Blocked_execution::blocked_sum<double>(
       a.size(), block_size, [&](std::size_t begin, std::size_t end) {
         double sum = 0.;
         for(std::size_t v = begin; v < end; ++v)
-          sum += a[v].dot(b[v]);
+          sum += double(a[v].x) * double(b[v].x) + double(a[v].y) * double(b[v].y);
         return sum;
       });
   }
 
 private:
+  // What helps to foretell needs no more digits, and takes half the memory.
+  typedef std::vector<Plane_vector<float>> Single_vectors;
+
   struct Step
   {
-    Vectors way, change;     // of the places and of the gradient
-    double curvature, share; // way . change; what `rest_of()` took of the change
+    Single_vectors way, change; // of the places and of the gradient
+    double curvature, share;    // way . change; what `rest_of()` took of the change
   };
 
   static constexpr std::size_t memory = 3; // with 5, 10 the iterations are as long
   static constexpr std::size_t block_size = 16384;
 
-  static Vectors difference(const Vectors& a, const Vectors& b)
+  template <class Body>
+  static void for_each(std::size_t n, const Body& body)
   {
-    Vectors result = a;
-    add_scaled(-1., b, result);
+    Blocked_execution::blocked_for(n, block_size, [&](std::size_t begin, std::size_t end) {
+      for(std::size_t v = begin; v < end; ++v)
+        body(v);
+    });
+  }
+
+  static Single_vectors differences(const Vectors& a, const Vectors& b)
+  {
+    Single_vectors result(a.size());
+    for_each(a.size(), [&](std::size_t v) { result[v] = {float(a[v].x - b[v].x), float(a[v].y - b[v].y)}; });
     return result;
   }
 
-  static void add_scaled(double factor, const Vectors& a, Vectors& sum)
+  static void add_scaled(double factor, const Single_vectors& a, Vectors& sum)
   {
-    Blocked_execution::blocked_for(a.size(), block_size, [&](std::size_t begin, std::size_t end) {
-      for(std::size_t v = begin; v < end; ++v)
-        sum[v] = sum[v] + a[v] * factor;
+    for_each(a.size(), [&](std::size_t v) {
+      sum[v] = sum[v] + Plane_point{double(a[v].x), double(a[v].y)} * factor;
     });
   }
 

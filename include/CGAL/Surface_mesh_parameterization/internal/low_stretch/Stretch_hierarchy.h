@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <utility>
 #include <vector>
@@ -139,8 +140,11 @@ public:
   {
     m_rings = Indexed_mesh::Vertex_rings();
     m_collapses = Surface_mesh_multiresolution::Progressive_mesh();
-    for(std::size_t l = 0; l + 1 < m_levels.size(); ++l)
-      m_levels[l].mesh = Indexed_mesh::Indexed_triangle_mesh();
+    for(std::size_t l = 0; l < m_levels.size(); ++l) {
+      std::vector<std::uint32_t>().swap(m_levels[l].coarser_triangles);
+      if(l + 1 < m_levels.size())
+        m_levels[l].mesh = Indexed_mesh::Indexed_triangle_mesh();
+    }
   }
 
   // The triangles of a level, as a function of their indices: of a coarse one when the collapses are
