@@ -182,7 +182,7 @@ TEST(Filled_packing, is_searched_for_longer_where_charts_bend_in_vain)
                        {0.21, 0.25, 0.95, 1}, {0.19, 0.25, 0.79, 0}}) { // the last one misses too much
     std::size_t longer = 0;
     const SMT::internal::Filled_packing::Pack pack
-      = [&](const std::vector<SMT::Chart_shape>& shapes, double more_time) {
+      = [&](const std::vector<SMT::Chart_shape>& shapes, double more_time, bool) {
           longer += more_time > 0. ? 1 : 0;
           return packing_that_uses(more_time > 0. ? 0.7 : 0.6, shapes.size());
         };
@@ -201,6 +201,40 @@ TEST(Filled_packing, is_searched_for_longer_where_charts_bend_in_vain)
   }
 }
 
+// Charts that do not bend get a packing that is no draft, if it is denser.
+TEST(Filled_packing, is_no_draft_where_charts_do_not_bend)
+{
+  struct Case
+  {
+    double gain, in_full; // of bending a draft of 0.6; what a search in full finds
+    double used;
+    std::size_t searched_in_full;
+  };
+  SMT::Texture_atlas_options options;
+  options.seam_price = std::numeric_limits<double>::infinity();
+  const SMT::internal::Chart_mapping mapping;
+  for(const bool is_draft : {true, false})
+    for(const Case& c : {Case{0.01, 0.7, 0.61, 0}, {0., 0.7, 0.7, 1}, {0., 0.5, 0.6, 1}}) {
+      options.packing.is_draft = is_draft;
+      std::size_t in_full = 0;
+      const SMT::internal::Filled_packing::Pack pack
+        = [&](const std::vector<SMT::Chart_shape>& shapes, double, bool may_be_draft) {
+            in_full += may_be_draft ? 0 : 1;
+            return packing_that_uses(may_be_draft ? 0.6 : c.in_full, shapes.size());
+          };
+      const SMT::internal::Filled_packing::Bend bend
+        = [&](std::vector<SMT::internal::Mapped_chart>&, SMT::Packing_result& packing, double, bool) {
+            packing.utilisation += c.gain;
+            return 0.;
+          };
+      std::vector<SMT::internal::Mapped_chart> charts(1);
+      cuts_of_folded(20., 0., 0., charts[0]);
+      SMT::internal::Filled_packing filled(options, options.packing, mapping, pack, bend, charts);
+      EXPECT_DOUBLE_EQ(filled.run(true).utilisation, is_draft ? c.used : 0.6 + c.gain);
+      EXPECT_EQ(in_full, is_draft ? c.searched_in_full : 0u);
+    }
+}
+
 // What is asked for is enough, however little the last bend added.
 TEST(Filled_packing, is_bent_no_more_once_enough_is_used)
 {
@@ -209,7 +243,9 @@ TEST(Filled_packing, is_bent_no_more_once_enough_is_used)
   options.min_used = 0.6505;
   const SMT::internal::Chart_mapping mapping;
   const SMT::internal::Filled_packing::Pack pack
-    = [](const std::vector<SMT::Chart_shape>& shapes, double) { return packing_that_uses(0.6, shapes.size()); };
+    = [](const std::vector<SMT::Chart_shape>& shapes, double, bool) {
+        return packing_that_uses(0.6, shapes.size());
+      };
   std::size_t bends = 0;
   const SMT::internal::Filled_packing::Bend bend
     = [&](std::vector<SMT::internal::Mapped_chart>&, SMT::Packing_result& packing, double, bool) {
@@ -232,7 +268,9 @@ TEST(Filled_packing, ends_when_charts_have_been_bent_for_long)
   options.max_charts = 1; // no cuts
   const SMT::internal::Chart_mapping mapping;
   const SMT::internal::Filled_packing::Pack pack
-    = [](const std::vector<SMT::Chart_shape>& shapes, double) { return packing_that_uses(0.6, shapes.size()); };
+    = [](const std::vector<SMT::Chart_shape>& shapes, double, bool) {
+        return packing_that_uses(0.6, shapes.size());
+      };
   for(const double seconds : {0., 50.}) {
     std::size_t bends = 0;
     const SMT::internal::Filled_packing::Bend bend
@@ -245,7 +283,8 @@ TEST(Filled_packing, ends_when_charts_have_been_bent_for_long)
     std::vector<SMT::internal::Mapped_chart> charts(1);
     cuts_of_folded(20., 0., 0., charts[0]);
     SMT::internal::Filled_packing filled(options, options.packing, mapping, pack, bend, charts);
-    EXPECT_NEAR(filled.run(true).utilisation, 0.6 + 0.002 * double(bends), 1e-9);
+    const double used = filled.run(true).utilisation;
+    EXPECT_NEAR(used, 0.6 + 0.002 * double(bends), 1e-9);
     EXPECT_EQ(bends, seconds > 0. ? 5u : 3u);
     EXPECT_NE(filled.why_not_used().find("more time for packing"), std::string::npos) << filled.why_not_used();
   }
@@ -265,7 +304,9 @@ TEST(Filled_packing, bends_in_finer_detail_on_larger_pages)
   options.seam_price = std::numeric_limits<double>::infinity();
   const SMT::internal::Chart_mapping mapping;
   const SMT::internal::Filled_packing::Pack pack
-    = [](const std::vector<SMT::Chart_shape>& shapes, double) { return packing_that_uses(0.6, shapes.size()); };
+    = [](const std::vector<SMT::Chart_shape>& shapes, double, bool) {
+        return packing_that_uses(0.6, shapes.size());
+      };
   for(const Case& c : {Case{512, 512, true, {1.}}, {1024, 256, false, {1.}}, {4096, 1024, true, {2.}},
                        {4096, 4096, false, {2., 1.}}, {512, 2048, false, {std::sqrt(2.), 1.}},
                        {65536, 65536, true, {4.}}}) {
@@ -281,7 +322,8 @@ TEST(Filled_packing, bends_in_finer_detail_on_larger_pages)
     pages.height = c.height;
     std::vector<SMT::internal::Mapped_chart> charts(1);
     SMT::internal::Filled_packing filled(options, pages, mapping, pack, bend, charts);
-    EXPECT_DOUBLE_EQ(filled.run(true).utilisation, finenesses.size() == 2 || c.helps ? 0.7 : 0.6);
+    const double used = filled.run(true).utilisation;
+    EXPECT_DOUBLE_EQ(used, finenesses.size() == 2 || c.helps ? 0.7 : 0.6);
     EXPECT_EQ(finenesses, c.finenesses) << c.width << " x " << c.height;
   }
 }

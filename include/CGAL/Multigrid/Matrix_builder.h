@@ -5,19 +5,96 @@
 #define CGAL_MULTIGRID_MATRIX_BUILDER_H
 
 #include <CGAL/Multigrid/Hermitian_matrix.h>
-#include <CGAL/Multigrid/Split_number.h>
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Blocked_execution/Uninitialized_vector.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <memory>
-#include <type_traits>
 #include <utility>
 
 namespace CGAL {
 namespace Multigrid {
+
+namespace internal {
+
+// What a number is more than one that was rounded: as a number of less precision, whose sum with that
+// has 48 bits if both are single.
+template <class Rest>
+struct Split_number
+{
+  template <class Rounded>
+  static Rest rest(double number, Rounded rounded) { return Rest(number - double(rounded)); }
+  template <class Rounded>
+  static double sum(Rounded rounded, Rest rest) { return double(rounded) + double(rest); }
+};
+
+// The same in 16 bits, of 2^-15 of the most that rounding takes off: 39 bits together.
+template <>
+struct Split_number<std::int16_t>
+{
+  static std::int16_t rest(double number, float rounded)
+  {
+    constexpr double most = 32767.;
+    const double r = (number - double(rounded)) / unit(rounded);
+    return r > -most && r < most ? std::int16_t(std::lrint(r))
+         : r >= most ? std::int16_t(most) : r <= -most ? std::int16_t(-most) : std::int16_t(0);
+  }
+  static double sum(float rounded, std::int16_t rest) { return double(rounded) + unit(rounded) * rest; }
+
+private:
+  // 2^-39 of the power of 2 that is not greater, by its exponent.
+  static double unit(float rounded)
+  {
+    std::uint32_t bits;
+    std::memcpy(&bits, &rounded, sizeof bits);
+    bits &= 0x7f800000u;
+    float power;
+    std::memcpy(&power, &bits, sizeof power);
+    return double(power) * 0x1p-39;
+  }
+};
+
+// The rests of all numbers of an entry of a matrix.
+template <class Entry, class Rest>
+using Rests = std::array<Rest, Value_traits<Entry>::components>;
+
+template <class Entry>
+const typename Value_traits<Entry>::Real* numbers_of(const Entry& entry)
+{
+  return reinterpret_cast<const typename Value_traits<Entry>::Real*>(&entry);
+}
+
+// The rests of an entry that was rounded.
+template <class Rest, class Entry, class Rounded>
+Rests<Entry, Rest> rests_of(const Entry& entry, const Rounded& rounded)
+{
+  Rests<Entry, Rest> rests;
+  for(std::size_t i = 0; i < rests.size(); ++i)
+    rests[i] = Split_number<Rest>::rest(numbers_of(entry)[i], numbers_of(rounded)[i]);
+  return rests;
+}
+
+// Sets `count` entries to the sums.
+template <class Rest, class Entry, class Rounded>
+void set_sums(const Rounded* rounded, const Rests<Rounded, Rest>* rests, std::size_t count, Entry* entries)
+{
+  typedef typename Value_traits<Entry>::Real Real;
+  if(count == 0)
+    return;
+  const auto* const a = numbers_of(*rounded);
+  const Rest* const b = rests->data();
+  Real* const sums = reinterpret_cast<Real*>(entries);
+  for(std::size_t i = 0; i < count * Value_traits<Entry>::components; ++i)
+    sums[i] = Real(Split_number<Rest>::sum(a[i], b[i]));
+}
+
+} // namespace internal
 
 /*!
 \ingroup PkgHLSCMMultigrid
@@ -32,7 +109,7 @@ class Real_row
 public:
   typedef typename Value_traits<Stored>::Double Double; ///< an entry in double precision
   /// What rounding takes off an entry
-  typedef typename internal::Entry_numbers<Stored>::template Rests<Rest> Rests;
+  typedef internal::Rests<Stored, Rest> Rests;
 
   /// Constructs the place whose entry `k` is at `k * Sliced_pattern::slice_rows`.
   Real_row(std::uint32_t* column, Stored* re, Stored& diagonal)
@@ -60,10 +137,10 @@ public:
     m_count = count;
     if(m_rest == nullptr)
       return;
-    internal::set_rests<Rest>(diagonal, m_diagonal, *m_rest_diagonal);
+    *m_rest_diagonal = internal::rests_of<Rest>(diagonal, m_diagonal);
     for(std::size_t k = 0; k < count; ++k)
-      internal::set_rests<Rest>(re[k], m_re[k * Sliced_pattern::slice_rows],
-                                m_rest[k * Sliced_pattern::slice_rows]);
+      m_rest[k * Sliced_pattern::slice_rows]
+        = internal::rests_of<Rest>(re[k], m_re[k * Sliced_pattern::slice_rows]);
   }
 
   /// Returns the number of entries that have been set.
@@ -123,11 +200,8 @@ private:
   template <class Value, class Real>
   struct Rest
   {
-    template <class Entry>
-    using Rests = typename internal::Entry_numbers<Entry>::template Rests<Real>;
-
-    std::vector<Rests<typename Value_traits<Value>::Diagonal>> diagonal;
-    Blocked_execution::Uninitialized_vector<Rests<typename Value_traits<Value>::Stored>> main;
+    std::vector<internal::Rests<typename Value_traits<Value>::Diagonal, Real>> diagonal;
+    Blocked_execution::Uninitialized_vector<internal::Rests<typename Value_traits<Value>::Stored, Real>> main;
   };
 
   // `build_matrix()`, with the rest if one is given.
@@ -231,14 +305,13 @@ template <class Value, class Real>
 void Matrix_builder::pad_row(std::size_t count, std::size_t slot, Sliced_pattern& pattern,
                              Self_adjoint_matrix<Value>& matrix, Rest<Value, Real>* rest)
 {
-  typedef typename Value_traits<Value>::Stored Stored;
+  const auto zero = Value_traits<typename Value_traits<Value>::Stored>::zero();
   const std::size_t s = slot / rows, end = pattern.slice_begin[s + 1];
   for(std::size_t k = pattern.slice_begin[s] + count; k < end; ++k) {
     pattern.column[k * rows + slot % rows] = pattern.row_of_slot[slot];
-    matrix.m_main[k * rows + slot % rows] = internal::Entry_numbers<Stored>::zero();
+    matrix.m_main[k * rows + slot % rows] = zero;
     if(rest != nullptr)
-      rest->main[k * rows + slot % rows]
-        = internal::Entry_numbers<typename Rest<Value, Real>::template Rests<Stored>>::zero();
+      rest->main[k * rows + slot % rows] = {};
   }
 }
 
@@ -272,17 +345,17 @@ Matrix_builder::build_with_rest(const std::vector<std::uint32_t>& row_lengths,
   pattern->imaginary.assign(slices, Sliced_pattern::none);
   Blocked_execution::resize_blocked(pattern->column, size);
   Self_adjoint_matrix<Value> matrix;
-  const auto make = [&](auto& main, auto& diagonal) {
-    typedef std::decay_t<decltype(main[0])> Entry;
+  const auto make = [&](auto& main, auto& diagonal, const auto& zero, const auto& zero_diagonal) {
     main.resize(size);
     if(slices > 0) // its last slots may have no row
-      std::fill(main.begin() + pattern->slice_begin[slices - 1] * rows, main.end(),
-                internal::Entry_numbers<Entry>::zero());
-    diagonal.assign(pattern->rows, internal::Entry_numbers<std::decay_t<decltype(diagonal[0])>>::zero());
+      std::fill(main.begin() + pattern->slice_begin[slices - 1] * rows, main.end(), zero);
+    diagonal.assign(pattern->rows, zero_diagonal);
   };
-  make(matrix.m_main, matrix.m_diagonal);
+  typedef typename Traits::Stored Stored;
+  typedef typename Traits::Diagonal Diagonal;
+  make(matrix.m_main, matrix.m_diagonal, Value_traits<Stored>::zero(), Value_traits<Diagonal>::zero());
   if(rest != nullptr)
-    make(rest->main, rest->diagonal);
+    make(rest->main, rest->diagonal, internal::Rests<Stored, Real>{}, internal::Rests<Diagonal, Real>{});
   std::vector<Imaginary<Value>> imaginary(
     Blocked_execution::number_of_blocks(slices, block_slices));
   Blocked_execution::blocked_for(pattern->rows, block_slices * rows,

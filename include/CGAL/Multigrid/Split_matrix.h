@@ -131,7 +131,7 @@ public:
       if constexpr(Traits::is_complex)
         if(p.imaginary[s] != Sliced_pattern::none) {
           const std::size_t im = (p.imaginary[s] + k - p.slice_begin[s]) * internal::slice_rows + r;
-          value.imag(double(m_first.m_im[im]) + double(m_rest_im[im]));
+          value.imag(double(m_first.m_im[im]) + double(m_rest_im[im][0]));
         }
       if(!Traits::is_zero(value))
         use(p.column[at], value);
@@ -142,7 +142,7 @@ public:
   std::size_t memory() const
   {
     return m_rest.diagonal.size() * sizeof(m_rest.diagonal[0])
-           + m_rest.main.size() * sizeof(m_rest.main[0]) + m_rest_im.size() * sizeof(float);
+           + m_rest.main.size() * sizeof(m_rest.main[0]) + m_rest_im.size() * sizeof(m_rest_im[0]);
   }
 
 private:
@@ -165,7 +165,7 @@ private:
   {
     rests.resize(entries.size());
     for_each_index(entries.size(), [&](std::size_t i) {
-      internal::set_rests<Rest>(entries[i], parts[i], rests[i]);
+      rests[i] = internal::rests_of<Rest>(entries[i], parts[i]);
     });
   }
 
@@ -198,7 +198,7 @@ private:
 
   Single m_first;
   Matrix_builder::Rest<Single_value, Rest> m_rest;
-  std::vector<float> m_rest_im;
+  std::vector<internal::Rests<typename Traits::Real, Rest>> m_rest_im;
 };
 
 } // namespace Multigrid

@@ -75,8 +75,9 @@ struct Packing_options
   /// the result is the same on any machine. More is never worse. They are not used for a single
   /// chart, nor with a given density.
   double time_budget = 0.;
-  /// Whether the packing is only one from which charts are bent: `Raster_packer` raises its density for
-  /// `time_budget` alone, since bent charts fill about as much from a packing that is a little looser.
+  /// Whether the packing is only one from which charts are bent, which fill about as much from one that is a
+  /// little looser: `Raster_packer` raises its density for `time_budget` alone, and tries fewer orders on a
+  /// raster of about 512 cells along a page, so that gaps are wider than asked for.
   bool is_draft = false;
   /// Threads of `pack_charts()` with `Parallel_tag`; 0 for all that the machine has.
   unsigned int threads = 0;

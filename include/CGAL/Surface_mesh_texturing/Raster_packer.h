@@ -51,8 +51,8 @@ has 16384 cells or 64 a chart, and of the orders tried, about 60 for 60 charts. 
 takes `Packing_options::time_budget` and, for at most 40 charts, 0.15 seconds before: so much for 10,000
 triangles on a page of 1000 x 1000 texels, less for fewer than 12 charts, and less or more in proportion
 to the side of the page and to the triangles, from 1,500 to 40,000 of them, 1.2 seconds at most, unless
-`Packing_options::is_draft`. Both are counted in what is done, not by the clock. Memory is about three
-bytes for each texel of each page.
+`Packing_options::is_draft`, which has fewer orders and larger cells, too. Both are counted in what is done,
+not by the clock. Memory is about three bytes for each texel of each page.
 
 \cgalModels{ChartPacker}
 */

@@ -307,9 +307,10 @@ inline bool Texture_atlas_builder::pack()
   m_page_height = packing.height
     = best_page_height(m_options.largest_aspect, packing, mapping, m_maps);
   const Filled_packing::Pack pack_shapes
-    = [&](const std::vector<Chart_shape>& shapes, double more_time) {
+    = [&](const std::vector<Chart_shape>& shapes, double more_time, bool may_be_draft) {
         Packing_options options = packing;
         options.time_budget += more_time;
+        options.is_draft = packing.is_draft && may_be_draft && !(more_time > 0.);
         Packing_result result = m_models.pack(shapes, options);
         left *= 0.5;
         return result;
@@ -330,7 +331,7 @@ inline bool Texture_atlas_builder::pack()
     = sets_of_pages(m_options.page_set, std::move(m_maps));
   m_maps.clear();
   for(std::size_t i = 0; i < sets.size() && m_result.is_ok(); ++i) {
-    packing.is_draft = bend && can_be_bent(sets[i], usual.most_charts);
+    packing.is_draft = bend && !(m_options.packing.time_budget > 0.) && can_be_bent(sets[i], usual.most_charts);
     Filled_packing filled(m_options, packing, mapping, pack_shapes, bend, sets[i]);
     Packing_result packed = filled.run(m_models.is_bounded);
     m_result.report.page_cuts += filled.number_of_cuts();

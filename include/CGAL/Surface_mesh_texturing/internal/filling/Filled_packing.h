@@ -23,11 +23,13 @@ namespace internal {
 class Filled_packing
 {
 public:
-  typedef std::function<Packing_result(const std::vector<Chart_shape>&, double more_time)> Pack;
+  typedef std::function<Packing_result(const std::vector<Chart_shape>&, double more_time, bool may_be_draft)>
+    Pack;
   typedef std::function<double(std::vector<Mapped_chart>&, Packing_result&, double fineness, bool is_wary)>
     Bend;
 
-  // All of these must outlive this. `pack` is told for how many seconds more than usual it may search.
+  // All of these must outlive this. `pack` is told for how many seconds more than usual it may search, and
+  // whether `Packing_options::is_draft` of `pages` counts.
   // `bend`, which may be empty, is told in how many times finer detail than usual it shall be done, and
   // whether it shall be wary of invalid maps, and returns how much it did; the bounds of charts are those of
   // bent ones then.
@@ -47,6 +49,8 @@ public:
       m_packing = pack();
     if(m_bend && m_packing.is_ok())
       bend_until_used();
+    if(m_pages.is_draft && m_packing.is_ok() && !m_is_bent && m_mapping.has_time())
+      search_in_full();
     if(missing() <= 0.)
       m_why_not_used.clear();
     else if(m_why_not_used.empty())
@@ -98,12 +102,21 @@ private:
     return "no further cut of a chart that is tried lets them be packed more densely";
   }
 
-  Packing_result pack() const
+  Packing_result pack(bool may_be_draft = true)
   {
     std::vector<Chart_shape> shapes;
     for(const Mapped_chart& map : m_charts)
       shapes.push_back({map.uv, map.chart.mesh.triangles});
-    return m_pack(shapes, m_more_time);
+    m_is_bent = false;
+    return m_pack(shapes, m_more_time, may_be_draft);
+  }
+
+  // Takes a packing that is no draft, if it is denser.
+  void search_in_full()
+  {
+    Packing_result packing = pack(false);
+    if(!packing.is_ok() || packing.utilisation > m_packing.utilisation)
+      m_packing = std::move(packing);
   }
 
   void cut_and_pack()
@@ -138,16 +151,18 @@ private:
     std::vector<Mapped_chart> charts;
     Packing_result packing;
     std::size_t cuts = 0;
+    bool is_bent = false;
   };
 
-  Packed copy() const { return {m_charts, m_packing, m_number_of_cuts}; }
-  Packed release() { return {std::move(m_charts), std::move(m_packing), m_number_of_cuts}; }
+  Packed copy() const { return {m_charts, m_packing, m_number_of_cuts, m_is_bent}; }
+  Packed release() { return {std::move(m_charts), std::move(m_packing), m_number_of_cuts, m_is_bent}; }
 
   void take(Packed packed)
   {
     m_charts = std::move(packed.charts);
     m_packing = std::move(packed.packing);
     m_number_of_cuts = packed.cuts;
+    m_is_bent = packed.is_bent;
   }
 
   // Bends and cuts the charts; if then less is used than shall be, but not by much, does so once more from a
@@ -242,6 +257,7 @@ private:
     for(int i = 0, in_vain = 0; i < most_bendings && has_time(); ++i) {
       const double before = m_packing.utilisation;
       m_work += m_bend(m_charts, m_packing, fineness, is_wary != (in_vain >= ways));
+      m_is_bent = m_is_bent || m_packing.utilisation > before;
       in_vain = m_packing.utilisation < before + least_gain ? in_vain + 1 : 0;
       for(Mapped_chart& map : m_charts) // may bend again where stretching some of them came to nothing
         map.is_affine = map.is_affine && in_vain == 0;
@@ -313,6 +329,7 @@ private:
   std::vector<Mapped_chart>& m_charts;
   Packing_result m_packing;
   std::size_t m_number_of_cuts = 0;
+  bool m_is_bent = false;
   double m_more_time = 0.; // for packings, in seconds
   double m_work = 0.;      // of bending
   std::string m_why_not_used;

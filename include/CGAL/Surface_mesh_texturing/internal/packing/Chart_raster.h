@@ -216,6 +216,22 @@ inline Packing_raster coarser_raster(const Packing_raster& exact, double cells)
   return result;
 }
 
+// The raster of a draft, of about 512 cells along a page, or the exact one if that has not more. Cells are
+// some texels wide, so that what is a packing there is one on the exact raster, with gaps a little wider.
+inline Packing_raster draft_raster(const Packing_raster& exact)
+{
+  constexpr double cells = 512.;
+  const int ratio = int(std::lround(std::sqrt(double(exact.width) * exact.height) / cells));
+  if(ratio <= 1)
+    return exact;
+  Packing_raster result = exact;
+  result.cell = exact.cell * ratio;
+  result.width = (std::max)(1, exact.width / ratio);
+  result.height = (std::max)(1, exact.height / ratio);
+  result.padding = (exact.padding + ratio - 1) / ratio;
+  return result;
+}
+
 // A chart in one direction on a raster.
 struct Chart_raster
 {

@@ -39,7 +39,8 @@ public:
   // `unit` is that of the outlines.
   Raster_packing_search(const std::vector<Chart_outline>& outlines, double unit,
                         const Packing_options& options)
-    : m_outlines(outlines), m_unit(unit), m_options(options), m_exact(exact_raster(options)),
+    : m_outlines(outlines), m_unit(unit), m_options(options),
+      m_exact(options.is_draft ? draft_raster(exact_raster(options)) : exact_raster(options)),
       m_rotations(options.rotations > 0 ? options.rotations : free_rotations()),
       m_coarse(coarser_raster(m_exact, coarse_cells())),
       m_ladder(outlines, m_exact, (std::max)(std::size_t(1), options.max_pages)),
@@ -310,11 +311,11 @@ inline void Raster_packing_search::raise_density()
     [&](std::size_t i, int r) { return m_best.places[i].rotation == r; });
 }
 
-// The first part of the search takes up to 8 rounds; all plans on the way are refined, since the
-// best one on the coarse raster need not be the best.
+// The first part of the search takes up to 8 rounds, 3 for a draft; all plans on the way are refined,
+// since the best one on the coarse raster need not be the best.
 inline void Raster_packing_search::maximize()
 {
-  constexpr std::size_t first_rounds = 8;
+  const std::size_t first_rounds = m_options.is_draft ? 3 : 8;
   std::vector<Plan> plans(1, first_plan());
   if(!plans[0].packing.is_complete) { // very many charts, or very long pages
     m_coarse = m_exact;
