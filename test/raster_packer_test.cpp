@@ -111,7 +111,7 @@ TEST(Raster_packer_test, drafts_take_the_time_of_the_budget_only)
   EXPECT_EQ(packing_error(charts, options, draft), "");
   EXPECT_LT(draft.utilisation, usual);
   options.time_budget = 0.2;
-  EXPECT_GT(pack_charts(charts, options).utilisation, draft.utilisation);
+  EXPECT_GE(pack_charts(charts, options).utilisation, usual);
 }
 
 // On a raster of several texels a cell gaps are no narrower than on that of the texels.

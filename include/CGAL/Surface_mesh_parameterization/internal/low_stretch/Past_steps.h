@@ -5,6 +5,7 @@
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_PAST_STEPS_H
 
 #include <CGAL/Blocked_execution/blocked_for.h>
+#include <CGAL/Multigrid/vector_operations.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/plane_geometry.h>
 
 #include <algorithm>
@@ -97,25 +98,18 @@ private:
   static constexpr std::size_t memory = 3; // with 5, 10 the iterations are as long
   static constexpr std::size_t block_size = 16384;
 
-  template <class Body>
-  static void for_each(std::size_t n, const Body& body)
-  {
-    Blocked_execution::blocked_for(n, block_size, [&](std::size_t begin, std::size_t end) {
-      for(std::size_t v = begin; v < end; ++v)
-        body(v);
-    });
-  }
-
   static Single_vectors differences(const Vectors& a, const Vectors& b)
   {
     Single_vectors result(a.size());
-    for_each(a.size(), [&](std::size_t v) { result[v] = {float(a[v].x - b[v].x), float(a[v].y - b[v].y)}; });
+    Multigrid::for_each_index(a.size(), [&](std::size_t v) {
+      result[v] = {float(a[v].x - b[v].x), float(a[v].y - b[v].y)};
+    });
     return result;
   }
 
   static void add_scaled(double factor, const Single_vectors& a, Vectors& sum)
   {
-    for_each(a.size(), [&](std::size_t v) {
+    Multigrid::for_each_index(a.size(), [&](std::size_t v) {
       sum[v] = sum[v] + Plane_point{double(a[v].x), double(a[v].y)} * factor;
     });
   }
