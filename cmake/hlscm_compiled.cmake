@@ -23,6 +23,7 @@ hlscm_add_compiled_headers(source ""
   Surface_mesh_parameterization/repair_flipped_faces
   ${very_large})
 hlscm_add_compiled_headers(texturing_source TEXTURING_
+  Surface_mesh_texturing/Horizon_packer
   Surface_mesh_texturing/IO/GLB
   Surface_mesh_texturing/equal_parts
   Surface_mesh_texturing/map_surface

@@ -4,8 +4,12 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_HORIZON_PACKER_H
 #define CGAL_SURFACE_MESH_TEXTURING_HORIZON_PACKER_H
 
+#include <CGAL/Blocked_execution/compile_once.h>
+#include <CGAL/Surface_mesh_texturing/Chart_packing.h>
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
 #include <CGAL/Surface_mesh_texturing/internal/packing/Density_search.h>
 #include <CGAL/Surface_mesh_texturing/internal/packing/keep_axes.h>
+#endif
 
 #include <algorithm>
 #include <cstdint>
@@ -16,6 +20,31 @@
 
 namespace CGAL {
 namespace Surface_mesh_texturing {
+
+/*!
+\ingroup PkgHLSCMTexturing
+
+The class `Horizon_packer` packs charts as in the game of Tetris (Lévy, Petitjean, Ray and Maillot,
+*Least Squares Conformal Maps for Automatic Texture Atlas Generation*, SIGGRAPH 2002, section 4):
+the charts stand upright and are laid from above, the highest first, each where the fewest texels
+between its lower profile and the horizon are lost; its upper profile is then part of the horizon.
+Notches that are open to the sides and holes remain empty.
+
+Simple and fast: \f$ O(n w \bar{w}) \f$ for \f$ n \f$ charts of mean width \f$ \bar{w} \f$ on a page
+of width \f$ w \f$, times the number of densities tried. `Packing_options::rotations` and
+`time_budget` do not count.
+
+\cgalModels{ChartPacker}
+*/
+class Horizon_packer
+{
+public:
+  /// Packs charts; see `ChartPacker`.
+  Packing_result operator()(const std::vector<Chart_shape>& charts,
+                            const Packing_options& options) const;
+};
+
+#ifdef CGAL_HLSCM_TEXTURING_DEFINITIONS
 namespace internal {
 
 // A chart seen from below and from above.
@@ -140,54 +169,35 @@ inline Packing_result horizon_packing(const std::vector<Chart_outline>& outlines
 
 } // namespace internal
 
-/*!
-\ingroup PkgHLSCMTexturing
-
-The class `Horizon_packer` packs charts as in the game of Tetris (Lévy, Petitjean, Ray and Maillot,
-*Least Squares Conformal Maps for Automatic Texture Atlas Generation*, SIGGRAPH 2002, section 4):
-the charts stand upright and are laid from above, the highest first, each where the fewest texels
-between its lower profile and the horizon are lost; its upper profile is then part of the horizon.
-Notches that are open to the sides and holes remain empty.
-
-Simple and fast: \f$ O(n w \bar{w}) \f$ for \f$ n \f$ charts of mean width \f$ \bar{w} \f$ on a page
-of width \f$ w \f$, times the number of densities tried. `Packing_options::rotations` and
-`time_budget` do not count.
-
-\cgalModels{ChartPacker}
-*/
-class Horizon_packer
+CGAL_HLSCM_INLINE Packing_result Horizon_packer::operator()(const std::vector<Chart_shape>& charts,
+                                                            const Packing_options& options) const
 {
-public:
-  /// Packs charts; see `ChartPacker`.
-  Packing_result operator()(const std::vector<Chart_shape>& charts,
-                            const Packing_options& options) const
-  {
-    double unit = 1.;
-    std::vector<internal::Chart_outline> outlines = internal::chart_outlines(charts, unit);
-    internal::keep_axes(options, outlines);
-    const internal::Packing_raster raster = internal::exact_raster(options);
-    const auto pack = [&](double density) {
-      return internal::horizon_packing(outlines, unit, density, raster, options);
-    };
-    if(options.texels_per_unit > 0.)
-      return pack(options.texels_per_unit * unit);
-    Packing_result result;
-    bool is_cancelled = false;
-    const internal::Density_ladder ladder(outlines, raster, options.max_pages);
-    internal::highest_level(ladder.lowest(), -128, 16, [&](int level) {
-      is_cancelled = is_cancelled || (options.progress && !options.progress(0.5));
-      Packing_result trial = is_cancelled ? Packing_result() : pack(ladder.density(level));
-      if(!trial.placements.empty() || result.placements.empty())
-        result = trial;
-      return !trial.placements.empty();
-    });
-    if(is_cancelled) {
-      result = Packing_result();
-      result.cancel();
-    }
-    return result;
+  double unit = 1.;
+  std::vector<internal::Chart_outline> outlines = internal::chart_outlines(charts, unit);
+  internal::keep_axes(options, outlines);
+  const internal::Packing_raster raster = internal::exact_raster(options);
+  const auto pack = [&](double density) {
+    return internal::horizon_packing(outlines, unit, density, raster, options);
+  };
+  if(options.texels_per_unit > 0.)
+    return pack(options.texels_per_unit * unit);
+  Packing_result result;
+  bool is_cancelled = false;
+  const internal::Density_ladder ladder(outlines, raster, options.max_pages);
+  internal::highest_level(ladder.lowest(), -128, 16, [&](int level) {
+    is_cancelled = is_cancelled || (options.progress && !options.progress(0.5));
+    Packing_result trial = is_cancelled ? Packing_result() : pack(ladder.density(level));
+    if(!trial.placements.empty() || result.placements.empty())
+      result = trial;
+    return !trial.placements.empty();
+  });
+  if(is_cancelled) {
+    result = Packing_result();
+    result.cancel();
   }
-};
+  return result;
+}
+#endif
 
 } // namespace Surface_mesh_texturing
 } // namespace CGAL
