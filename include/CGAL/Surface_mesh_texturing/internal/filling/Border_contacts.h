@@ -108,10 +108,14 @@ public:
   // The longest way of a point of a border from where it was in the last `find()`.
   double longest_way(const std::vector<Vector>& points) const
   {
-    double result = 0.;
-    for(std::size_t i = 0; i < m_samples.size(); ++i)
-      result = (std::max)(result, (sum_of(m_samples[i].weights, points) - m_places[i]).squared_length());
-    return std::sqrt(result);
+    constexpr std::size_t block = 128;
+    std::vector<double> longest(Blocked_execution::number_of_blocks(m_samples.size(), block), 0.);
+    Blocked_execution::blocked_for(m_samples.size(), block, [&](std::size_t begin, std::size_t end) {
+      double& result = longest[begin / block];
+      for(std::size_t i = begin; i < end; ++i)
+        result = (std::max)(result, (sum_of(m_samples[i].weights, points) - m_places[i]).squared_length());
+    });
+    return longest.empty() ? 0. : std::sqrt(*std::max_element(longest.begin(), longest.end()));
   }
 
 private:
@@ -341,14 +345,18 @@ inline void Border_contacts::set_gaps(const std::vector<Vector>& points)
 inline void Border_contacts::find(const std::vector<Vector>& points)
 {
   constexpr std::size_t block = 128; // of samples
-  m_places.clear();
-  for(const Sample& sample : m_samples)
-    m_places.push_back(sum_of(sample.weights, points));
-  std::vector<Border_piece> pieces;
-  pieces.reserve(m_samples.size());
-  for(std::uint32_t i = 0; i < m_samples.size(); ++i)
-    pieces.push_back({i, m_samples[i].chart, m_samples[i].page, m_places[i],
-                      m_places[m_samples[i].next] - m_places[i]});
+  m_places.resize(m_samples.size());
+  Blocked_execution::blocked_for(m_samples.size(), block, [&](std::size_t i, std::size_t end) {
+    for(; i < end; ++i)
+      m_places[i] = sum_of(m_samples[i].weights, points);
+  });
+  std::vector<Border_piece> pieces(m_samples.size());
+  Blocked_execution::blocked_for(m_samples.size(), block, [&](std::size_t i, std::size_t end) {
+    for(; i < end; ++i) {
+      const Sample& s = m_samples[i];
+      pieces[i] = Border_piece(std::uint32_t(i), s.chart, s.page, m_places[i], m_places[s.next] - m_places[i]);
+    }
+  });
   m_pieces.assign(pieces, m_pages);
   std::vector<std::vector<Contact>> found(Blocked_execution::number_of_blocks(m_samples.size(), block));
   Blocked_execution::blocked_for(m_samples.size(), block, [&](std::size_t begin, std::size_t end) {

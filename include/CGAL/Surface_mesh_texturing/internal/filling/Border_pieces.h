@@ -21,10 +21,22 @@ namespace internal {
 // A straight piece of a border.
 struct Border_piece
 {
-  std::uint32_t sample, chart, page; // the number of the point at which it begins
+  std::uint32_t sample = 0, chart = 0, page = 0; // the number of the point at which it begins
   Plane_vector_d from, way;
-  Plane_vector_d outward = {}; // of length 1, or 0; the chart is on the left of the way
-  double inverse = 0.;         // of the square of the length, or 0
+  Plane_vector_d outward; // of length 1, or 0; the chart is on the left of the way
+  double inverse = 0.;    // of the square of the length, or 0
+
+  Border_piece() {}
+  Border_piece(std::uint32_t s, std::uint32_t c, std::uint32_t p, const Plane_vector_d& begin,
+               const Plane_vector_d& along)
+    : sample(s), chart(c), page(p), from(begin), way(along)
+  {
+    const double squared = way.squared_length();
+    if(squared > 0.) {
+      inverse = 1. / squared;
+      outward = Plane_vector_d{way.y, -way.x} * (1. / std::sqrt(squared));
+    }
+  }
 };
 
 // The nearest point of a piece of a border.
@@ -44,7 +56,7 @@ public:
   typedef Plane_vector_d Vector;
 
   Border_pieces(const Vector& page, double reach)
-    : m_reach(reach), m_columns(int(page.x / reach) + 1), m_rows(int(page.y / reach) + 1)
+    : m_reach(reach), m_per_unit(1. / reach), m_columns(int(page.x / reach) + 1), m_rows(int(page.y / reach) + 1)
   {}
 
   // Sorts these pieces, of a number of pages, into the cells.
@@ -56,15 +68,8 @@ public:
     for(std::size_t cell = 1; cell < m_begin.size(); ++cell)
       m_begin[cell] += m_begin[cell - 1];
     m_pieces.resize(m_begin.back());
-    for(const Border_piece& piece : pieces) {
-      Border_piece in_cell = piece;
-      const double squared = piece.way.squared_length();
-      if(squared > 0.) {
-        in_cell.inverse = 1. / squared;
-        in_cell.outward = Vector{piece.way.y, -piece.way.x} * (1. / std::sqrt(squared));
-      }
-      for_each_cell(piece, [&](std::size_t cell) { m_pieces[m_begin[cell + 1]++] = in_cell; });
-    }
+    for(const Border_piece& piece : pieces)
+      for_each_cell(piece, [&](std::size_t cell) { m_pieces[m_begin[cell + 1]++] = piece; });
   }
 
   // Calls use(nearest point of a piece) for those within reach of a point that matters(piece), some of them
@@ -94,7 +99,7 @@ public:
   }
 
 private:
-  int cell_of(double x, int n) const { return std::clamp(int(x / m_reach), 0, n - 1); }
+  int cell_of(double x, int n) const { return std::clamp(int(x * m_per_unit), 0, n - 1); }
   std::size_t cell_at(std::uint32_t page, int column, int row) const
   {
     return (std::size_t(page) * std::size_t(m_rows) + std::size_t(row)) * std::size_t(m_columns)
@@ -111,7 +116,7 @@ private:
         use(cell_at(piece.page, column, row));
   }
 
-  double m_reach;
+  double m_reach, m_per_unit; // the sides of cells, and the cells along a unit
   int m_columns, m_rows;
   std::vector<std::uint32_t> m_begin;  // of the pieces of each cell
   std::vector<Border_piece> m_pieces;

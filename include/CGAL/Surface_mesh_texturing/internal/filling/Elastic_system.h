@@ -9,7 +9,6 @@
 #include <CGAL/Surface_mesh_texturing/internal/filling/Control_net.h>
 #include <CGAL/Surface_mesh_texturing/internal/filling/Ordered_cholesky.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -35,7 +34,6 @@ typedef std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> Places
 class Elastic_system
 {
 public:
-  typedef Ordered_cholesky::Matrix Matrix;
   typedef Surface_mesh_parameterization::Stretch_element<double> Stretch_element;
 
   // The energies are of gradients times `factor`. All of these must outlive this.
@@ -50,15 +48,15 @@ public:
         m_penalties_at[penalties[i].weights[k].point].push_back({i, k});
   }
 
-  // Sets the upper triangle of the matrix, and the right side, by the order of the solver.
-  void operator()(Matrix& matrix, Eigen::VectorXd& right) const;
+  // Sets the matrix and the right side, by the order of the solver.
+  void operator()(Upper_blocks& matrix, Eigen::VectorXd& right) const;
 
 private:
   // Some columns of the matrix, one after the other.
   struct Columns
   {
-    std::vector<Eigen::Index> sizes, rows;
-    std::vector<double> values;
+    std::vector<std::uint32_t> sizes, rows;
+    std::vector<Upper_blocks::Block> blocks;
   };
   Columns columns(std::uint32_t begin, std::uint32_t end, Eigen::VectorXd& right) const;
 
@@ -71,7 +69,7 @@ private:
   const Ordered_cholesky& m_solver;
 };
 
-inline void Elastic_system::operator()(Matrix& matrix, Eigen::VectorXd& right) const
+inline void Elastic_system::operator()(Upper_blocks& matrix, Eigen::VectorXd& right) const
 {
   constexpr std::size_t block = 64; // of points for a thread
   const std::size_t n = m_penalties_at.size();
@@ -79,19 +77,14 @@ inline void Elastic_system::operator()(Matrix& matrix, Eigen::VectorXd& right) c
   Blocked_execution::blocked_for(n, block, [&](std::size_t begin, std::size_t end) {
     parts[begin / block] = columns(std::uint32_t(begin), std::uint32_t(end), right);
   });
-  Eigen::Index* outer = matrix.outerIndexPtr();
-  *outer = 0;
-  for(const Columns& part : parts)
-    for(const Eigen::Index size : part.sizes) {
-      outer[1] = outer[0] + size;
-      ++outer;
-    }
-  matrix.resizeNonZeros(*outer);
-  Eigen::Index* rows = matrix.innerIndexPtr();
-  double* values = matrix.valuePtr();
+  matrix.begin.assign(1, 0);
+  matrix.rows.clear();
+  matrix.blocks.clear();
   for(const Columns& part : parts) {
-    rows = std::copy(part.rows.begin(), part.rows.end(), rows);
-    values = std::copy(part.values.begin(), part.values.end(), values);
+    for(const std::uint32_t size : part.sizes)
+      matrix.begin.push_back(matrix.begin.back() + size);
+    matrix.rows.insert(matrix.rows.end(), part.rows.begin(), part.rows.end());
+    matrix.blocks.insert(matrix.blocks.end(), part.blocks.begin(), part.blocks.end());
   }
 }
 
@@ -100,18 +93,18 @@ inline Elastic_system::Columns Elastic_system::columns(std::uint32_t begin, std:
                                                        Eigen::VectorXd& right) const
 {
   constexpr double least = 1e-3; // what charts that touch nothing are held by
-  typedef Surface_mesh_parameterization::Plane_matrix<double> Block;
+  typedef Upper_blocks::Block Block;
   const std::vector<std::uint32_t>&order = m_solver.order(), &rank = m_solver.rank();
   std::vector<Block> sum(end);
   std::vector<char> is_there(end, 0);
   std::vector<std::uint32_t> rows;
-  const auto add = [&](std::uint32_t row, const Block& b) {
+  const auto add = [&](std::uint32_t row, const Surface_mesh_parameterization::Plane_matrix<double>& b) {
     if(!is_there[row]) {
       is_there[row] = 1;
       rows.push_back(row);
-      sum[row] = Block();
+      sum[row].setZero();
     }
-    sum[row] = {sum[row].xx + b.xx, sum[row].xy + b.xy, sum[row].yx + b.yx, sum[row].yy + b.yy};
+    sum[row] += (Block() << b.xx, b.xy, b.yx, b.yy).finished();
   };
   Columns result;
   for(std::uint32_t column = begin; column < end; ++column) {
@@ -141,22 +134,12 @@ inline Elastic_system::Columns Elastic_system::columns(std::uint32_t begin, std:
     }
     right[2 * column] = force.x;
     right[2 * column + 1] = force.y;
-    std::sort(rows.begin(), rows.end());
-    for(int side = 0; side < 2; ++side) {
-      const std::size_t before = result.rows.size();
-      for(const std::uint32_t row : rows) {
-        const Block& b = sum[row];
-        result.rows.push_back(2 * row);
-        result.values.push_back(side == 0 ? b.xx : b.xy);
-        if(row < column || side == 1) {
-          result.rows.push_back(2 * row + 1);
-          result.values.push_back(side == 0 ? b.yx : b.yy);
-        }
-      }
-      result.sizes.push_back(Eigen::Index(result.rows.size() - before));
-    }
-    for(const std::uint32_t row : rows)
+    result.sizes.push_back(std::uint32_t(rows.size()));
+    for(const std::uint32_t row : rows) {
+      result.rows.push_back(row);
+      result.blocks.push_back(sum[row]);
       is_there[row] = 0;
+    }
   }
   return result;
 }
