@@ -31,19 +31,35 @@ public:
     const double all = sign * twice_area, least = rounding * all;
     const std::size_t left = first(x.first), right = end(x.second, m_width), top = end(y.second, m_height);
     for(std::size_t j = first(y.first); j < top; ++j) {
-      std::uint8_t* row = m_counts.data() + (page * m_height + j) * m_width;
       const double v = double(j) + 0.5 - p[0][1];
-      bool was_inside = false;
-      for(std::size_t i = left; i < right; ++i) {
+      const auto is_inside = [&](std::size_t i) {
         const double u = double(i) + 0.5 - p[0][0];
         const double at_1 = sign * (u * y2 - v * x2), at_2 = sign * (v * x1 - u * y1);
-        const bool is_inside = at_1 > least && at_2 > least && all - at_1 - at_2 > least;
-        if(is_inside) {
-          row[i] = row[i] == 0 ? 1 : 2;
-        } else if(was_inside) {
-          break; // triangles are convex
+        return at_1 > least && at_2 > least && all - at_1 - at_2 > least;
+      };
+      double low = double(left), high = double(right);
+      const auto cut_off = [&](double at_0, double slope) { // texels where that is clearly not more than `least`
+        constexpr double flat = 1e-6, texel = 1.;
+        const double i = (least - at_0) / slope + p[0][0] - 0.5;
+        if(slope > flat) {
+          low = std::max(low, i - texel);
+        } else if(slope < -flat) {
+          high = std::min(high, i + 2 * texel);
         }
-        was_inside = is_inside;
+      };
+      cut_off(-sign * v * x2, sign * y2);
+      cut_off(sign * v * x1, -sign * y1);
+      cut_off(all + sign * v * (x2 - x1), sign * (y1 - y2));
+      std::size_t begin = std::size_t(low), end = std::size_t(std::max(0., high));
+      while(begin < end && !is_inside(begin)) {
+        ++begin;
+      }
+      while(begin < end && !is_inside(end - 1)) {
+        --end;
+      }
+      std::uint8_t* row = m_counts.data() + (page * m_height + j) * m_width;
+      for(std::size_t i = begin; i < end; ++i) { // triangles are convex
+        row[i] = row[i] == 0 ? 1 : 2;
       }
     }
   }

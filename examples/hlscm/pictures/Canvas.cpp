@@ -56,27 +56,37 @@ void Canvas::draw_disk(const Point& centre, double radius, const Colour& colour)
 
 std::vector<std::uint8_t> Canvas::pixels() const
 {
-  std::array<double, 256> light;
-  for(std::size_t i = 0; i < light.size(); ++i) {
+  constexpr std::size_t values = 256;
+  constexpr double all = double(samples * samples);
+  std::array<double, values> light;     // of a sample
+  std::array<double, values - 1> above; // the light of all samples from which on a pixel is brighter
+  for(std::size_t i = 0; i < values; ++i) {
     light[i] = std::pow(double(i) / 255, gamma);
+    if(i + 1 < values) {
+      above[i] = all * std::pow((double(i) + 0.5) / 255, gamma);
+    }
   }
   const std::size_t width = m_width / samples, height = m_height / samples;
   std::vector<std::uint8_t> result(3 * width * height);
   for(std::size_t y = 0; y < height; ++y) {
     for(std::size_t x = 0; x < width; ++x) {
+      const auto row = [&](std::size_t j) { return m_colours.data() + (y * samples + j) * m_width + x * samples; };
+      const std::array<std::uint8_t, 3> first = row(0)[0];
       Colour sum{};
+      bool are_equal = true;
       for(std::size_t j = 0; j < samples; ++j) {
         for(std::size_t i = 0; i < samples; ++i) {
-          const auto& sample = m_colours[(y * samples + j) * m_width + x * samples + i];
+          const std::array<std::uint8_t, 3> sample = row(j)[i];
+          are_equal = are_equal && sample == first;
           for(std::size_t k = 0; k < 3; ++k) {
             sum[k] += light[sample[k]];
           }
         }
       }
       for(std::size_t k = 0; k < 3; ++k) {
-        const double mean = sum[k] / double(samples * samples);
-        result[3 * (y * width + x) + k] =
-            std::uint8_t(std::lround(255 * std::pow(mean, 1 / gamma)));
+        result[3 * (y * width + x) + k] = are_equal
+            ? first[k]
+            : std::uint8_t(std::upper_bound(above.begin(), above.end(), sum[k]) - above.begin());
       }
     }
   }

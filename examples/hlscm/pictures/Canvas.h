@@ -169,7 +169,7 @@ std::array<std::uint8_t, 3> Canvas::shade_inside(std::array<double, 3> b, Shade&
   const Colour colour = shade(std::array<double, 3>{b[0] / sum, b[1] / sum, b[2] / sum});
   std::array<std::uint8_t, 3> bytes;
   for(std::size_t k = 0; k < 3; ++k) {
-    bytes[k] = std::uint8_t(std::lround(255 * std::clamp(colour[k], 0., 1.)));
+    bytes[k] = std::uint8_t(255 * std::clamp(colour[k], 0., 1.) + 0.5);
   }
   return bytes;
 }

@@ -65,21 +65,35 @@ std::vector<double> vertex_area_scales(const Drawn_surface& surface)
 /// How much of a sample the lines at integers x cover, if x grows by `slope` a pixel.
 double line_cover(double x, double slope)
 {
-  const double distance = std::abs(x - std::round(x)) / std::max(slope, 1e-12);
+  const double distance = std::abs(x - std::nearbyint(x)) / std::max(slope, 1e-12);
   const double sharp = std::clamp(line_width / 2 + 0.5 - distance, 0., 1.);
   const double dense = std::min(line_width * slope, 0.5); // lines that are too close become a tint
   return sharp + (dense - sharp) * std::clamp((slope - 0.15) / 0.25, 0., 1.);
 }
 
 /// Isolines at the multiples of a power of two that suits the scale; every second one fades away
-/// where they come too close. The level is the binary logarithm of the distance asked for.
-double isoline_cover(double x, double slope, double level)
+/// where they come too close.
+class Isolines
 {
-  const double whole = std::floor(level), fine = std::exp2(-whole), coarse = fine / 2;
-  const double fading = std::clamp((0.7 - (level - whole)) / 0.4, 0., 1.);
-  return std::max(line_cover(coarse * x, coarse * slope),
-                  fading * line_cover(fine * x, fine * slope));
-}
+public:
+  /// The level is the binary logarithm of the distance asked for.
+  explicit Isolines(double level)
+  {
+    const double whole = std::floor(level);
+    m_fine = std::exp2(-whole);
+    m_fading = std::clamp((0.7 - (level - whole)) / 0.4, 0., 1.);
+  }
+
+  /// How much of a sample they cover, if x grows by `slope` a pixel.
+  double cover(double x, double slope) const
+  {
+    const double coarse = line_cover(m_fine / 2 * x, m_fine / 2 * slope);
+    return m_fading > 0 ? std::max(coarse, m_fading * line_cover(m_fine * x, m_fine * slope)) : coarse;
+  }
+
+private:
+  double m_fine, m_fading;
+};
 
 /// Mean of the square wave of period 2 over a pixel (values -1 and 1).
 double square_wave(double x, double slope)
@@ -166,8 +180,8 @@ private:
                         const Vector_2& slope) const
   {
     const double level = b[0] * m_levels[t[0]] + b[1] * m_levels[t[1]] + b[2] * m_levels[t[2]];
-    return mix(mix(base, v_colour, isoline_cover(uv[1], slope[1], level)), u_colour,
-               isoline_cover(uv[0], slope[0], level));
+    const Isolines lines(level);
+    return mix(mix(base, v_colour, lines.cover(uv[1], slope[1])), u_colour, lines.cover(uv[0], slope[0]));
   }
 
   Colour checker_colour(const Vector_2& uv, const Vector_2& slope) const
