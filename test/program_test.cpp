@@ -96,16 +96,19 @@ std::string error_in_picture(const fs::path& path)
   if(pixels == nullptr) {
     return path.string() + " cannot be read";
   }
-  std::set<std::array<unsigned char, 3>> colours;
+  constexpr std::size_t enough = 50;
+  std::set<int> colours;
   std::size_t drawn = 0;
   for(int i = 0; i < width * height; ++i) {
-    const std::array<unsigned char, 3> c{pixels[3 * i], pixels[3 * i + 1], pixels[3 * i + 2]};
-    drawn += c != std::array<unsigned char, 3>{255, 255, 255};
-    colours.insert(c);
+    const int c = pixels[3 * i] << 16 | pixels[3 * i + 1] << 8 | pixels[3 * i + 2];
+    drawn += c != 0xffffff;
+    if(colours.size() < enough) {
+      colours.insert(c);
+    }
   }
   stbi_image_free(pixels);
   const double part = double(drawn) / (double(width) * double(height));
-  if(width < 400 || height < 400 || part < 0.2 || part > 0.99 || colours.size() < 50) {
+  if(width < 400 || height < 400 || part < 0.2 || part > 0.99 || colours.size() < enough) {
     return path.string() + " is " + std::to_string(width) + " x " + std::to_string(height)
            + ", drawn on " + std::to_string(part) + " of it in " + std::to_string(colours.size())
            + " colours";

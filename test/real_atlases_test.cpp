@@ -30,7 +30,7 @@ namespace SMT = CGAL::Surface_mesh_texturing;
 using namespace test_support;
 
 constexpr std::size_t fewest_faces = 1000; // that the mean distortion is bounded for
-constexpr std::size_t most_faces = 40000; // larger ones are measured by benchmark/atlases
+constexpr std::size_t most_faces = 15000; // larger ones are measured by benchmark/atlases
 
 std::vector<std::filesystem::path> meshes_in(const std::filesystem::path& folder)
 {

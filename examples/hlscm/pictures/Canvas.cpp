@@ -5,6 +5,9 @@
 
 #include "writing/Png_file.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 
 namespace hlscm {
@@ -77,8 +80,8 @@ std::vector<std::uint8_t> Canvas::pixels() const
       for(std::size_t j = 0; j < samples; ++j) {
         for(std::size_t i = 0; i < samples; ++i) {
           const std::array<std::uint8_t, 3> sample = row(j)[i];
-          are_equal = are_equal && sample == first;
           for(std::size_t k = 0; k < 3; ++k) {
+            are_equal = are_equal && sample[k] == first[k];
             sum[k] += light[sample[k]];
           }
         }
