@@ -38,7 +38,8 @@ public:
         return at_1 > least && at_2 > least && all - at_1 - at_2 > least;
       };
       double low = double(left), high = double(right);
-      const auto cut_off = [&](double at_0, double slope) { // texels where that is clearly not more than `least`
+      // Texels where a linear function is clearly not more than `least`
+      const auto cut_off = [&](double at_0, double slope) {
         constexpr double flat = 1e-6, texel = 1.;
         const double i = (least - at_0) / slope + p[0][0] - 0.5;
         if(slope > flat) {

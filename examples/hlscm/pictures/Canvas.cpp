@@ -73,7 +73,9 @@ std::vector<std::uint8_t> Canvas::pixels() const
   std::vector<std::uint8_t> result(3 * width * height);
   for(std::size_t y = 0; y < height; ++y) {
     for(std::size_t x = 0; x < width; ++x) {
-      const auto row = [&](std::size_t j) { return m_colours.data() + (y * samples + j) * m_width + x * samples; };
+      const auto row = [&](std::size_t j) {
+        return m_colours.data() + (y * samples + j) * m_width + x * samples;
+      };
       const std::array<std::uint8_t, 3> first = row(0)[0];
       Colour sum{};
       bool are_equal = true;

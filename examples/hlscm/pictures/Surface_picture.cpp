@@ -81,7 +81,7 @@ public:
   explicit Isolines(double level)
   {
     const double whole = std::floor(level);
-    m_fine = std::ldexp(1., -int(whole));
+    m_fine = std::exp2(-whole);
     m_fading = std::clamp((0.7 - (level - whole)) / 0.4, 0., 1.);
   }
 

@@ -108,7 +108,6 @@ public:
   // The longest way of a point of a border from where it was in the last `find()`.
   double longest_way(const std::vector<Vector>& points) const
   {
-    constexpr std::size_t block = 128;
     std::vector<double> longest(Blocked_execution::number_of_blocks(m_samples.size(), block), 0.);
     Blocked_execution::blocked_for(m_samples.size(), block, [&](std::size_t begin, std::size_t end) {
       double& result = longest[begin / block];
@@ -119,6 +118,8 @@ public:
   }
 
 private:
+  static constexpr std::size_t block = 128; // of samples for a thread
+
   struct Sample
   {
     std::uint32_t chart, page, previous, next;
@@ -344,7 +345,6 @@ inline void Border_contacts::set_gaps(const std::vector<Vector>& points)
 
 inline void Border_contacts::find(const std::vector<Vector>& points)
 {
-  constexpr std::size_t block = 128; // of samples
   m_places.resize(m_samples.size());
   Blocked_execution::blocked_for(m_samples.size(), block, [&](std::size_t i, std::size_t end) {
     for(; i < end; ++i)
