@@ -7,6 +7,7 @@
 #include <support/packed_charts.h>
 
 #include <CGAL/Surface_mesh_texturing/Horizon_packer.h>
+#include <CGAL/Surface_mesh_texturing/internal/packing/Density_search.h>
 #include <CGAL/Surface_mesh_texturing/pack_charts.h>
 
 #include <gtest/gtest.h>
