@@ -4,11 +4,10 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_FILLING_ORDERED_CHOLESKY_H
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_FILLING_ORDERED_CHOLESKY_H
 
-#include <Eigen/Core>
+#include <Eigen/LU>
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -98,7 +97,7 @@ private:
       m_rank[m_order[i]] = i;
   }
 
-  // How many blocks below the diagonal each column of the factor has, and the first row of these.
+  // Where the blocks below the diagonal of each column of the factor begin, and the first row of these.
   void find_columns(const Upper_blocks& matrix)
   {
     const std::uint32_t n = std::uint32_t(m_order.size());
