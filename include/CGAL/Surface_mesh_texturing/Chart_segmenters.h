@@ -54,7 +54,7 @@ struct Chart_growth_segmenter
     // The search maps each triangle many times: of fewer triangles, and as many patches, it makes
     // charts as good in less time
     constexpr std::size_t least_faces = 1000, patches = 160, smallest_patch = 8;
-    constexpr double effort = 40., triangles_per_second = 6e5; // those that are mapped
+    constexpr double effort = 20., triangles_per_second = 6e5; // those that are mapped
     const std::size_t faces = mesh.triangles.size();
     Segmentation_options segmentation;
     segmentation.coarse_faces

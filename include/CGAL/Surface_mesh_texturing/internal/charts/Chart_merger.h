@@ -103,6 +103,11 @@ private:
   {
     try_arcs(state, candidates, false);
   }
+  double part_of_bound(const Chart_distortion& distortion) const // 1 at the bound
+  {
+    return (std::max)(std::log(distortion.area_scale) / std::log(m_bound.area_scale),
+                      std::log(distortion.quasi_conformal) / std::log(m_bound.quasi_conformal));
+  }
   double cost(const Chart_state& state, const Pair& pair, const Chart_union& candidate,
               const Merge_weights& weights) const;
   bool may_merge(const Chart_state& state, const Pair& pair) const
@@ -118,20 +123,7 @@ private:
   bool is_far_beyond_bound(const Trial_map& trial) const
   {
     constexpr double much = 1.3; // the power of the bound
-    return trial.is_disk
-        && (trial.distortion.area_scale > std::pow(m_bound.area_scale, much)
-            || trial.distortion.quasi_conformal > std::pow(m_bound.quasi_conformal, much));
-  }
-  template <class IsOpen>
-  static std::uint64_t hash_of(const Indices& triangles, const IsOpen& is_open)
-  {
-    std::uint64_t key = 0xcbf29ce484222325u;
-    for(const Triangle_index t : triangles)
-      for(Halfedge h = 3 * t; h < 3 * t + 3; ++h) {
-        key = (key ^ (2 * h + (is_open(h) ? 1 : 0))) * 0x100000001b3u;
-        key ^= key >> 29;
-      }
-    return key;
+    return trial.is_disk && part_of_bound(trial.distortion) > much;
   }
   Some_candidates merge_pair(Chart_state& state, const Pair& pair, Candidates& candidates);
   void apply(Chart_state& state, const Pair& pair, const Chart_union& candidate) const;
@@ -251,20 +243,21 @@ inline std::vector<Chart_union*> Chart_merger::try_arcs(const Chart_state& state
   return fresh;
 }
 
+// Of a union that has not been mapped yet, about what it costs at least.
 inline double Chart_merger::cost(const Chart_state& state, const Pair& pair,
                                  const Chart_union& candidate,
                                  const Merge_weights& weights) const
 {
   const Chart_piece &a = state.pieces[pair.first], &b = state.pieces[pair.second];
-  const double distortion
-    = (std::max)(std::log(candidate.trial.distortion.area_scale) / std::log(m_bound.area_scale),
-                 std::log(candidate.trial.distortion.quasi_conformal)
-                   / std::log(m_bound.quasi_conformal));
+  constexpr double hope = 0.7; // for a union that may be less distorted than a part of it
+  const double parts = (std::max)(part_of_bound(a.trial.distortion), part_of_bound(b.trial.distortion));
+  const double distortion = candidate.is_known ? part_of_bound(candidate.trial.distortion)
+                                               : hope * (parts < 1. ? parts : 1.); // not a number without area
   return weights.distortion * distortion
        - weights.seam * candidate.removed / (std::min)(a.perimeter, b.perimeter)
        + weights.crease * candidate.crease / candidate.removed
        + weights.size * std::log((a.area + b.area) / m_area)
-       + weights.fill * (1. - candidate.trial.fill);
+       + weights.fill * (candidate.is_known ? 1. - candidate.trial.fill : 0.);
 }
 
 inline void Chart_merger::apply(Chart_state& state, const Pair& pair,
@@ -323,7 +316,8 @@ inline void Chart_merger::merge(Chart_state& state, const Indices& active,
   Candidates candidates;
   const auto offer = [&](const Candidates::value_type& item) {
     const auto& [pair, candidate] = item;
-    if(!is_good(candidate.trial) || has_thin_neck(state, pair, candidate))
+    if(candidate.is_hopeless || has_thin_neck(state, pair, candidate)
+       || (candidate.is_known && !is_good(candidate.trial)))
       return;
     const double c = cost(state, pair, candidate, weights);
     if(c < (std::numeric_limits<double>::max)())
@@ -331,30 +325,37 @@ inline void Chart_merger::merge(Chart_state& state, const Indices& active,
   };
   for(const std::uint32_t c : active)
     add_candidates(state, c, candidates);
-  Some_candidates fresh = all_of(candidates);
+  for(const Candidates::value_type& item : candidates)
+    offer(item);
+  constexpr std::size_t at_a_time = 4; // of those whose turn comes before they have been mapped
   while(!m_goes_on || m_goes_on()) {
-    fresh.erase(std::remove_if(fresh.begin(), fresh.end(), [&](const Candidates::value_type* item) {
-      return has_thin_neck(state, item->first, item->second);
-    }), fresh.end());
-    try_all(state, fresh);
-    for(const Candidates::value_type* item : fresh)
-      offer(*item);
-    fresh.clear();
     Candidates::iterator best;
     const auto may_be_taken = [&](const Offer& o) {
       best = candidates.find(o.pair);
       return best != candidates.end() && best->second.stamp == o.stamp && may_merge(state, o.pair);
     };
-    while(!offers.empty() && !may_be_taken(offers.top()))
+    Some_candidates unknown;
+    while(!offers.empty() && unknown.size() < at_a_time) {
+      const bool is_valid = may_be_taken(offers.top());
+      if(is_valid && best->second.is_known)
+        break;
       offers.pop();
-    if(offers.empty())
+      if(is_valid)
+        unknown.push_back(&*best);
+    }
+    if(!unknown.empty()) {
+      try_all(state, unknown);
+      for(const Candidates::value_type* item : unknown)
+        offer(*item);
+    } else if(offers.empty()) {
       return;
-    if(best->second.trial.is_draft) {
+    } else if(best->second.trial.is_draft) {
       offers.pop();
       finish_drafts(state, {&*best});
       offer(*best);
     } else {
-      fresh = merge_pair(state, Pair(best->first), candidates);
+      for(const Candidates::value_type* item : merge_pair(state, Pair(best->first), candidates))
+        offer(*item);
     }
   }
 }

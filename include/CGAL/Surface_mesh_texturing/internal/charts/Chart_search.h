@@ -103,7 +103,6 @@ class Chart_search
   typedef Chart_state State;
   static constexpr std::size_t few_neighbors = 4;   // one more than are taken apart with a chart
   static constexpr std::size_t many_neighbors = 13; // the same when fewer have not helped any more
-  static constexpr std::size_t small_size = 500;   // triangles; smaller meshes get more effort
   static constexpr std::size_t most_failures = 8;  // rounds without success in succession
   static constexpr double least_gain = 1e-9;       // of the length of the seams
 
@@ -112,7 +111,7 @@ public:
     : m_surface(surface), m_options(options)
     , m_is_feature(feature_edges(surface, options.feature_angle))
     , m_merger(surface, m_is_feature, options.bound, options.least_fill, options.least_charts)
-    , m_most_work(options.effort * double(surface.size() + small_size))
+    , m_most_work(options.effort * double(surface.size()))
   {
     m_merger.set_progress([this] { return tell_progress() && !is_enough(); });
   }

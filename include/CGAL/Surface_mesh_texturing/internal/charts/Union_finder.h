@@ -27,6 +27,19 @@ struct Chart_union
   std::size_t stamp = 0;    // tells it from one of the same charts, when they were others
 };
 
+// By what a chart is known: a hash of its triangles and of which of their sides are open.
+template <class IsOpen>
+std::uint64_t hash_of(const Chart_state::Indices& triangles, const IsOpen& is_open)
+{
+  std::uint64_t key = 0xcbf29ce484222325u;
+  for(const Triangle_index t : triangles)
+    for(Halfedge h = 3 * t; h < 3 * t + 3; ++h) {
+      key = (key ^ (2 * h + (is_open(h) ? 1 : 0))) * 0x100000001b3u;
+      key ^= key >> 29;
+    }
+  return key;
+}
+
 // Finds the seams whose removal joins two charts to one, which is again a disk: one arc, a path of
 // seams between junctions, and seams that would end within the chart then.
 class Union_finder

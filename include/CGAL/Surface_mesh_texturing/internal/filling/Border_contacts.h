@@ -186,7 +186,7 @@ inline std::vector<std::uint32_t>
 Border_contacts::kept_vertices(const std::vector<std::uint32_t>& loop,
                                const std::vector<Chart_shape::Point_2>& uv) const
 {
-  const double longest = 3. * m_sizes.unit, deviation = 0.2 * m_sizes.unit;
+  const double longest = 4.5 * m_sizes.unit, deviation = 0.2 * m_sizes.unit;
   const std::size_t n = loop.size();
   std::vector<std::uint32_t> result;
   const auto spans = [&](std::size_t begin, std::size_t end) {
@@ -210,7 +210,7 @@ inline void Border_contacts::add_loop(std::uint32_t chart, std::uint32_t page,
                                       const std::vector<Chart_shape::Point_2>& uv,
                                       const Control_net& net)
 {
-  const double longest = 6. * m_sizes.unit;
+  const double longest = 9. * m_sizes.unit;
   const std::vector<std::uint32_t> kept = kept_vertices(loop, uv);
   const std::size_t first = m_samples.size();
   Control_weights weights, next_weights;

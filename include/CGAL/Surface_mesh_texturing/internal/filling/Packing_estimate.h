@@ -73,10 +73,13 @@ typedef std::shared_ptr<const Packable_shape> Packable;
 class Packing_estimate
 {
 public:
-  // `area` is that of all shapes, in units of the outlines.
-  Packing_estimate(const Packing_options& options, double area, std::size_t shapes)
+  // `area` is that of all shapes, in units of the outlines; the raster is the coarser the fewer triangles they
+  // have, so that the time follows these.
+  Packing_estimate(const Packing_options& options, double area, std::size_t shapes, std::size_t triangles)
     : m_pages((std::max)(std::size_t(1), options.max_pages)),
-      m_raster(coarser_raster(exact_raster(options), (std::max)(96. * 96., 64. * double(shapes)))),
+      m_raster(coarser_raster(exact_raster(options),
+                              (std::max)(std::clamp(4. * double(triangles), 64. * 64., 96. * 96.),
+                                         64. * double(shapes)))),
       m_highest(std::sqrt(double(options.width) * double(options.height) * double(m_pages) / area))
   {}
 

@@ -113,6 +113,14 @@ inline std::vector<Packable> shapes_of(const std::vector<Mapped_chart>& charts, 
   return result;
 }
 
+inline std::size_t number_of_triangles(const std::vector<Mapped_chart>& charts)
+{
+  std::size_t sum = 0;
+  for(const Mapped_chart& map : charts)
+    sum += map.chart.mesh.triangles.size();
+  return sum;
+}
+
 inline double area_of(const std::vector<Packable>& shapes)
 {
   double sum = 0.;
@@ -126,7 +134,7 @@ inline Page_filler::Page_filler(std::vector<Mapped_chart>& charts, const Packing
   : m_charts(charts), m_mapping(mapping), m_unit(extent_of(charts)),
     m_side(std::sqrt(double(packing.width) * double(packing.height))),
     m_shapes(shapes_of(charts, m_unit)), m_cuts(charts.size()),
-    m_estimate(packing, area_of(m_shapes), charts.size())
+    m_estimate(packing, area_of(m_shapes), charts.size(), number_of_triangles(charts))
 {
   constexpr int lowest = -64 * 8, step = 16;
   for(m_level = -step; m_level > lowest; m_level -= step) {
