@@ -60,6 +60,36 @@ TEST(Indexed_mesh, disjoint_sets_are_known_by_their_smallest_members)
     EXPECT_EQ(sets.find(i), smallest[i]);
 }
 
+// Beside the sets of corners that each open edge joins.
+TEST(Indexed_mesh, wedges_are_what_open_edges_connect)
+{
+  for(const std::uint64_t seed : {1, 2, 3})
+    for(const Indexed_triangle_mesh& form : {test_support::sphere(2), test_support::grid(9, 4)}) {
+      const Indexed_triangle_mesh mesh = test_support::shuffled(form, seed);
+      const IM::Triangle_adjacency adjacency(mesh.triangles);
+      const auto n = IM::Halfedge(adjacency.number_of_halfedges());
+      std::mt19937 random(static_cast<std::mt19937::result_type>(seed));
+      std::vector<bool> is_closed(n, false);
+      for(IM::Halfedge h = 0; h < n; ++h)
+        if(random() % 3 == 0 || adjacency.opposite(h) == IM::no_halfedge) {
+          is_closed[h] = true;
+          if(adjacency.opposite(h) != IM::no_halfedge)
+            is_closed[adjacency.opposite(h)] = true;
+        }
+      IM::Disjoint_sets corners(n);
+      for(IM::Halfedge h = 0; h < n; ++h)
+        if(!is_closed[h]) {
+          corners.join(h, IM::next_halfedge(adjacency.opposite(h)));
+          corners.join(IM::next_halfedge(h), adjacency.opposite(h));
+        }
+      const std::vector<IM::Halfedge> first = IM::first_corners_of_wedges(
+        n, [&](IM::Halfedge h) { return is_closed[h] ? IM::no_halfedge : adjacency.opposite(h); });
+      ASSERT_EQ(first.size(), n);
+      for(IM::Halfedge h = 0; h < n; ++h)
+        EXPECT_EQ(first[h], corners.find(h)) << "seed " << seed << ", corner " << h;
+    }
+}
+
 TEST(Indexed_mesh, prepared_meshes_are_the_input_at_another_place_and_in_another_order)
 {
   const std::uint64_t seed = 5;

@@ -13,6 +13,7 @@
 #include <CGAL/Surface_mesh_parameterization/Low_stretch_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/collapse_to_few.h>
 #include <CGAL/Surface_mesh_parameterization/parameterize.h>
+#include <CGAL/Surface_mesh_parameterization/self_overlap.h>
 
 #include <CGAL/Polygon_mesh_processing/measure.h>
 
@@ -227,7 +228,6 @@ TEST(Low_stretch_map, threads_do_not_change_a_bit)
   }
 }
 
-// In other units and places the map is the same but for rounding.
 // A chart of which the passes of the decimation are done in several blocks.
 Indexed_triangle_mesh large_chart(Vertex_index columns, Vertex_index rows)
 {
@@ -272,15 +272,20 @@ TEST(Low_stretch_insertion, threads_do_not_change_a_bit)
   const Indexed_triangle_mesh mesh = large_chart(320, 300);
   Low_stretch_options options;
   options.tolerance = 0.1;
-  std::vector<Low_stretch_map> maps;
-  for(const unsigned int threads : {1u, 3u}) {
-    const CGAL::Blocked_execution::Thread_scope scope(threads);
-    maps.push_back(low_stretch_map(mesh, options));
-    EXPECT_EQ(error_in_map(mesh, maps.back()), "") << seed;
+  for(const bool is_one_to_one : {false, true}) { // borders wait then, see `insert_pass()`
+    options.is_one_to_one = is_one_to_one;
+    std::vector<Low_stretch_map> maps;
+    for(const unsigned int threads : {1u, 3u}) {
+      const CGAL::Blocked_execution::Thread_scope scope(threads);
+      maps.push_back(low_stretch_map(mesh, options));
+      EXPECT_EQ(error_in_map(mesh, maps.back()), "") << seed;
+    }
+    EXPECT_EQ(maps[0].uv, maps[1].uv) << is_one_to_one;
+    EXPECT_TRUE(!is_one_to_one || is_simple_border(CGAL::Indexed_mesh::border_edges(mesh.triangles), maps[0].uv));
   }
-  EXPECT_EQ(maps[0].uv, maps[1].uv);
 }
 
+// In other units and places the map is the same but for rounding.
 TEST(Low_stretch_map, units_do_not_matter)
 {
   const Indexed_triangle_mesh mesh = with_hills(irregular_grid(40, 30, seed), 8., seed);

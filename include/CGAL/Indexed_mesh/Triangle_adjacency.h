@@ -195,21 +195,25 @@ private:
 /// \ingroup PkgHLSCMIndexedMesh
 /// Returns for each of `n` corners, which are halfedges too, the first corner of its wedge: of the
 /// corners at the same vertex that are connected across open edges. `across(h)` is the halfedge on
-/// the other side of `h`, or `no_halfedge` if the edge is not open.
+/// the other side of `h`, whose other side is `h`, or `no_halfedge` if the edge is not open. Linear time.
 template <class Across>
 std::vector<Halfedge> first_corners_of_wedges(std::size_t n, const Across& across)
 {
-  Disjoint_sets corners(n);
+  std::vector<Halfedge> first(n, no_halfedge);
   for(Halfedge h = 0; h < n; ++h) {
-    const Halfedge opposite = across(h);
-    if(opposite == no_halfedge)
+    if(first[h] != no_halfedge)
       continue;
-    corners.join(h, next_halfedge(opposite));
-    corners.join(next_halfedge(h), opposite);
+    first[h] = h;
+    const auto go_around = [&](const auto& next) {
+      for(Halfedge c = next(h); c != no_halfedge && first[c] == no_halfedge; c = next(c))
+        first[c] = h;
+    };
+    go_around([&](Halfedge c) {
+      const Halfedge opposite = across(c);
+      return opposite == no_halfedge ? opposite : next_halfedge(opposite);
+    });
+    go_around([&](Halfedge c) { return across(previous_halfedge(c)); });
   }
-  std::vector<Halfedge> first(n);
-  for(Halfedge h = 0; h < n; ++h)
-    first[h] = corners.find(h);
   return first;
 }
 

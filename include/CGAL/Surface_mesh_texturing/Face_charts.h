@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_FACE_CHARTS_H
 #define CGAL_SURFACE_MESH_TEXTURING_FACE_CHARTS_H
 
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Indexed_mesh/Indexed_triangle_mesh.h>
 #include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 #include <CGAL/Indexed_mesh/mesh_error.h>
@@ -338,10 +339,11 @@ std::vector<Chart_mesh> cut_out_charts(const Indexed_triangle_mesh& mesh,
   std::vector<std::vector<Triangle_index>> triangles(charts.number_of_charts);
   for(Triangle_index t = 0; t < mesh.triangles.size(); ++t)
     triangles[charts.chart[t]].push_back(t);
-  Chart_cutter<Adjacency> cut(mesh, adjacency);
-  std::vector<Chart_mesh> result;
-  for(std::vector<Triangle_index>& chart : triangles)
-    result.push_back(cut(std::move(chart), [&](Halfedge h) { return !charts.is_seam(h); }));
+  Chart_cutter<Adjacency> cut(mesh, adjacency); // each chart touches what is of its triangles alone
+  std::vector<Chart_mesh> result(charts.number_of_charts);
+  Blocked_execution::blocked_for(result.size(), 1, [&](std::size_t c, std::size_t) {
+    result[c] = cut(std::move(triangles[c]), [&](Halfedge h) { return !charts.is_seam(h); });
+  });
   return result;
 }
 
@@ -367,9 +369,8 @@ inline std::vector<Chart_mesh> chart_meshes(const Indexed_triangle_mesh& mesh,
 inline std::vector<Chart_mesh> chart_meshes(const Indexed_triangle_mesh& mesh,
                                             const Face_charts& charts)
 {
-  if(!surface_error(mesh).empty())
-    return {};
-  return chart_meshes(mesh, Indexed_mesh::Triangle_adjacency(mesh.triangles), charts);
+  return surface_error(mesh).empty() ? chart_meshes(mesh, Indexed_mesh::Triangle_adjacency(mesh.triangles), charts)
+                                     : std::vector<Chart_mesh>();
 }
 
 using Surface_mesh_multiresolution::Textured_triangle_mesh;

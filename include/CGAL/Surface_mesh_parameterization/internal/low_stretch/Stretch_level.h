@@ -6,6 +6,7 @@
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Indexed_mesh/Triangle_adjacency.h>
+#include <CGAL/Multigrid/vector_operations.h>
 #include <CGAL/Surface_mesh_parameterization/Stretch_element.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Border_barrier.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Border_guard.h>
@@ -15,6 +16,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <limits>
 #include <optional>
@@ -59,7 +61,7 @@ public:
     , m_is_fixed(std::move(is_fixed)), m_places(std::move(places))
   {
     m_references.resize(triangles.size());
-    for_each(triangles.size(), [&](std::size_t t) { m_references[t] = reference(t); });
+    Multigrid::for_each_index(triangles.size(), [&](std::size_t t) { m_references[t] = reference(t); });
     m_area = Blocked_execution::blocked_sum<double>(
       triangles.size(), block_size, [this](std::size_t begin, std::size_t end) {
         double sum = 0.;
@@ -177,15 +179,6 @@ private:
   static constexpr std::size_t block_size = 16384;
   static constexpr double infinity = (std::numeric_limits<double>::infinity)();
 
-  template <class Body>
-  static void for_each(std::size_t n, const Body& body)
-  {
-    Blocked_execution::blocked_for(n, block_size, [&](std::size_t begin, std::size_t end) {
-      for(std::size_t i = begin; i < end; ++i)
-        body(i);
-    });
-  }
-
   std::array<Plane_point, 3> corners_at(const Places& z, std::size_t t) const
   {
     const Triangle_indices& v = m_triangles[t];
@@ -194,12 +187,26 @@ private:
 
   double barrier_at(const Places& z) const { return m_barrier ? m_barrier->energy_at(z) : 0.; }
 
+  // Calls `use` for the corners of the triangles at v.
+  template <class Use>
+  void for_each_corner_around(Vertex_index v, const Use& use) const
+  {
+    for(const Halfedge* c = m_corners.begin(v); c != m_corners.end(v); ++c)
+      for(const Vertex_index w : m_triangles[triangle_of(*c)])
+        use(w);
+  }
+  bool has_ring_within(Vertex_index v, std::size_t begin, std::size_t end) const
+  {
+    bool is_within = true;
+    for_each_corner_around(v, [&](Vertex_index w) { is_within = is_within && begin <= w && w < end; });
+    return is_within;
+  }
   double relax(Vertex_index v, Stretched_star& star, Border_guard* guard);
   double longest_step(const Places& direction) const;
   Places moved(const Places& direction, double t) const
   {
     Places result(size());
-    for_each(size(), [&](std::size_t v) { result[v] = m_places[v] + direction[v] * t; });
+    Multigrid::for_each_index(size(), [&](std::size_t v) { result[v] = m_places[v] + direction[v] * t; });
     return result;
   }
 
@@ -284,25 +291,43 @@ double Stretch_level<Energy>::relax(Vertex_index v, Stretched_star& star, Border
   return gain;
 }
 
+// First, block by block, the vertices whose neighbours are in the same block and, where borders are kept
+// apart, that are on none; then the others.
 template <class Energy>
 double Stretch_level<Energy>::sweep(double share_of_queue)
 {
   const double much = 1e-6 * m_value, before = m_value;
   const Places places_before = m_barrier ? m_places : Places();
-  Stretched_star star;
   Border_guard guard(m_barrier ? m_barrier->loops() : Border_loops(), m_places, Border_barrier::reach);
+  enum State : std::uint8_t { IS_DONE, IS_LEFT, HAS_CHANGED };
+  std::vector<State> state(size());
+  const auto take_step = [&](Vertex_index v, Stretched_star& star) {
+    state[v] = relax(v, star, &guard) > much ? HAS_CHANGED : IS_DONE;
+  };
+  Blocked_execution::blocked_for(size(), block_size, [&](std::size_t begin, std::size_t end) {
+    Stretched_star star;
+    for(Vertex_index v = Vertex_index(begin); v < end; ++v)
+      if((m_barrier && m_border[v]) || !has_ring_within(v, begin, end))
+        state[v] = IS_LEFT;
+      else
+        take_step(v, star);
+  });
+  Stretched_star star;
   std::deque<Vertex_index> queue;
   std::vector<bool> is_queued(size(), false);
   const auto push_with_ring = [&](Vertex_index v) {
-    for(const Halfedge* c = m_corners.begin(v); c != m_corners.end(v); ++c)
-      for(const Vertex_index w : m_triangles[triangle_of(*c)])
-        if(!is_queued[w]) {
-          is_queued[w] = true;
-          queue.push_back(w);
-        }
+    for_each_corner_around(v, [&](Vertex_index w) {
+      if(!is_queued[w]) {
+        is_queued[w] = true;
+        queue.push_back(w);
+      }
+    });
   };
   for(Vertex_index v = 0; v < size(); ++v)
-    if(relax(v, star, &guard) > much)
+    if(state[v] == IS_LEFT)
+      take_step(v, star);
+  for(Vertex_index v = 0; v < size(); ++v)
+    if(state[v] == HAS_CHANGED)
       push_with_ring(v);
   std::size_t steps = std::size_t(share_of_queue * double(size()));
   for(; steps > 0 && !queue.empty(); --steps) {

@@ -30,7 +30,8 @@ struct Insertion_part
 {
   std::size_t first, last;
   Vertex_index low, high;
-  std::vector<Vertex_index> crowded; // around which vertices beyond the bounds give way, too
+  std::vector<std::size_t> waiting;  // collapses that cannot be undone without others, the last one first
+  std::vector<Vertex_index> crowded; // around which vertices beyond the bounds, or of borders, give way, too
 };
 
 // Cuts the collapses [first, last) of one pass, whose vertices ascend, into such parts; `rings` are those
@@ -58,12 +59,12 @@ insertion_parts(const Indexed_mesh::Vertex_rings& rings,
     high[i] = (std::max)(high[i], high[i - 1]);
     low[n - 1 - i] = (std::min)(low[n - 1 - i], low[n - i]);
   }
-  std::vector<Insertion_part> parts = {{first, last, 0, Vertex_index(rings.size()), {}}};
+  std::vector<Insertion_part> parts = {{first, last, 0, Vertex_index(rings.size()), {}, {}}};
   for(std::size_t i = least_size; i + least_size <= n; ++i)
     if(high[i - 1] < low[i] && first + i - parts.back().first >= least_size) {
       parts.back().last = first + i;
       parts.back().high = low[i];
-      parts.push_back({first + i, last, low[i], Vertex_index(rings.size()), {}});
+      parts.push_back({first + i, last, low[i], Vertex_index(rings.size()), {}, {}});
     }
   return parts;
 }
@@ -92,15 +93,13 @@ public:
     , m_guard(guard)
   {}
 
-  // The same for one part of a pass while others undo other ones; not with a guard.
+  // The same for one part of a pass while others undo other ones. The guard is not used then: borders wait.
   Vertex_insertion for_part(Insertion_part& part) const
   {
-    Vertex_insertion result(m_rings, m_places, m_is_fixed, m_metric, m_energy, nullptr);
+    Vertex_insertion result(m_rings, m_places, m_is_fixed, m_metric, m_energy, m_guard);
     result.m_part = &part;
     return result;
   }
-
-  bool has_guard() const { return m_guard != nullptr; }
 
   // Undoes a collapse. Where the energy is more than twice `mean` an area, the neighbourhood gives
   // way. Returns whether there was a place for the vertex that rounding knows of; in a part, whether it
@@ -109,7 +108,7 @@ public:
   {
     constexpr int attempts = 10;
     const Vertex_index v = c.removed;
-    if(m_part != nullptr && m_rings.needs_new_spill_to_split(v, c.kept))
+    if(m_part != nullptr && (is_guarded(v) || m_rings.needs_new_spill_to_split(v, c.kept)))
       return false;
     std::pair<double, bool> placed = place(v, c.kept);
     if(m_part != nullptr && !placed.second)
@@ -122,7 +121,7 @@ public:
     if(!placed.second)
       return false;
     m_rings.split(v, c.kept);
-    if(m_guard != nullptr && m_rings.is_border(v))
+    if(is_guarded(v))
       m_guard->insert(v, previous(v), m_rings.ring(v)[0]);
     if(!(placed.first > 2. * mean * m_star.area()))
       return true;
@@ -149,12 +148,14 @@ public:
   }
 
 private:
+  bool is_guarded(Vertex_index v) const { return m_guard != nullptr && m_rings.is_border(v); }
+
   // Whether all that counts where v and its neighbours are relaxed belongs to the part.
   bool is_within_part(Vertex_index v) const
   {
     const auto has_ring = [this](Vertex_index w) {
       const Vertex_index* r = m_rings.ring(w);
-      return std::all_of(r, r + m_rings.degree(w), [this](Vertex_index x) {
+      return !is_guarded(w) && std::all_of(r, r + m_rings.degree(w), [this](Vertex_index x) {
         return m_part->low <= x && x < m_part->high;
       });
     };
@@ -198,7 +199,7 @@ private:
       return {energy, false};
     for(int i = 0; i < steps && m_star.improve(z, energy, m_energy) > enough * energy; ++i)
       ;
-    if(m_guard != nullptr && m_rings.is_border(v) && !keep_off_border(v, z, energy))
+    if(is_guarded(v) && !keep_off_border(v, z, energy))
       return {energy, false};
     m_places[v] = z;
     return {energy, true};
@@ -245,7 +246,7 @@ private:
       return {before, energy};
     Plane_point z = m_places[v];
     m_star.improve(z, energy, m_energy);
-    if(m_guard != nullptr && m_rings.is_border(v)) {
+    if(is_guarded(v)) {
       if(!m_guard->allows_move(z, v))
         return {before, before};
       m_places[v] = z;
@@ -283,26 +284,39 @@ bool insert_pass(Insertion insertion, const Indexed_mesh::Vertex_rings& rings,
                  const std::vector<Surface_mesh_multiresolution::Halfedge_collapse>& collapses,
                  std::size_t first, std::size_t last, double mean, const Undo& undo)
 {
-  const auto insert = [&](std::size_t begin, std::size_t& end, Insertion& some) {
-    for(; end > begin; --end) {
-      undo(end - 1);
-      if(!some(collapses[end - 1], mean))
-        return false;
-    }
-    return true;
+  const auto insert = [&](std::size_t i, Insertion& some) {
+    undo(i);
+    return some(collapses[i], mean);
   };
-  std::vector<Insertion_part> parts;
-  if(!insertion.has_guard())
-    parts = insertion_parts(rings, collapses, first, last);
-  if(parts.size() < 2)
-    return insert(first, last, insertion);
-  Blocked_execution::blocked_for(parts.size(), 1, [&](std::size_t i, std::size_t) {
-    Insertion some = insertion.for_part(parts[i]);
-    insert(parts[i].first, parts[i].last, some);
+  std::vector<Insertion_part> parts = insertion_parts(rings, collapses, first, last);
+  if(parts.size() < 2) {
+    while(last > first)
+      if(!insert(--last, insertion))
+        return false;
+    return true;
+  }
+  std::vector<std::uint8_t> waits(rings.size(), 0); // the vertices around those that wait
+  const auto for_each_around = [&](Vertex_index v, const auto& use) {
+    use(v);
+    for(std::uint32_t k = 0; k < rings.degree(v); ++k)
+      use(rings.ring(v)[k]);
+  };
+  Blocked_execution::blocked_for(parts.size(), 1, [&](std::size_t p, std::size_t) {
+    Insertion some = insertion.for_part(parts[p]);
+    for(std::size_t i = parts[p].last; i-- > parts[p].first;) {
+      const Vertex_index v = collapses[i].removed;
+      bool must_wait = false;
+      for_each_around(v, [&](Vertex_index w) { must_wait = must_wait || waits[w] != 0; });
+      if(!must_wait && insert(i, some))
+        continue;
+      for_each_around(v, [&](Vertex_index w) { waits[w] = 1; });
+      parts[p].waiting.push_back(i);
+    }
   });
-  for(Insertion_part& part : parts) { // what is left
-    if(!insert(part.first, part.last, insertion))
-      return false;
+  for(const Insertion_part& part : parts) {
+    for(const std::size_t i : part.waiting)
+      if(!insert(i, insertion))
+        return false;
     for(const Vertex_index v : part.crowded)
       insertion.relax_crowd(v);
   }

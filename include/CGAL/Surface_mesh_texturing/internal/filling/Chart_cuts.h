@@ -4,6 +4,7 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_FILLING_CHART_CUTS_H
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_FILLING_CHART_CUTS_H
 
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/map_charts.h>
 #include <CGAL/Surface_mesh_texturing/internal/filling/Chord_finder.h>
@@ -215,9 +216,10 @@ inline Chart_cut_finder::Path Chart_cut_finder::find_path(Vertex_index a, Vertex
   reached[a].price = 0.;
   std::priority_queue<Offer, std::vector<Offer>, std::greater<Offer>> offers;
   offers.push({0., a});
-  const auto offer = [&](Vertex_index v, Vertex_index w, Halfedge h, double so_far) {
+  const auto offer = [&](Vertex_index v, Halfedge h, double so_far) {
+    const Vertex_index w = vertex_of(triangles(), next_halfedge(h));
     const Halfedge opposite = m_adjacency->opposite(h);
-    if(opposite == no_halfedge || (m_is_on_border[w] && w != b)
+    if(opposite == no_halfedge || !(so_far < reached[w].price) || (m_is_on_border[w] && w != b)
        || (!m_no_seams.empty() && (is_marked(m_no_seams, h) || is_marked(m_no_seams, opposite))))
       return;
     const Vector_2d p = at(v), q = at(w);
@@ -237,11 +239,8 @@ inline Chart_cut_finder::Path Chart_cut_finder::find_path(Vertex_index a, Vertex
       break;
     if(sum > reached[v].price)
       continue;
-    for(const Halfedge* h = m_corners->begin(v); h != m_corners->end(v); ++h) {
-      offer(v, vertex_of(triangles(), next_halfedge(*h)), *h, sum);
-      const Halfedge before = previous_halfedge(*h);
-      offer(v, vertex_of(triangles(), before), before, sum);
-    }
+    for(const Halfedge* h = m_corners->begin(v); h != m_corners->end(v); ++h)
+      offer(v, *h, sum);
   }
   Path path;
   if(reached[b].price == never)
@@ -308,15 +307,14 @@ inline std::vector<Chart_cut> Chart_cut_finder::find()
   for(const Vertex_index v : m_loop)
     m_is_on_border[v] = true;
   constexpr double never = 1e300, across = 0.25, along = 0.95;
+  std::vector<Chord> chosen;
   const auto take = [&](const auto& cost) {
     const auto less = [&](const Chord& c, const Chord& d) { return cost(c) < cost(d); };
     const auto best = std::min_element(chords.begin(), chords.end(), less);
     if(best->is_out || !(cost(*best) < never))
       return;
-    Chart_cut cut;
-    if(make(*best, ends, cut))
-      result.push_back(std::move(cut));
     const Chord taken = *best;
+    chosen.push_back(taken);
     const auto apart = [](std::size_t i, std::size_t j) { return i > j ? i - j : j - i; };
     for(Chord& c : chords)
       c.is_out = c.is_out
@@ -348,6 +346,14 @@ inline std::vector<Chart_cut> Chart_cut_finder::find()
   take(crossing(0., 0.25));
   take(of_hulls);
   take(lengthwise(0., 0.35));
+  std::vector<Chart_cut> cuts(chosen.size());
+  std::vector<std::uint8_t> is_cut(chosen.size());
+  Blocked_execution::blocked_for(chosen.size(), 1, [&](std::size_t i, std::size_t) {
+    is_cut[i] = make(chosen[i], ends, cuts[i]);
+  });
+  for(std::size_t i = 0; i < cuts.size(); ++i)
+    if(is_cut[i])
+      result.push_back(std::move(cuts[i]));
   return result;
 }
 
