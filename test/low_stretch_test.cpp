@@ -24,6 +24,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -265,6 +266,46 @@ TEST(Low_stretch_insertion, parts_have_nothing_in_common)
       rings.split(pm.collapses[i].removed, pm.collapses[i].kept);
   }
   EXPECT_GE(passes_in_parts, 2u);
+}
+
+// Whatever waits, if what must wait for it does, too, the rings are in the end what they were.
+TEST(Low_stretch_insertion, what_waits_is_undone_later)
+{
+  typedef CGAL::Surface_mesh_multiresolution::Progressive_mesh Progressive_mesh;
+  const Indexed_triangle_mesh mesh = large_chart(60, 50);
+  const Vertex_rings rings_of_mesh(mesh);
+  Vertex_rings rings;
+  const Progressive_mesh pm = low_stretch::collapse_to_few(mesh, Vertex_rings(mesh), {}, 40,
+                                                        low_stretch::Border_rule::ANY, {}, rings);
+  const auto undo = [&](std::size_t i) { rings.split(pm.collapses[i].removed, pm.collapses[i].kept); };
+  std::mt19937 random(seed);
+  std::size_t all_waiting = 0, by_chance = 0;
+  for(std::size_t pass = pm.batch_ends.size(); pass-- > 0;) {
+    low_stretch::Waiting_collapses waiting(rings);
+    std::vector<std::size_t> later;
+    for(std::size_t i = pm.batch_ends[pass]; i-- > (pass == 0 ? 0 : pm.batch_ends[pass - 1]);) {
+      const bool waits_by_chance = random() % 20 == 0;
+      if(waits_by_chance || waiting.are_before(pm.collapses[i])) {
+        waiting.add(pm.collapses[i]);
+        later.push_back(i);
+        by_chance += waits_by_chance ? 1 : 0;
+      } else
+        undo(i);
+    }
+    for(const std::size_t i : later)
+      undo(i);
+    all_waiting += later.size();
+  }
+  EXPECT_GT(all_waiting, by_chance);
+  EXPECT_LT(all_waiting, 4 * by_chance);
+  const auto ring = [](const Vertex_rings& r, Vertex_index v) {
+    std::vector<Vertex_index> result(r.ring(v), r.ring(v) + r.degree(v));
+    if(!r.is_border(v))
+      std::rotate(result.begin(), std::min_element(result.begin(), result.end()), result.end());
+    return result;
+  };
+  for(Vertex_index v = 0; v < mesh.points.size(); ++v)
+    EXPECT_EQ(ring(rings, v), ring(rings_of_mesh, v)) << "seed " << seed << ", vertex " << v;
 }
 
 TEST(Low_stretch_insertion, threads_do_not_change_a_bit)

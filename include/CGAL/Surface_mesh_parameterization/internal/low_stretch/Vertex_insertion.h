@@ -277,6 +277,39 @@ private:
   std::vector<Vertex_index> m_ring;
 };
 
+// Collapses that have not been undone yet though others before them have: which of these must wait, too.
+// Each fills the star of the vertex that it removes. Those whose rings have not this vertex were in other
+// triangles, and can be undone in any order.
+class Waiting_collapses
+{
+public:
+  typedef Surface_mesh_multiresolution::Halfedge_collapse Halfedge_collapse;
+
+  explicit Waiting_collapses(const Indexed_mesh::Vertex_rings& rings)
+    : m_rings(rings), m_marks(rings.size(), 0)
+  {}
+
+  void add(const Halfedge_collapse& c)
+  {
+    m_marks[c.removed] |= IS_REMOVED;
+    m_marks[c.kept] |= IS_KEPT; // what is known of it changes with each collapse
+  }
+
+  bool are_before(const Halfedge_collapse& c) const
+  {
+    const Vertex_index* r = m_rings.ring(c.removed);
+    return (m_marks[c.kept] & IS_KEPT) != 0
+        || std::any_of(r, r + m_rings.degree(c.removed),
+                       [this](Vertex_index v) { return (m_marks[v] & IS_REMOVED) != 0; });
+  }
+
+private:
+  enum Mark : std::uint8_t { IS_REMOVED = 1, IS_KEPT = 2 };
+
+  const Indexed_mesh::Vertex_rings& m_rings;
+  std::vector<std::uint8_t> m_marks; // of each vertex
+};
+
 // Undoes the collapses [first, last) of one pass, the last one first, or those that have nothing to do
 // with each other at the same time. `undo(i)` is told of each before. Returns whether all were undone.
 template <class Insertion, class Undo>
@@ -295,23 +328,14 @@ bool insert_pass(Insertion insertion, const Indexed_mesh::Vertex_rings& rings,
         return false;
     return true;
   }
-  std::vector<std::uint8_t> waits(rings.size(), 0); // the vertices around those that wait
-  const auto for_each_around = [&](Vertex_index v, const auto& use) {
-    use(v);
-    for(std::uint32_t k = 0; k < rings.degree(v); ++k)
-      use(rings.ring(v)[k]);
-  };
+  Waiting_collapses waiting(rings);
   Blocked_execution::blocked_for(parts.size(), 1, [&](std::size_t p, std::size_t) {
     Insertion some = insertion.for_part(parts[p]);
-    for(std::size_t i = parts[p].last; i-- > parts[p].first;) {
-      const Vertex_index v = collapses[i].removed;
-      bool must_wait = false;
-      for_each_around(v, [&](Vertex_index w) { must_wait = must_wait || waits[w] != 0; });
-      if(!must_wait && insert(i, some))
-        continue;
-      for_each_around(v, [&](Vertex_index w) { waits[w] = 1; });
-      parts[p].waiting.push_back(i);
-    }
+    for(std::size_t i = parts[p].last; i-- > parts[p].first;)
+      if(waiting.are_before(collapses[i]) || !insert(i, some)) {
+        waiting.add(collapses[i]);
+        parts[p].waiting.push_back(i);
+      }
   });
   for(const Insertion_part& part : parts) {
     for(const std::size_t i : part.waiting)
