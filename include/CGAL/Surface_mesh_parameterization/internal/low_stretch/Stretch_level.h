@@ -323,12 +323,12 @@ double Stretch_level<Energy>::sweep(double share_of_queue)
       }
     });
   };
-  for(Vertex_index v = 0; v < size(); ++v)
+  for(Vertex_index v = 0; v < size(); ++v) {
     if(state[v] == IS_LEFT)
       take_step(v, star);
-  for(Vertex_index v = 0; v < size(); ++v)
     if(state[v] == HAS_CHANGED)
       push_with_ring(v);
+  }
   std::size_t steps = std::size_t(share_of_queue * double(size()));
   for(; steps > 0 && !queue.empty(); --steps) {
     const Vertex_index v = queue.front();

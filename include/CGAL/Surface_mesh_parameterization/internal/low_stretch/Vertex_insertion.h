@@ -96,7 +96,7 @@ public:
   // The same for one part of a pass while others undo other ones. The guard is not used then: borders wait.
   Vertex_insertion for_part(Insertion_part& part) const
   {
-    Vertex_insertion result(m_rings, m_places, m_is_fixed, m_metric, m_energy, m_guard);
+    Vertex_insertion result(*this);
     result.m_part = &part;
     return result;
   }

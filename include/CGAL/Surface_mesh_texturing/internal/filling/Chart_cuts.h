@@ -113,7 +113,7 @@ private:
     double seam = 0.; // its length, less along creases
   };
   Path find_path(Vertex_index a, Vertex_index b, double band) const;
-  bool make(const Chord& chord, const std::vector<std::size_t>& ends, Chart_cut& cut) const;
+  std::optional<Chart_cut> make(const Chord& chord, const std::vector<std::size_t>& ends) const;
 
   std::vector<Vector_2d> thinned(const Vertices& loop) const
   {
@@ -253,9 +253,9 @@ inline Chart_cut_finder::Path Chart_cut_finder::find_path(Vertex_index a, Vertex
   return path;
 }
 
-// The cut along edges near to a chord; returns whether there is one.
-inline bool Chart_cut_finder::make(const Chord& chord, const std::vector<std::size_t>& ends,
-                                   Chart_cut& cut) const
+// The cut along edges near to a chord, if there is one.
+inline std::optional<Chart_cut> Chart_cut_finder::make(const Chord& chord,
+                                                       const std::vector<std::size_t>& ends) const
 {
   constexpr double first_band = 0.03, widest = 0.35; // of the length of the chord
   constexpr double most_detour = 1.6, least_part = 0.04;
@@ -266,13 +266,14 @@ inline bool Chart_cut_finder::make(const Chord& chord, const std::vector<std::si
   Path path;
   for(; path.vertices.empty() && band < 4. * widest * chord.length; band *= 4.)
     path = find_path(m_loop[i], m_loop[j], (std::min)(band, widest * chord.length));
+  Chart_cut cut;
   cut.path = std::move(path.vertices);
   cut.length = path.seam / m_unit;
   double length = 0.;
   for(std::size_t k = 0; k + 1 < cut.path.size(); ++k)
     length += distance(at(cut.path[k]), at(cut.path[k + 1]));
   if(cut.path.empty() || length > most_detour * chord.length)
-    return false;
+    return std::nullopt;
   Vertices first(m_loop.begin() + i, m_loop.begin() + j);
   first.insert(first.end(), cut.path.rbegin(), cut.path.rend() - 1);
   Vertices second(m_loop.begin() + j, m_loop.end());
@@ -281,7 +282,9 @@ inline bool Chart_cut_finder::make(const Chord& chord, const std::vector<std::si
   cut.sides = {std::make_shared<Packable_shape>(polygon_outline(thinned(first), m_unit)),
                std::make_shared<Packable_shape>(polygon_outline(thinned(second), m_unit))};
   const double a = cut.sides[0]->outline().area, b = cut.sides[1]->outline().area;
-  return (std::min)(a, b) > least_part * (a + b);
+  if(!((std::min)(a, b) > least_part * (a + b)))
+    return std::nullopt;
+  return cut;
 }
 
 // Cuts where the convex hulls of the sides are much smaller than that of the chart, and cuts across
@@ -346,14 +349,13 @@ inline std::vector<Chart_cut> Chart_cut_finder::find()
   take(crossing(0., 0.25));
   take(of_hulls);
   take(lengthwise(0., 0.35));
-  std::vector<Chart_cut> cuts(chosen.size());
-  std::vector<std::uint8_t> is_cut(chosen.size());
+  std::vector<std::optional<Chart_cut>> cuts(chosen.size());
   Blocked_execution::blocked_for(chosen.size(), 1, [&](std::size_t i, std::size_t) {
-    is_cut[i] = make(chosen[i], ends, cuts[i]);
+    cuts[i] = make(chosen[i], ends);
   });
-  for(std::size_t i = 0; i < cuts.size(); ++i)
-    if(is_cut[i])
-      result.push_back(std::move(cuts[i]));
+  for(std::optional<Chart_cut>& cut : cuts)
+    if(cut)
+      result.push_back(std::move(*cut));
   return result;
 }
 
