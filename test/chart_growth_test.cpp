@@ -6,6 +6,7 @@
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_texturing/grow_charts.h>
+#include <CGAL/Surface_mesh_texturing/internal/charts/Chart_merger.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/Chart_state.h>
 #include <CGAL/Surface_mesh_texturing/internal/charts/grow_patches.h>
 
@@ -15,6 +16,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -262,6 +264,45 @@ TEST(Chart_growth, maps_with_little_stretch_make_fewer_charts)
     if(test_support::is_sanitized)
       break;
   }
+}
+
+// Maps with little stretch take long: no more of them are tried than the work that is allowed, but for a
+// few unions at a time.
+TEST(Chart_growth, work_for_maps_with_little_stretch_is_bounded)
+{
+  namespace internal = SMT::internal;
+  const auto dome = test_support::on_sphere(test_support::round_disk(14), 1.7);
+  const internal::Growth_surface surface(dome, {});
+  const std::vector<std::uint8_t> is_feature = internal::feature_edges(surface, 0.5);
+  internal::Patch_growth growth(surface, is_feature);
+  growth.grow(surface.size() / 25, 6);
+  const std::size_t number = growth.number_of_patches();
+  std::vector<std::uint32_t> all(number);
+  std::iota(all.begin(), all.end(), 0u);
+  SMT::Distortion_bound bound;
+  bound.area_scale = 1.3;
+  internal::Chart_merger merger(surface, is_feature, bound, 0.65, 1);
+  internal::Chart_state state = merger.start(growth.seams(), growth.patch(), number);
+  const auto merge = [&] {
+    const double before = merger.work();
+    merger.merge(state, all, internal::Merge_weights());
+    return merger.work() - before;
+  };
+  merge();
+  const std::size_t conformal = state.number_of_charts;
+  EXPECT_GT(conformal, 1u);
+  merger.allow_stretch(0.);
+  EXPECT_EQ(merge(), 0.);
+  EXPECT_EQ(state.number_of_charts, conformal);
+  merger.allow_stretch(1.);
+  const double some = merge(), most_of_union = 22.5 * double(surface.size());
+  EXPECT_GT(some, 1.);
+  EXPECT_LE(some, 1. + 2 * 4 * most_of_union);
+  const std::size_t fewer = state.number_of_charts;
+  merger.allow_stretch((std::numeric_limits<double>::infinity)());
+  EXPECT_GT(merge(), 0.);
+  EXPECT_LT(fewer, conformal);
+  EXPECT_LT(state.number_of_charts, fewer);
 }
 
 // A thorough search begins as the other one, takes no step back, and goes on where that ends.

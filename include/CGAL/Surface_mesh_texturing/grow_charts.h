@@ -51,7 +51,7 @@ struct Chart_growth_options
   /// end charts are merged if their union is within the bound then.
   bool may_stretch = true;
   /// How much is tried to get along with fewer charts: triangles that are mapped for each triangle
-  /// of the mesh.
+  /// of the mesh; of maps with little stretch as many as take six times as long.
   double effort = 150.;
   /// Whether the search uses all of this effort: where it finds nothing better any more, it takes more
   /// charts apart at a time.

@@ -53,10 +53,12 @@ public:
       m_area += a;
   }
 
-  // From now on charts may be mapped with little stretch, see `try_map()`.
-  void allow_stretch()
+  // From now on charts may be mapped with little stretch, see `try_map()`, until `merge()` has done so
+  // much more work.
+  void allow_stretch(double most_work)
   {
     m_may_stretch = true;
+    m_most_work = m_work + most_work;
     for(auto known = m_known.begin(); known != m_known.end();)
       known = is_worth_stretching(known->second.distortion, m_bound) ? m_known.erase(known)
                                                                      : std::next(known);
@@ -80,7 +82,7 @@ public:
         && trial.fill >= m_least_fill;
   }
 
-  std::size_t work() const { return m_work; } // triangles mapped so far
+  double work() const { return m_work; } // triangles mapped so far, as if all had been conformally
   void set_progress(std::function<bool()> goes_on) { m_goes_on = std::move(goes_on); }
 
 private:
@@ -137,14 +139,13 @@ private:
   Chart_cutter<Halfedge_triangles> m_cutter;
   std::vector<std::uint8_t> m_is_opened; // of each halfedge; all 0 between calls
   double m_area = 0.;
-  std::size_t m_work = 0;
+  double m_work = 0., m_most_work = (std::numeric_limits<double>::infinity)();
   std::size_t m_stamp = 0; // of the last candidate
   std::unordered_map<std::uint64_t, Trial_map> m_known; // by a hash of triangles and seams
   std::function<bool()> m_goes_on;
 };
 
-inline Chart_state Chart_merger::start(const Seam_graph& graph, const Indices& label,
-                                       std::size_t number)
+inline Chart_state Chart_merger::start(const Seam_graph& graph, const Indices& label, std::size_t number)
 {
   Chart_state state = {graph, label, std::vector<Chart_piece>(number), 0,
                        std::vector<std::size_t>(m_surface.number_of_components, 0)};
@@ -238,18 +239,17 @@ inline std::vector<Chart_union*> Chart_merger::try_arcs(const Chart_state& state
   });
   for(const Item& item : items) {
     m_known.insert_or_assign(item.key, item.candidate->trial);
-    m_work += item.chart.mesh.triangles.size();
+    m_work += item.candidate->trial.work * double(item.chart.mesh.triangles.size());
   }
   return fresh;
 }
 
-// Of a union that has not been mapped yet, about what it costs at least.
-inline double Chart_merger::cost(const Chart_state& state, const Pair& pair,
-                                 const Chart_union& candidate,
+// Of a union that has not been mapped yet, about what it costs; at least, where that is soon found out.
+inline double Chart_merger::cost(const Chart_state& state, const Pair& pair, const Chart_union& candidate,
                                  const Merge_weights& weights) const
 {
   const Chart_piece &a = state.pieces[pair.first], &b = state.pieces[pair.second];
-  constexpr double hope = 0.7; // for a union that may be less distorted than a part of it
+  const double hope = m_may_stretch ? 1.2 : 0.7; // for a union, which may be less distorted than a part
   const double parts = (std::max)(part_of_bound(a.trial.distortion), part_of_bound(b.trial.distortion));
   const double distortion = candidate.is_known ? part_of_bound(candidate.trial.distortion)
                                                : hope * (parts < 1. ? parts : 1.); // not a number without area
@@ -260,8 +260,7 @@ inline double Chart_merger::cost(const Chart_state& state, const Pair& pair,
        + weights.fill * (candidate.is_known ? 1. - candidate.trial.fill : 0.);
 }
 
-inline void Chart_merger::apply(Chart_state& state, const Pair& pair,
-                                const Chart_union& candidate) const
+inline void Chart_merger::apply(Chart_state& state, const Pair& pair, const Chart_union& candidate) const
 {
   Chart_piece both;
   both.triangles = state.union_of(pair);
@@ -334,13 +333,14 @@ inline void Chart_merger::merge(Chart_state& state, const Indices& active,
       best = candidates.find(o.pair);
       return best != candidates.end() && best->second.stamp == o.stamp && may_merge(state, o.pair);
     };
+    const bool is_worn = m_work >= m_most_work; // then nothing more is mapped
     Some_candidates unknown;
     while(!offers.empty() && unknown.size() < at_a_time) {
       const bool is_valid = may_be_taken(offers.top());
-      if(is_valid && best->second.is_known)
+      if(is_valid && best->second.is_known && !(is_worn && best->second.trial.is_draft))
         break;
       offers.pop();
-      if(is_valid)
+      if(is_valid && !is_worn)
         unknown.push_back(&*best);
     }
     if(!unknown.empty()) {

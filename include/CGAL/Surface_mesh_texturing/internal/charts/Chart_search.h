@@ -130,7 +130,7 @@ private:
   std::vector<std::uint32_t> charts_by_area() const;
   bool tell_progress();
   bool is_enough() const { return m_options.is_enough && m_options.is_enough(); }
-  bool is_worn() const { return double(m_merger.work()) >= m_most_work || is_enough(); }
+  bool is_worn() const { return m_merger.work() >= m_most_work || is_enough(); }
 
   const Growth_surface& m_surface;
   const Search_options& m_options;
@@ -146,7 +146,7 @@ private:
 inline bool Chart_search::tell_progress()
 {
   if(!m_is_cancelled && m_options.progress)
-    m_is_cancelled = !m_options.progress((std::min)(1., double(m_merger.work()) / m_most_work));
+    m_is_cancelled = !m_options.progress((std::min)(1., m_merger.work() / m_most_work));
   return !m_is_cancelled;
 }
 
@@ -182,7 +182,8 @@ inline bool Chart_search::run()
   m_merger.merge(*m_best, all, Merge_weights());
   improve();
   if(m_options.may_stretch) { // from the first on there would be no fewer charts, and more stretched ones
-    m_merger.allow_stretch();
+    constexpr double share = 6.; // of the work of the search
+    m_merger.allow_stretch(share * m_most_work);
     m_merger.merge(*m_best, all, Merge_weights());
   }
   if(m_options.max_charts > 0)

@@ -82,6 +82,7 @@ struct Trial_map
   bool is_one_to_one = false; // no flipped triangle, and the border does not meet itself
   bool is_draft = false;      // the border may still meet itself; to be tried in full before it counts
   double fill = 0.;           // the part of its convex hull that the chart fills in the plane
+  double work = 1.;           // of mapping it, to that of mapping it conformally
 
   bool is_within(const Distortion_bound& bound) const
   {
@@ -136,7 +137,9 @@ inline Trial_map try_map(const Chart_mesh& chart, const Distortion_bound& bound,
   const Trial_map conformal = judge_map(chart, border, map.uv);
   if(!may_stretch || !is_worth_stretching(conformal.distortion, bound))
     return conformal;
+  double work = 1.;
   const auto stretched = [&](bool is_one_to_one) {
+    work += is_one_to_one ? 15. : 6.5; // as measured
     const std::vector<Trial_uv> uv = stretch_map(chart.mesh, is_one_to_one);
     return uv.empty() ? Trial_map() : judge_map(chart, border, uv);
   };
@@ -147,7 +150,10 @@ inline Trial_map try_map(const Chart_mesh& chart, const Distortion_bound& bound,
     else
       result = stretched(true);
   }
-  return result.is_within(bound) ? result : conformal;
+  if(!result.is_within(bound))
+    result = conformal;
+  result.work = work;
+  return result;
 }
 
 // A chart, or nothing if it has no triangles.
