@@ -297,7 +297,7 @@ TEST(Chart_growth, work_for_maps_with_little_stretch_is_bounded)
   merger.allow_stretch(1.);
   const double some = merge(), most_of_union = 22.5 * double(surface.size());
   EXPECT_GT(some, 1.);
-  EXPECT_LE(some, 1. + 2 * 4 * most_of_union);
+  EXPECT_LE(some, 1. + 4. * most_of_union);
   const std::size_t fewer = state.number_of_charts;
   merger.allow_stretch((std::numeric_limits<double>::infinity)());
   EXPECT_GT(merge(), 0.);
