@@ -244,7 +244,7 @@ inline std::vector<Chart_union*> Chart_merger::try_arcs(const Chart_state& state
   return fresh;
 }
 
-// Of a union that has not been mapped yet, about what it costs; at least, where that is soon found out.
+// Of a union that has not been mapped yet, what it costs at least; where maps take long, what it may cost.
 inline double Chart_merger::cost(const Chart_state& state, const Pair& pair, const Chart_union& candidate,
                                  const Merge_weights& weights) const
 {
