@@ -431,7 +431,23 @@ TEST(Chart_bending, is_for_all_but_charts_at_their_bounds)
     stretched.is_affine = true;
     const std::vector<double> areas = areas_of(stretched);
     const SMT::internal::Chart_mapping mapping = {};
-    SMT::internal::bend_charts({0.03}, options.packing, mapping, [] { return true; }, maps, packing);
+    const auto goes_on = [] { return true; };
+    const auto work_and_used = [&](double most_work) {
+      std::vector<SMT::internal::Mapped_chart> charts_bent = maps;
+      SMT::Packing_result packing_bent = packing;
+      SMT::internal::Bending amount = {0.15}; // takes many steps
+      amount.most_work = most_work;
+      const double work
+        = SMT::internal::bend_charts(amount, options.packing, mapping, goes_on, charts_bent, packing_bent);
+      return std::make_pair(work, packing_bent.utilisation);
+    };
+    const auto little = work_and_used(0.), any = work_and_used(std::numeric_limits<double>::infinity());
+    EXPECT_LE(little.first, any.first) << bounded << seed_text;
+    if(bounded == 3) { // else most charts can hardly bend, and all soon stop
+      EXPECT_LT(little.first, any.first) << seed_text;
+    }
+    EXPECT_GE(little.second, rigid.report.utilisation) << bounded << seed_text;
+    SMT::internal::bend_charts({0.03}, options.packing, mapping, goes_on, maps, packing);
     EXPECT_GT(packing.utilisation, rigid.report.utilisation + 0.01) << bounded << seed_text;
     for(std::size_t i = 0; i < maps.size(); ++i) {
       const SMT::Chart_distortion after = SMT::measure_chart_distortion(maps[i].chart.mesh, maps[i].uv);

@@ -130,6 +130,31 @@ TEST(Page_filling, rectangles_become_squares)
   }
 }
 
+// Beyond the work that is allowed no more cuts are looked for, which only the one that is found by then may
+// follow.
+TEST(Page_filling, work_for_cuts_is_bounded)
+{
+  namespace internal = SMT::internal;
+  const Indexed_triangle_mesh strip = grid(160, 8);
+  const CGAL::Indexed_mesh::Triangle_adjacency adjacency(strip.triangles);
+  const std::vector<std::uint32_t> one_chart(strip.triangles.size(), 0);
+  const auto number_of_cuts = [&](double work) {
+    std::vector<internal::Mapped_chart> charts(1);
+    charts[0].chart = SMT::chart_meshes(strip, SMT::charts_of_labels(adjacency, one_chart))[0];
+    for(const Point_3& p : charts[0].chart.mesh.points)
+      charts[0].uv.emplace_back(p.x(), p.y());
+    charts[0].report.distortion = SMT::measure_chart_distortion(charts[0].chart.mesh, charts[0].uv);
+    const internal::Chart_mapping mapping = {};
+    internal::Page_filler filler(charts, with_price(0.).packing, mapping);
+    const std::size_t cuts = filler.run({0.005, 0.005, 1., 16, 0, work});
+    EXPECT_EQ(charts.size(), cuts + 1);
+    return cuts;
+  };
+  EXPECT_EQ(number_of_cuts(0.), 0u);
+  EXPECT_LE(number_of_cuts(1.), 1u);
+  EXPECT_GT(number_of_cuts(infinity), 1u);
+}
+
 TEST(Page_filling, cheaper_seams_give_no_fewer_cuts_and_a_limit_of_charts_holds)
 {
   for(const Named_mesh& shape : bad_shapes()) {

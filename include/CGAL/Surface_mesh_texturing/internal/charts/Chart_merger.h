@@ -105,11 +105,6 @@ private:
   {
     try_arcs(state, candidates, false);
   }
-  double part_of_bound(const Chart_distortion& distortion) const // 1 at the bound
-  {
-    return (std::max)(std::log(distortion.area_scale) / std::log(m_bound.area_scale),
-                      std::log(distortion.quasi_conformal) / std::log(m_bound.quasi_conformal));
-  }
   double cost(const Chart_state& state, const Pair& pair, const Chart_union& candidate,
               const Merge_weights& weights) const;
   bool may_merge(const Chart_state& state, const Pair& pair) const
@@ -125,7 +120,7 @@ private:
   bool is_far_beyond_bound(const Trial_map& trial) const
   {
     constexpr double much = 1.3; // the power of the bound
-    return trial.is_disk && part_of_bound(trial.distortion) > much;
+    return trial.is_disk && part_of_bound(trial.distortion, m_bound) > much;
   }
   Some_candidates merge_pair(Chart_state& state, const Pair& pair, Candidates& candidates);
   void apply(Chart_state& state, const Pair& pair, const Chart_union& candidate) const;
@@ -228,14 +223,15 @@ inline std::vector<Chart_union*> Chart_merger::try_arcs(const Chart_state& state
     Indices triangles = state.union_of(pair);
     const std::uint64_t key = hash_of(triangles, is_open);
     const auto known = m_known.find(key);
-    if(known != m_known.end() && is_enough(known->second))
+    if(known != m_known.end())
       candidate.trial = known->second;
-    else
+    if(known == m_known.end() || !is_enough(known->second))
       items.push_back({&candidate, key, m_cutter(std::move(triangles), is_open)});
     set_opened(candidate, 0);
   }
   Blocked_execution::blocked_for(items.size(), 1, [&](std::size_t i, std::size_t) {
-    items[i].candidate->trial = try_map(items[i].chart, m_bound, m_may_stretch, may_be_draft);
+    items[i].candidate->trial = may_be_draft ? try_draft(items[i].chart, m_bound, m_may_stretch)
+                                             : finished_draft(items[i].chart, m_bound);
   });
   for(const Item& item : items) {
     m_known.insert_or_assign(item.key, item.candidate->trial);
@@ -250,8 +246,9 @@ inline double Chart_merger::cost(const Chart_state& state, const Pair& pair, con
 {
   const Chart_piece &a = state.pieces[pair.first], &b = state.pieces[pair.second];
   const double hope = m_may_stretch ? 1.2 : 0.7; // for a union, which may be less distorted than a part
-  const double parts = (std::max)(part_of_bound(a.trial.distortion), part_of_bound(b.trial.distortion));
-  const double distortion = candidate.is_known ? part_of_bound(candidate.trial.distortion)
+  const auto part = [this](const Trial_map& trial) { return part_of_bound(trial.distortion, m_bound); };
+  const double parts = (std::max)(part(a.trial), part(b.trial));
+  const double distortion = candidate.is_known ? part(candidate.trial)
                                                : hope * (parts < 1. ? parts : 1.); // not a number without area
   return weights.distortion * distortion
        - weights.seam * candidate.removed / (std::min)(a.perimeter, b.perimeter)
@@ -326,37 +323,40 @@ inline void Chart_merger::merge(Chart_state& state, const Indices& active,
     add_candidates(state, c, candidates);
   for(const Candidates::value_type& item : candidates)
     offer(item);
-  constexpr std::size_t at_a_time = 4; // of those whose turn comes before they have been mapped
-  while(!m_goes_on || m_goes_on()) {
-    Candidates::iterator best;
-    const auto may_be_taken = [&](const Offer& o) {
+  Candidates::iterator best;
+  // Takes those from the offers whose turn comes before that of one that is not wanted, which `best` is then.
+  const auto take = [&](std::size_t most, const auto& is_wanted) {
+    Some_candidates result;
+    for(; !offers.empty() && result.size() < most; offers.pop()) {
+      const Offer& o = offers.top();
       best = candidates.find(o.pair);
-      return best != candidates.end() && best->second.stamp == o.stamp && may_merge(state, o.pair);
-    };
-    const bool is_worn = m_work >= m_most_work; // then nothing more is mapped
-    Some_candidates unknown;
-    while(!offers.empty() && unknown.size() < at_a_time) {
-      const bool is_valid = may_be_taken(offers.top());
-      if(is_valid && best->second.is_known && !(is_worn && best->second.trial.is_draft))
+      if(best == candidates.end() || best->second.stamp != o.stamp || !may_merge(state, o.pair))
+        continue;
+      if(!is_wanted(best->second))
         break;
-      offers.pop();
-      if(is_valid && !is_worn)
-        unknown.push_back(&*best);
+      result.push_back(&*best);
     }
-    if(!unknown.empty()) {
-      try_all(state, unknown);
-      for(const Candidates::value_type* item : unknown)
-        offer(*item);
-    } else if(offers.empty()) {
+    return result;
+  };
+  const auto is_draft = [](const Chart_union& c) { return c.is_known && c.trial.is_draft; };
+  constexpr std::size_t at_a_time = 4, drafts_at_a_time = 2; // of those that are mapped
+  while(!m_goes_on || m_goes_on()) {
+    const bool is_worn = m_work >= m_most_work; // then nothing more is mapped
+    Some_candidates some = take(at_a_time, [&](const Chart_union& c) {
+      return !c.is_known || (is_worn && is_draft(c));
+    });
+    if(is_worn && !some.empty())
+      continue;
+    if(!some.empty())
+      try_all(state, some);
+    else if(offers.empty())
       return;
-    } else if(best->second.trial.is_draft) {
-      offers.pop();
-      finish_drafts(state, {&*best});
-      offer(*best);
-    } else {
-      for(const Candidates::value_type* item : merge_pair(state, Pair(best->first), candidates))
-        offer(*item);
-    }
+    else if(is_draft(best->second))
+      finish_drafts(state, some = take(drafts_at_a_time, is_draft));
+    else
+      some = merge_pair(state, Pair(best->first), candidates);
+    for(const Candidates::value_type* item : some)
+      offer(*item);
   }
 }
 

@@ -40,6 +40,13 @@ inline bool is_worth_stretching(const Chart_distortion& conformal, const Distort
       && conformal.quasi_conformal <= bound.quasi_conformal;
 }
 
+// The power of the bound that a map needs: 1 at the bound.
+inline double part_of_bound(const Chart_distortion& distortion, const Distortion_bound& bound)
+{
+  return (std::max)(std::log(distortion.area_scale) / std::log(bound.area_scale),
+                    std::log(distortion.quasi_conformal) / std::log(bound.quasi_conformal));
+}
+
 typedef Simple_cartesian<double>::Point_2 Trial_uv;
 
 // A map with little stretch, without a flipped triangle, whose border may meet itself if it need not be
@@ -124,36 +131,53 @@ inline Trial_map judge_map(const Chart_mesh& chart, const std::vector<Border_edg
   return result;
 }
 
-// Maps the chart, if it is a disk, as the whole chart will be mapped later: conformally, or, if it may
-// be, with little stretch where only then it is within the bound. A draft leaves out what takes longest,
-// to keep the border of a map with little stretch from meeting itself.
-inline Trial_map try_map(const Chart_mesh& chart, const Distortion_bound& bound, bool may_stretch,
-                         bool may_be_draft = false)
+// Maps the chart, if it is a disk, conformally.
+inline Trial_map try_conformally(const Chart_mesh& chart)
 {
   const auto map = Surface_mesh_parameterization::border_first_map(chart.mesh);
-  if(!map.is_ok())
-    return {};
-  const std::vector<Border_edge> border = chart.border_edges();
-  const Trial_map conformal = judge_map(chart, border, map.uv);
-  if(!may_stretch || !is_worth_stretching(conformal.distortion, bound))
-    return conformal;
-  double work = 1.;
-  const auto stretched = [&](bool is_one_to_one) {
-    work += is_one_to_one ? 15. : 6.5; // as measured
-    const std::vector<Trial_uv> uv = stretch_map(chart.mesh, is_one_to_one);
-    return uv.empty() ? Trial_map() : judge_map(chart, border, uv);
-  };
-  Trial_map result = stretched(false);
-  if(result.is_disk && !result.is_one_to_one && result.distortion.is_within(bound)) {
-    if(may_be_draft)
-      result.is_draft = result.is_one_to_one = true;
-    else
-      result = stretched(true);
-  }
-  if(!result.is_within(bound))
-    result = conformal;
-  result.work = work;
+  return map.is_ok() ? judge_map(chart, chart.border_edges(), map.uv) : Trial_map();
+}
+
+// Maps a chart that is a disk with little stretch.
+inline Trial_map try_with_little_stretch(const Chart_mesh& chart, bool is_one_to_one)
+{
+  const std::vector<Trial_uv> uv = stretch_map(chart.mesh, is_one_to_one);
+  Trial_map result = uv.empty() ? Trial_map() : judge_map(chart, chart.border_edges(), uv);
+  result.work = is_one_to_one ? 15. : 6.5; // as measured
   return result;
+}
+
+// Maps the chart, if it is a disk, as the whole chart will be mapped later: conformally, or, if it may
+// be, with little stretch where only then it is within the bound. What takes longest, to keep the border
+// of a map with little stretch from meeting itself, is left to `finished_draft()`.
+inline Trial_map try_draft(const Chart_mesh& chart, const Distortion_bound& bound, bool may_stretch)
+{
+  Trial_map conformal = try_conformally(chart);
+  if(!conformal.is_disk || !may_stretch || !is_worth_stretching(conformal.distortion, bound))
+    return conformal;
+  Trial_map result = try_with_little_stretch(chart, false);
+  conformal.work += result.work;
+  result.work = conformal.work;
+  if(result.is_disk && !result.is_one_to_one && result.distortion.is_within(bound))
+    result.is_draft = result.is_one_to_one = true;
+  return result.is_within(bound) ? result : conformal;
+}
+
+// The map of a chart of which there is a draft.
+inline Trial_map finished_draft(const Chart_mesh& chart, const Distortion_bound& bound)
+{
+  const Trial_map result = try_with_little_stretch(chart, true);
+  if(result.is_within(bound))
+    return result;
+  Trial_map conformal = try_conformally(chart);
+  conformal.work += result.work;
+  return conformal;
+}
+
+inline Trial_map try_map(const Chart_mesh& chart, const Distortion_bound& bound, bool may_stretch)
+{
+  const Trial_map draft = try_draft(chart, bound, may_stretch);
+  return draft.is_draft ? finished_draft(chart, bound) : draft;
 }
 
 // A chart, or nothing if it has no triangles.

@@ -307,10 +307,7 @@ inline bool Texture_atlas_builder::pack()
   m_page_height = packing.height
     = best_page_height(m_options.largest_aspect, packing, mapping, m_maps);
   const Filled_packing::Pack pack_shapes
-    = [&](const std::vector<Chart_shape>& shapes, double more_time, bool may_be_draft) {
-        Packing_options options = packing;
-        options.time_budget += more_time;
-        options.is_draft = packing.is_draft && may_be_draft && !(more_time > 0.);
+    = [&](const std::vector<Chart_shape>& shapes, const Packing_options& options) {
         Packing_result result = m_models.pack(shapes, options);
         left *= 0.5;
         return result;
@@ -319,6 +316,8 @@ inline bool Texture_atlas_builder::pack()
   Bending usual = {m_options.bending};
   if(m_options.min_used > 0.)
     usual.most_charts *= 2; // what that gains is asked for
+  else
+    usual.most_work = 2e4 + double(m_mesh.triangles.size());
   if(may_bend())
     bend = [&](std::vector<Mapped_chart>& charts, Packing_result& packed, double fineness, bool is_wary) {
       Bending amount = usual;

@@ -23,13 +23,12 @@ namespace internal {
 class Filled_packing
 {
 public:
-  typedef std::function<Packing_result(const std::vector<Chart_shape>&, double more_time, bool may_be_draft)>
-    Pack;
+  typedef std::function<Packing_result(const std::vector<Chart_shape>&, const Packing_options&)> Pack;
   typedef std::function<double(std::vector<Mapped_chart>&, Packing_result&, double fineness, bool is_wary)>
     Bend;
 
-  // All of these must outlive this. `pack` is told for how many seconds more than usual it may search, and
-  // whether `Packing_options::is_draft` of `pages` counts.
+  // All of these must outlive this. `pack` gets the options of `pages`, not always as a draft where that is
+  // one, and with more or less time.
   // `bend`, which may be empty, is told in how many times finer detail than usual it shall be done, and
   // whether it shall be wary of invalid maps, and returns how much it did; the bounds of charts are those of
   // bent ones then.
@@ -47,10 +46,17 @@ public:
       cut_and_pack();
     else
       m_packing = pack();
+    Packed rigid;
+    if(m_pages.is_draft && m_packing.utilisation < poor && !(m_options.min_used > 0.))
+      rigid = copy();
     if(m_bend && m_packing.is_ok())
       bend_until_used();
-    if(m_pages.is_draft && m_packing.is_ok() && !m_is_bent && m_mapping.has_time())
-      search_in_full();
+    if(m_pages.is_draft && m_packing.is_ok() && m_mapping.has_time()) {
+      if(!m_is_bent)
+        search_in_full();
+      else if(m_packing.utilisation < poor && !rigid.charts.empty())
+        bend_from_full_search(std::move(rigid));
+    }
     if(missing() <= 0.)
       m_why_not_used.clear();
     else if(m_why_not_used.empty())
@@ -65,6 +71,7 @@ public:
   const std::string& why_not_used() const { return m_why_not_used; }
 
 private:
+  static constexpr double poor = 0.7;    // of the pages, so that it is worth while to pack in full
   static constexpr double little = 0.02; // of the pages, for which much is tried
   static constexpr double much = 0.1;    // of the pages, which a longer search does not find
   static constexpr double finest = 4.;   // of the finenesses of bending
@@ -108,7 +115,12 @@ private:
     for(const Mapped_chart& map : m_charts)
       shapes.push_back({map.uv, map.chart.mesh.triangles});
     m_is_bent = false;
-    return m_pack(shapes, m_more_time, may_be_draft);
+    constexpr double moment = 0.05; // seconds, which hardly make drafts better
+    Packing_options options = m_pages;
+    options.is_draft = m_pages.is_draft && may_be_draft && !(m_more_time > 0.);
+    options.time_budget
+      = options.is_draft ? (std::max)(0., m_pages.time_budget - moment) : m_pages.time_budget + m_more_time;
+    return m_pack(shapes, options);
   }
 
   // Takes a packing that is no draft, if it is denser.
@@ -124,12 +136,13 @@ private:
     constexpr std::size_t most_cuts = 16;
     constexpr double least_gain = 0.005, all = 1.;
     constexpr double safe = 0.06; // gains that are not lost to what the estimate does not know
+    const double most_work = 1e8 + 2e4 * double(number_of_triangles(m_charts)); // a tenth of a second, and more
     Page_filler filler(m_charts, m_pages, m_mapping);
     if(std::isfinite(m_options.seam_price)) {
       const double used = filler.used();
       std::vector<Mapped_chart> whole = m_charts;
       m_number_of_cuts
-        = filler.run({m_options.seam_price, least_gain, all, most_cuts, m_options.max_charts});
+        = filler.run({m_options.seam_price, least_gain, all, most_cuts, m_options.max_charts, most_work});
       m_packing = pack();
       if(m_number_of_cuts > 0 && filler.used() < used + safe && m_packing.is_ok())
         take_if_better(std::move(whole));
@@ -163,6 +176,18 @@ private:
     m_packing = std::move(packed.packing);
     m_number_of_cuts = packed.cuts;
     m_is_bent = packed.is_bent;
+  }
+
+  // Charts that were packed as a draft, and bent, are packed in full and bent from there; what is denser remains.
+  void bend_from_full_search(Packed rigid)
+  {
+    Packed bent = release();
+    take(std::move(rigid));
+    m_packing = pack(false);
+    if(m_packing.is_ok())
+      bend_until_used();
+    if(!m_packing.is_ok() || m_packing.utilisation < bent.packing.utilisation)
+      take(std::move(bent));
   }
 
   // Bends and cuts the charts; if then less is used than shall be, but not by much, does so once more from a
@@ -297,12 +322,13 @@ private:
     constexpr int failures_allowed = 3;
     constexpr std::size_t most_cuts = 4;
     constexpr double least_gain = -0.02, clearly_more = 0.002;
+    constexpr double any_work = (std::numeric_limits<double>::infinity)();
     std::vector<Mapped_chart> best = m_charts;
     std::size_t number = m_number_of_cuts;
     for(int failures = 0; failures < failures_allowed && m_mapping.has_time()
                           && m_packing.utilisation < goal;) {
       const std::size_t cuts
-        = filler.run({0., least_gain, 1., most_cuts, m_options.max_charts});
+        = filler.run({0., least_gain, 1., most_cuts, m_options.max_charts, any_work});
       if(cuts == 0)
         break;
       number += cuts;

@@ -4,12 +4,15 @@
 #ifndef CGAL_SURFACE_MESH_TEXTURING_INTERNAL_FILLING_PACKING_ESTIMATE_H
 #define CGAL_SURFACE_MESH_TEXTURING_INTERNAL_FILLING_PACKING_ESTIMATE_H
 
+#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_texturing/Chart_packing.h>
 #include <CGAL/Surface_mesh_texturing/internal/packing/Chart_outline.h>
 #include <CGAL/Surface_mesh_texturing/internal/packing/Chart_raster.h>
 #include <CGAL/Surface_mesh_texturing/internal/packing/Place_search.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -113,27 +116,32 @@ public:
     return low;
   }
 
-private:
-  static constexpr double levels_of_half = 64.;
-  static constexpr std::size_t orders = 2;
-  static constexpr int rotations = 8, rotations_alone = 48;
-
+  // Whether they can be packed at a level.
   bool fits(const std::vector<Packable>& shapes, int level) const
   {
     Packing_keys keys;
     for(const Packable& shape : shapes)
       keys.push_back(key_of(shape->outline()));
-    for(std::size_t i = 0; i < (shapes.size() == 1 ? 1 : orders); ++i)
-      if(fits(shapes, level, order_of(i == 0 ? keys : perturbed(keys, i))))
-        return true;
-    return false;
+    std::array<char, 2> fit = {}; // with each order
+    Blocked_execution::blocked_for(shapes.size() == 1 ? 1 : fit.size(), 1, [&](std::size_t i, std::size_t) {
+      fit[i] = fits(shapes, level, order_of(i == 0 ? keys : perturbed(keys, i))) ? 1 : 0;
+    });
+    return fit[0] || fit[1];
   }
+
+  // The positions of all shapes that were packed so far, most of which need no look.
+  double work() const { return double(m_work); }
+
+private:
+  static constexpr double levels_of_half = 64.;
+  static constexpr int rotations = 8, rotations_alone = 48;
 
   bool fits(const std::vector<Packable>& shapes, int level, const std::vector<std::uint32_t>& order) const
   {
     const int directions = shapes.size() == 1 ? rotations_alone : rotations;
     std::vector<Page_raster> pages;
     for(const std::uint32_t shape : order) {
+      m_work += std::uint64_t(directions) * std::uint64_t(m_raster.width) * std::uint64_t(m_raster.height);
       const std::vector<Chart_raster>& rasters
         = shapes[shape]->rasters(level, density(level), directions, m_raster);
       Place_search search(Place_criterion::SNUG);
@@ -154,6 +162,7 @@ private:
   std::size_t m_pages;
   Packing_raster m_raster;
   double m_highest; // the density of level 0
+  mutable std::atomic<std::uint64_t> m_work{0};
 };
 
 } // namespace internal

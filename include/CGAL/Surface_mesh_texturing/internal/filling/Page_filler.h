@@ -34,6 +34,7 @@ public:
     double enough;      // no cut is needed once this part of the pages is used
     std::size_t most_cuts;
     std::size_t most_charts; // 0 for any number
+    double most_work;        // see `Packing_estimate::work()`
   };
 
   // All of these must outlive this. `is_over()` says when to stop.
@@ -60,9 +61,10 @@ private:
   void estimate(const Terms& terms, std::vector<Candidate>& candidates) const;
   std::vector<Mapped_chart> parts_of(const Cut_sides& sides, const Mapped_chart& whole,
                                      const Triangle_adjacency& adjacency) const;
-  int level_with(std::size_t chart, const std::vector<Packable>& parts, int least,
-                 std::vector<Packable>& shapes) const;
+  std::vector<Packable> shapes_with(std::size_t chart, const std::vector<Packable>& parts) const;
   bool apply(const Terms& terms, const Candidate& candidate);
+
+  bool may_go_on() const { return m_mapping.has_time() && m_estimate.work() < m_most_work; }
 
   // The length of a cut in sides of a page.
   double in_sides(double length) const { return length * m_estimate.density(m_level) / m_side; }
@@ -80,6 +82,7 @@ private:
   std::vector<Cuts> m_cuts; // of each chart
   Packing_estimate m_estimate;
   int m_level = 0;      // of the packing so far
+  double m_most_work = 0.;
   double m_paid = 0.;   // for seams, in parts of the pages
 };
 
@@ -149,10 +152,10 @@ inline Page_filler::Page_filler(std::vector<Mapped_chart>& charts, const Packing
 inline std::size_t Page_filler::run(const Terms& terms)
 {
   std::size_t cuts = 0;
+  m_most_work = m_estimate.work() + terms.most_work;
   const auto may_cut = [&](std::size_t more) {
     return cuts + more <= terms.most_cuts && used() < terms.enough
-        && (terms.most_charts == 0 || m_charts.size() + more <= terms.most_charts)
-        && m_mapping.has_time();
+        && (terms.most_charts == 0 || m_charts.size() + more <= terms.most_charts) && may_go_on();
   };
   constexpr double poor = 0.7;
   while(may_cut(1))
@@ -221,7 +224,7 @@ inline void Page_filler::estimate(const Terms& terms, std::vector<Candidate>& ca
 {
   constexpr std::size_t at_a_time = 4;
   double best = terms.least_gain;
-  for(std::size_t begin = 0; begin < candidates.size() && m_mapping.has_time();
+  for(std::size_t begin = 0; begin < candidates.size() && may_go_on();
       begin += at_a_time) {
     const std::size_t end = (std::min)(candidates.size(), begin + at_a_time);
     Blocked_execution::blocked_for(end - begin, 1, [&](std::size_t i, std::size_t) {
@@ -233,8 +236,7 @@ inline void Page_filler::estimate(const Terms& terms, std::vector<Candidate>& ca
       const int least = needed < 1. ? Packing_estimate::level_of(needed) : 1;
       if(least > 0)
         return;
-      std::vector<Packable> shapes;
-      c.level = level_with(c.chart, {cut.sides[0], cut.sides[1]}, least, shapes);
+      c.level = m_estimate.highest_level(shapes_with(c.chart, {cut.sides[0], cut.sides[1]}), least);
       if(c.level >= least)
         c.gain = Packing_estimate::used(c.level) - used() - price;
     });
@@ -302,15 +304,14 @@ inline std::vector<Mapped_chart> Page_filler::parts_of(const Cut_sides& sides, c
   return result;
 }
 
-// The level of the packing where some shapes take the place of a chart's, or one below the least that is asked
-// for; sets `shapes` to all of them.
-inline int Page_filler::level_with(std::size_t chart, const std::vector<Packable>& parts, int least,
-                                   std::vector<Packable>& shapes) const
+// All shapes where some take the place of a chart's.
+inline std::vector<Packable> Page_filler::shapes_with(std::size_t chart,
+                                                      const std::vector<Packable>& parts) const
 {
-  shapes = m_shapes;
+  std::vector<Packable> shapes = m_shapes;
   shapes[chart] = parts[0];
   shapes.insert(shapes.end(), parts.begin() + 1, parts.end());
-  return m_estimate.highest_level(shapes, least);
+  return shapes;
 }
 
 // Makes a cut, if it gains enough with the parts as they are; all but the first become the last charts.
@@ -325,11 +326,11 @@ inline bool Page_filler::apply(const Terms& terms, const Candidate& candidate)
     return false;
   const double price = terms.seam_price * in_sides(cut.length);
   const int least = Packing_estimate::level_of(used() + price + terms.least_gain);
-  std::vector<Packable> shapes, of_parts;
+  std::vector<Packable> of_parts;
   for(int k = 0; k < 2; ++k)
     of_parts.push_back(
       std::make_shared<Packable_shape>(scaled(cut.sides[k]->outline(), sides.scale[k])));
-  if(level_with(candidate.chart, of_parts, least, shapes) < least)
+  if(!m_estimate.fits(shapes_with(candidate.chart, of_parts), least))
     return false; // most cuts end here, before the parts are made
   std::vector<Mapped_chart> parts = parts_of(sides, whole, adjacency);
   if(parts.empty())
@@ -337,7 +338,8 @@ inline bool Page_filler::apply(const Terms& terms, const Candidate& candidate)
   of_parts.clear();
   for(const Mapped_chart& part : parts)
     of_parts.push_back(shape_of(part, m_unit));
-  const int level = level_with(candidate.chart, of_parts, least, shapes);
+  std::vector<Packable> shapes = shapes_with(candidate.chart, of_parts);
+  const int level = m_estimate.highest_level(shapes, least);
   if(level < least)
     return false;
   m_paid += price;

@@ -30,6 +30,7 @@ struct Bending
   double squares = 7.; // along a page, of the grid of control points
   bool is_wary = false; // whether maps are checked before charts are pressed apart, too
   std::size_t most_charts = 100; // more are bent hardly at all, and that takes seconds
+  double most_work = (std::numeric_limits<double>::infinity)(); // of growing: control points times steps
 };
 
 // Whether `bend_charts()` can do anything for these charts, of which there are not too many.
@@ -50,7 +51,8 @@ public:
   Chart_bending(const Bending& amount, const Packing_options& options, const Chart_mapping& mapping,
                 const std::function<bool()>& goes_on, std::vector<Mapped_chart>& maps,
                 Packing_result& packing)
-    : m_strain(2. * amount.change * amount.change), m_is_wary(amount.is_wary), m_options(options), m_mapping(mapping)
+    : m_strain(2. * amount.change * amount.change), m_is_wary(amount.is_wary)
+    , m_most_work(amount.most_work), m_options(options), m_mapping(mapping)
     , m_goes_on(goes_on), m_maps(maps), m_packing(packing)
   {
     const Packing_raster raster = exact_raster(options);
@@ -123,6 +125,7 @@ private:
 
   double m_strain; // see `Elastic_charts::strain()`
   bool m_is_wary;
+  double m_most_work;
   const Packing_options& m_options;
   const Chart_mapping& m_mapping;
   const std::function<bool()>& m_goes_on;
@@ -166,7 +169,8 @@ inline void Chart_bending::add_nets(std::vector<Plane_vector_d>& points, Border_
 // Until they are bent so much, or fill the pages. Returns whether there was time for it.
 inline bool Chart_bending::grow(Elastic_charts& charts) const
 {
-  constexpr int most_steps = 100, patience = 4, steps_to_relax = 2; // in all, and without better gaps
+  constexpr double fewest_steps = 16., most_steps = 100.;
+  constexpr int patience = 4, steps_to_relax = 2;    // without better gaps
   constexpr int most_halvings = 2;                   // of a growth that entangles charts
   constexpr double least_gain = 0.2;                 // of the scale, to what it should be
   constexpr double most_bent = 1.5, stiffer = 2.;    // a ratio of lengths, and what comes of it
@@ -180,9 +184,15 @@ inline bool Chart_bending::grow(Elastic_charts& charts) const
   charts.set_stiffness_of_contacts(first_stiffness);
   charts.set_farthest(far * m_sizes.unit);
   Elastic_charts::State last = charts.state(); // before they grew further
-  for(int i = 0, since = 0, in_vain = 0; i < most_steps; ++i) {
+  const double steps = std::clamp(m_most_work / double(charts.points().size()), fewest_steps, most_steps);
+  for(int i = 0, since = 0, in_vain = 0;; ++i) {
     if(!m_goes_on())
       return false;
+    if(i >= int(steps)) {
+      if(charts.worst_gap() >= loose)
+        charts.restore(last);
+      break;
+    }
     const bool is_moved = charts.step();
     ++since;
     charts.stiffen_bent(most_bent, stiffer);

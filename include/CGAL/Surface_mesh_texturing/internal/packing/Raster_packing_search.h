@@ -291,7 +291,8 @@ inline std::vector<Loose_place> Raster_packing_search::best_places(int factor) c
 inline void Raster_packing_search::raise_density()
 {
   constexpr int finer = 6;
-  if(!m_best.is_complete || m_is_cancelled || m_outlines.size() < 2)
+  const double work = raising_work() + work_per_second * m_options.time_budget;
+  if(!m_best.is_complete || m_is_cancelled || m_outlines.size() < 2 || !(work > 0.))
     return;
   const int factor = m_options.rotations > 0 ? 1 : finer, rotations = factor * m_rotations;
   const double before = m_work;
@@ -300,8 +301,7 @@ inline void Raster_packing_search::raise_density()
     return report() && !is_enough();
   };
   Raised_packing raised = raised_packing(
-    {m_outlines, rotations, m_exact, m_best.pages, m_ladder, m_best_level, best_places(factor),
-     raising_work() + work_per_second * m_options.time_budget}, tell);
+    {m_outlines, rotations, m_exact, m_best.pages, m_ladder, m_best_level, best_places(factor), work}, tell);
   if(raised.places.empty())
     return;
   m_best.places = std::move(raised.places);
