@@ -182,9 +182,9 @@ TEST(Filled_packing, is_searched_for_longer_where_charts_bend_in_vain)
                        {0.21, 0.25, 0.95, 1}, {0.19, 0.25, 0.79, 0}}) { // the last one misses too much
     std::size_t longer = 0;
     const SMT::internal::Filled_packing::Pack pack
-      = [&](const std::vector<SMT::Chart_shape>& shapes, double more_time, bool) {
-          longer += more_time > 0. ? 1 : 0;
-          return packing_that_uses(more_time > 0. ? 0.7 : 0.6, shapes.size());
+      = [&](const std::vector<SMT::Chart_shape>& shapes, const SMT::Packing_options& packing) {
+          longer += packing.time_budget > 0. ? 1 : 0;
+          return packing_that_uses(packing.time_budget > 0. ? 0.7 : 0.6, shapes.size());
         };
     const SMT::internal::Filled_packing::Bend bend
       = [&](std::vector<SMT::internal::Mapped_chart>&, SMT::Packing_result& packing, double, bool) {
@@ -201,8 +201,8 @@ TEST(Filled_packing, is_searched_for_longer_where_charts_bend_in_vain)
   }
 }
 
-// Charts that do not bend get a packing that is no draft, if it is denser.
-TEST(Filled_packing, is_no_draft_where_charts_do_not_bend)
+// Charts that do not bend, or fill little of the pages, get a packing that is no draft, if it is denser then.
+TEST(Filled_packing, is_no_draft_where_charts_do_not_bend_or_little_is_used)
 {
   struct Case
   {
@@ -214,13 +214,15 @@ TEST(Filled_packing, is_no_draft_where_charts_do_not_bend)
   options.seam_price = std::numeric_limits<double>::infinity();
   const SMT::internal::Chart_mapping mapping;
   for(const bool is_draft : {true, false})
-    for(const Case& c : {Case{0.01, 0.7, 0.61, 0}, {0., 0.7, 0.7, 1}, {0., 0.5, 0.6, 1}}) {
+    for(const Case& c : {Case{0.2, 0.7, 0.8, 0}, {0., 0.7, 0.7, 1}, {0., 0.5, 0.6, 1}, {0.01, 0.7, 0.71, 1},
+                         {0.01, 0.5, 0.61, 1}}) {
       options.packing.is_draft = is_draft;
       std::size_t in_full = 0;
       const SMT::internal::Filled_packing::Pack pack
-        = [&](const std::vector<SMT::Chart_shape>& shapes, double, bool may_be_draft) {
-            in_full += may_be_draft ? 0 : 1;
-            return packing_that_uses(may_be_draft ? 0.6 : c.in_full, shapes.size());
+        = [&](const std::vector<SMT::Chart_shape>& shapes, const SMT::Packing_options& packing) {
+            const bool is_in_full = is_draft && !packing.is_draft;
+            in_full += is_in_full ? 1 : 0;
+            return packing_that_uses(is_in_full ? c.in_full : 0.6, shapes.size());
           };
       const SMT::internal::Filled_packing::Bend bend
         = [&](std::vector<SMT::internal::Mapped_chart>&, SMT::Packing_result& packing, double, bool) {
@@ -243,7 +245,7 @@ TEST(Filled_packing, is_bent_no_more_once_enough_is_used)
   options.min_used = 0.6505;
   const SMT::internal::Chart_mapping mapping;
   const SMT::internal::Filled_packing::Pack pack
-    = [](const std::vector<SMT::Chart_shape>& shapes, double, bool) {
+    = [](const std::vector<SMT::Chart_shape>& shapes, const SMT::Packing_options&) {
         return packing_that_uses(0.6, shapes.size());
       };
   std::size_t bends = 0;
@@ -268,7 +270,7 @@ TEST(Filled_packing, ends_when_charts_have_been_bent_for_long)
   options.max_charts = 1; // no cuts
   const SMT::internal::Chart_mapping mapping;
   const SMT::internal::Filled_packing::Pack pack
-    = [](const std::vector<SMT::Chart_shape>& shapes, double, bool) {
+    = [](const std::vector<SMT::Chart_shape>& shapes, const SMT::Packing_options&) {
         return packing_that_uses(0.6, shapes.size());
       };
   for(const double seconds : {0., 50.}) {
@@ -304,7 +306,7 @@ TEST(Filled_packing, bends_in_finer_detail_on_larger_pages)
   options.seam_price = std::numeric_limits<double>::infinity();
   const SMT::internal::Chart_mapping mapping;
   const SMT::internal::Filled_packing::Pack pack
-    = [](const std::vector<SMT::Chart_shape>& shapes, double, bool) {
+    = [](const std::vector<SMT::Chart_shape>& shapes, const SMT::Packing_options&) {
         return packing_that_uses(0.6, shapes.size());
       };
   for(const Case& c : {Case{512, 512, true, {1.}}, {1024, 256, false, {1.}}, {4096, 1024, true, {2.}},

@@ -76,8 +76,8 @@ struct Packing_options
   /// chart, nor with a given density.
   double time_budget = 0.;
   /// Whether the packing is only one from which charts are bent, which fill about as much from one that is a
-  /// little looser: `Raster_packer` raises its density for `time_budget` alone, and tries fewer orders on a
-  /// raster of about 512 cells along a page, so that gaps are wider than asked for.
+  /// little looser: `Raster_packer` raises its density for `time_budget` alone, if there is any, and tries fewer
+  /// orders on a raster of about 512 cells along a page, so that gaps are wider than asked for.
   bool is_draft = false;
   /// Threads of `pack_charts()` with `Parallel_tag`; 0 for all that the machine has.
   unsigned int threads = 0;
