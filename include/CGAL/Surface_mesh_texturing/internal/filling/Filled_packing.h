@@ -47,14 +47,15 @@ public:
     else
       m_packing = pack();
     Packed rigid;
-    if(m_pages.is_draft && m_packing.utilisation < poor && !(m_options.min_used > 0.))
+    if(m_pages.is_draft && m_packing.is_ok() && m_packing.utilisation < Page_filler::poor
+       && !(m_options.min_used > 0.))
       rigid = copy();
     if(m_bend && m_packing.is_ok())
       bend_until_used();
     if(m_pages.is_draft && m_packing.is_ok() && m_mapping.has_time()) {
       if(!m_is_bent)
         search_in_full();
-      else if(m_packing.utilisation < poor && !rigid.charts.empty())
+      else if(m_packing.utilisation < Page_filler::poor && !rigid.charts.empty())
         bend_from_full_search(std::move(rigid));
     }
     if(missing() <= 0.)
@@ -71,7 +72,6 @@ public:
   const std::string& why_not_used() const { return m_why_not_used; }
 
 private:
-  static constexpr double poor = 0.7;    // of the pages, so that it is worth while to pack in full
   static constexpr double little = 0.02; // of the pages, for which much is tried
   static constexpr double much = 0.1;    // of the pages, which a longer search does not find
   static constexpr double finest = 4.;   // of the finenesses of bending

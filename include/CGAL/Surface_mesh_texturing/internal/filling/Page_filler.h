@@ -26,6 +26,8 @@ namespace internal {
 class Page_filler
 {
 public:
+  static constexpr double poor = 0.7; // of the pages: where less is used, more is tried
+
   // What a cut must gain.
   struct Terms
   {
@@ -157,7 +159,6 @@ inline std::size_t Page_filler::run(const Terms& terms)
     return cuts + more <= terms.most_cuts && used() < terms.enough
         && (terms.most_charts == 0 || m_charts.size() + more <= terms.most_charts) && may_go_on();
   };
-  constexpr double poor = 0.7;
   while(may_cut(1))
     if(cut_once(terms))
       ++cuts;

@@ -184,15 +184,11 @@ inline bool Chart_bending::grow(Elastic_charts& charts) const
   charts.set_stiffness_of_contacts(first_stiffness);
   charts.set_farthest(far * m_sizes.unit);
   Elastic_charts::State last = charts.state(); // before they grew further
-  const double steps = std::clamp(m_most_work / double(charts.points().size()), fewest_steps, most_steps);
-  for(int i = 0, since = 0, in_vain = 0;; ++i) {
+  const int steps
+    = int(std::clamp(m_most_work / double(charts.points().size()), fewest_steps, most_steps));
+  for(int i = 0, since = 0, in_vain = 0; i < steps; ++i) {
     if(!m_goes_on())
       return false;
-    if(i >= int(steps)) {
-      if(charts.worst_gap() >= loose)
-        charts.restore(last);
-      break;
-    }
     const bool is_moved = charts.step();
     ++since;
     charts.stiffen_bent(most_bent, stiffer);
@@ -223,6 +219,8 @@ inline bool Chart_bending::grow(Elastic_charts& charts) const
     since = in_vain = 0;
     best_gap = any;
   }
+  if(charts.worst_gap() >= loose)
+    charts.restore(last);
   return true;
 }
 
