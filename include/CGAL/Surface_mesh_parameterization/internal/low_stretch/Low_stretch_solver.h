@@ -6,7 +6,7 @@
 
 #include <CGAL/Blocked_execution/Progress.h>
 #include <CGAL/Surface_mesh_parameterization/Low_stretch_options.h>
-#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Newton_steps.h>
+#include <CGAL/Surface_mesh_parameterization/internal/descent/relax_turned_parts.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Stretch_hierarchy.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Vertex_insertion.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/circle_map.h>
@@ -311,8 +311,7 @@ bool Low_stretch_solver<Energy>::hold_pins(const Level_energy& energy, std::vect
   const std::vector<Triangle_indices>& triangles = m_levels[0].mesh.triangles;
   const auto reference = m_levels.triangles_of(0);
   const std::vector<Held_vertex> held = m_levels.held_of(0);
-  const bool is_small = m_levels[0].vertices.size() < soon_done;
-  const auto goes_on_here = [&](double) { return goes_on(0.) || is_small; };
+  const auto goes_on_here = [&](double) { return goes_on(0.) || m_levels[0].vertices.size() < soon_done; };
   Circle_map tutte(m_levels[0].mesh);
   const std::vector<Plane_point> border_map = tutte.run(held);
   std::vector<Giving_way> ways = {Giving_way::AT_ONCE};
@@ -384,11 +383,12 @@ void Low_stretch_solver<Energy>::descend(Level& level, std::size_t l)
       const double swept = level.sweep(is_stuck ? share_of_queue : 0.);
       is_done = is_enough(level, l, m_newton, swept) && !is_stuck;
       m_report.converged = is_done && is_finest;
+      if(is_finest && !is_done && !m_levels.is_one_to_one())
+        relax_turned_parts(level, m_newton, m_options.tolerance);
     }
   }
-  m_mean = level.mean();
+  m_report.energy = m_mean = level.mean();
   m_report.area = level.area();
-  m_report.energy = level.mean();
   m_report.levels.push_back({level.size(), m_levels[l].mesh.triangles.size(), steps});
   m_report.iterations = steps;
 }

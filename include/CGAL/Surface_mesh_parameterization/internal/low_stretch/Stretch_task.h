@@ -10,8 +10,8 @@
 #include <CGAL/Surface_mesh_multiresolution/Mesh_hierarchy.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
 #include <CGAL/Surface_mesh_parameterization/Reference_triangle.h>
-#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Border_barrier.h>
-#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/plane_geometry.h>
+#include <CGAL/Surface_mesh_parameterization/internal/descent/Border_barrier.h>
+#include <CGAL/Surface_mesh_parameterization/internal/descent/plane_geometry.h>
 
 #include <Eigen/Core>
 

@@ -7,8 +7,8 @@
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Indexed_mesh/Vertex_rings.h>
 #include <CGAL/Surface_mesh_multiresolution/Progressive_mesh.h>
-#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Border_guard.h>
-#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Stretched_star.h>
+#include <CGAL/Surface_mesh_parameterization/internal/descent/Border_guard.h>
+#include <CGAL/Surface_mesh_parameterization/internal/descent/Stretched_star.h>
 
 #include <algorithm>
 #include <array>

@@ -6,7 +6,7 @@
 
 #include <CGAL/Indexed_mesh/Vertex_rings.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Stretch_task.h>
-#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/plane_geometry.h>
+#include <CGAL/Surface_mesh_parameterization/internal/descent/plane_geometry.h>
 
 #include <CGAL/number_utils.h>
 

@@ -4,8 +4,8 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_REACH_PINS_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_REACH_PINS_H
 
-#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Newton_steps.h>
-#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Stretch_level.h>
+#include <CGAL/Surface_mesh_parameterization/internal/descent/Newton_steps.h>
+#include <CGAL/Surface_mesh_parameterization/internal/descent/Stretch_level.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Stretch_task.h>
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_PLANE_GEOMETRY_H
-#define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_PLANE_GEOMETRY_H
+#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_DESCENT_PLANE_GEOMETRY_H
+#define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_DESCENT_PLANE_GEOMETRY_H
 
 #include <CGAL/Surface_mesh_parameterization/Reference_triangle.h>
 
@@ -33,6 +33,14 @@ inline bool is_surely_positive(const Plane_point& a, const Plane_point& b, const
   const double lengths = p.squared_length() + q.squared_length() + (q - p).squared_length();
   return p.cross(q) > margin * bound * lengths + least;
 }
+
+// The least of numbers, as a sum.
+struct Least
+{
+  double value = (std::numeric_limits<double>::infinity)();
+  Least operator+(const Least& other) const { return {(std::min)(value, other.value)}; }
+  Least& operator+=(const Least& other) { return *this = *this + other; }
+};
 
 // The area of the triangle o, o + p + t dp, o + q + t dq, times 2, is a + b t + c t^2: the largest
 // step t that keeps it above 0, or infinity.
@@ -140,4 +148,4 @@ private:
 } // namespace Surface_mesh_parameterization
 } // namespace CGAL
 
-#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_PLANE_GEOMETRY_H
+#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_DESCENT_PLANE_GEOMETRY_H

@@ -1,16 +1,16 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_STRETCH_LEVEL_H
-#define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_STRETCH_LEVEL_H
+#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_DESCENT_STRETCH_LEVEL_H
+#define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_DESCENT_STRETCH_LEVEL_H
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Indexed_mesh/Triangle_adjacency.h>
 #include <CGAL/Multigrid/vector_operations.h>
 #include <CGAL/Surface_mesh_parameterization/Stretch_element.h>
-#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Border_barrier.h>
-#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Border_guard.h>
-#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Stretched_star.h>
+#include <CGAL/Surface_mesh_parameterization/internal/descent/Border_barrier.h>
+#include <CGAL/Surface_mesh_parameterization/internal/descent/Border_guard.h>
+#include <CGAL/Surface_mesh_parameterization/internal/descent/Stretched_star.h>
 
 #include <algorithm>
 #include <array>
@@ -26,14 +26,6 @@
 namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
-
-// The least of numbers, as a sum.
-struct Least
-{
-  double value = (std::numeric_limits<double>::infinity)();
-  Least operator+(const Least& other) const { return {(std::min)(value, other.value)}; }
-  Least& operator+=(const Least& other) { return *this = *this + other; }
-};
 
 // A step along a direction: by how much the energy fell, and how long it was, in lengths of the direction.
 struct Descent
@@ -62,13 +54,7 @@ public:
   {
     m_references.resize(triangles.size());
     Multigrid::for_each_index(triangles.size(), [&](std::size_t t) { m_references[t] = reference(t); });
-    m_area = Blocked_execution::blocked_sum<double>(
-      triangles.size(), block_size, [this](std::size_t begin, std::size_t end) {
-        double sum = 0.;
-        for(std::size_t t = begin; t < end; ++t)
-          sum += m_references[t].area();
-        return sum;
-      });
+    m_area = sum_over_triangles([this](std::size_t t) { return m_references[t].area(); });
     m_value = energy_at(m_places);
   }
 
@@ -99,20 +85,25 @@ public:
     const double barrier = barrier_at(z);
     if(!(barrier < infinity))
       return infinity;
-    const double sum = barrier + Blocked_execution::blocked_sum<double>(
-      m_triangles.size(), block_size, [&](std::size_t begin, std::size_t end) {
-        double part = 0.;
-        for(std::size_t t = begin; t < end; ++t) {
-          const std::array<Plane_point, 3> c = corners_at(z, t);
-          const Plane_jacobian<double> j(m_references[t], c);
-          const double d = j.determinant();
-          if(!(d > 0.) || !is_surely_positive(c[0], c[1], c[2]))
-            return infinity;
-          part += m_references[t].area() * m_energy.value(j.squared_norm(), d);
-        }
-        return part;
-      });
+    const double sum = barrier + sum_over_triangles([&](std::size_t t) {
+      const std::array<Plane_point, 3> c = corners_at(z, t);
+      const Plane_jacobian<double> j(m_references[t], c);
+      const double d = j.determinant();
+      return d > 0. && is_surely_positive(c[0], c[1], c[2])
+           ? m_references[t].area() * m_energy.value(j.squared_norm(), d) : infinity;
+    });
     return std::isfinite(sum) ? sum : infinity;
+  }
+
+  // Takes other places, if they are a valid map; returns by how much the energy fell.
+  double put(Places places)
+  {
+    const double before = m_value, value = energy_at(places);
+    if(!(value < infinity))
+      return 0.;
+    m_places.swap(places);
+    m_value = value;
+    return before - value;
   }
 
   // Scales the map to its least energy among all scales, or to the area of the surface if none is
@@ -133,6 +124,15 @@ public:
   // What the derivatives are made of, after `linearize()`; see `stretch_matrix()`.
   const Triangles& triangles() const { return m_triangles; }
   const Indexed_mesh::Triangles_at_vertices& corners() const { return m_corners; }
+  // Calls `use` for the corners of the triangles at v.
+  template <class Use>
+  void for_each_corner_around(Vertex_index v, const Use& use) const
+  {
+    for(const Halfedge* c = m_corners.begin(v); c != m_corners.end(v); ++c)
+      for(const Vertex_index w : m_triangles[triangle_of(*c)])
+        use(w);
+  }
+  const Energy& energy() const { return m_energy; }
   const Reference_triangle<double>& reference(std::size_t t) const { return m_references[t]; }
   // That of a triangle at the map: to compute it for each corner anew takes no longer than to store it.
   Stretch_element<double> element(std::size_t t) const
@@ -167,11 +167,7 @@ public:
       if(energy_at(target) < infinity)
         break;
     }
-    const double value = energy_at(target);
-    if(value < infinity) {
-      m_places.swap(target);
-      m_value = value;
-    }
+    put(std::move(target));
     return is_there;
   }
 
@@ -185,16 +181,21 @@ private:
     return {z[v[0]], z[v[1]], z[v[2]]};
   }
 
+  // Of numbers that are not negative.
+  template <class Term>
+  double sum_over_triangles(const Term& term) const
+  {
+    return Blocked_execution::blocked_sum<double>(
+      m_triangles.size(), block_size, [&](std::size_t begin, std::size_t end) {
+        double part = 0.;
+        for(std::size_t t = begin; t < end && part < infinity; ++t)
+          part += term(t);
+        return part;
+      });
+  }
+
   double barrier_at(const Places& z) const { return m_barrier ? m_barrier->energy_at(z) : 0.; }
 
-  // Calls `use` for the corners of the triangles at v.
-  template <class Use>
-  void for_each_corner_around(Vertex_index v, const Use& use) const
-  {
-    for(const Halfedge* c = m_corners.begin(v); c != m_corners.end(v); ++c)
-      for(const Vertex_index w : m_triangles[triangle_of(*c)])
-        use(w);
-  }
   bool has_ring_within(Vertex_index v, std::size_t begin, std::size_t end) const
   {
     bool is_within = true;
@@ -259,11 +260,7 @@ void Stretch_level<Energy>::scale()
   Places scaled = m_places;
   for(Plane_point& z : scaled)
     z = z * std::exp(s);
-  const double value = energy_at(scaled);
-  if(value < infinity) {
-    m_places.swap(scaled);
-    m_value = value;
-  }
+  put(std::move(scaled));
 }
 
 // Takes a local step at v; returns by how much the energy fell.
@@ -397,4 +394,4 @@ Descent Stretch_level<Energy>::go(const Places& direction, double slope)
 } // namespace Surface_mesh_parameterization
 } // namespace CGAL
 
-#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_STRETCH_LEVEL_H
+#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_DESCENT_STRETCH_LEVEL_H

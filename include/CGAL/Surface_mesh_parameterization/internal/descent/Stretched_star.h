@@ -1,11 +1,11 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_STRETCHED_STAR_H
-#define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_STRETCHED_STAR_H
+#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_DESCENT_STRETCHED_STAR_H
+#define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_DESCENT_STRETCHED_STAR_H
 
 #include <CGAL/Surface_mesh_parameterization/Stretch_element.h>
-#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/plane_geometry.h>
+#include <CGAL/Surface_mesh_parameterization/internal/descent/plane_geometry.h>
 
 #include <algorithm>
 #include <cmath>
@@ -198,4 +198,4 @@ private:
 } // namespace Surface_mesh_parameterization
 } // namespace CGAL
 
-#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_STRETCHED_STAR_H
+#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_DESCENT_STRETCHED_STAR_H

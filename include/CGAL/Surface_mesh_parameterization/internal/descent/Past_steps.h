@@ -1,12 +1,12 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_PAST_STEPS_H
-#define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_PAST_STEPS_H
+#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_DESCENT_PAST_STEPS_H
+#define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_DESCENT_PAST_STEPS_H
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Multigrid/vector_operations.h>
-#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/plane_geometry.h>
+#include <CGAL/Surface_mesh_parameterization/internal/descent/plane_geometry.h>
 
 #include <algorithm>
 #include <cmath>
@@ -177,4 +177,4 @@ private:
 } // namespace Surface_mesh_parameterization
 } // namespace CGAL
 
-#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_PAST_STEPS_H
+#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_DESCENT_PAST_STEPS_H

@@ -1,8 +1,8 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_NEWTON_STEPS_H
-#define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_NEWTON_STEPS_H
+#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_DESCENT_NEWTON_STEPS_H
+#define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_DESCENT_NEWTON_STEPS_H
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Multigrid/Block_values.h>
@@ -14,8 +14,8 @@
 #include <CGAL/Multigrid/Split_matrix.h>
 #include <CGAL/Surface_mesh_multigrid/galerkin_rows.h>
 #include <CGAL/Surface_mesh_multiresolution/Prolongation.h>
-#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Past_steps.h>
-#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Stretch_level.h>
+#include <CGAL/Surface_mesh_parameterization/internal/descent/Past_steps.h>
+#include <CGAL/Surface_mesh_parameterization/internal/descent/Stretch_level.h>
 
 #include <Eigen/Core>
 
@@ -189,8 +189,10 @@ public:
   void operator()(Stretch_level<Energy>& level, std::size_t iterations, double residual)
   {
     double slope = 0.;
-    const Vectors step = direction(level, Vectors(), iterations, residual, slope);
+    Vectors step = direction(level, Vectors(), iterations, residual, slope);
     const Descent descent = slope < 0. ? level.go(step, slope) : Descent();
+    Multigrid::for_each_index(step.size(), [&](std::size_t v) { step[v] = step[v] * descent.length; });
+    m_step = std::move(step);
     m_gain = descent.gain;
     m_is_full = descent.length >= full;
     if(!m_is_full) {
@@ -216,6 +218,9 @@ public:
   // Whether the last step did not move, though the second order foretold, if it is a number at all, that
   // the energy falls by more than that.
   bool is_stuck(double energy) const { return !(m_gain > 0.) && !(m_solved <= energy); }
+
+  // The way of each vertex in it; none if there was nowhere to go.
+  const Vectors& last_step() const { return m_step; }
 
   // Where such a step goes; `slope` becomes the derivative of the energy there. Fixed vertices go by
   // `pulled`, if it is not empty, and all others as the energy, up to the second order, is least then.
@@ -269,6 +274,7 @@ private:
   std::vector<std::unique_ptr<Stretch_matrix::Single>> m_coarser;
   Multigrid::Self_adjoint_matrix<Eigen::Matrix2d> m_coarsest;
   Past_steps m_past;
+  Vectors m_step;
   std::size_t m_rest = 0, m_next_rest = 1; // steps without the past
   double m_solved = 0., m_unsolved = 0., m_gain = 0.;
   bool m_is_solved = true, m_is_full = true;
@@ -282,6 +288,7 @@ Newton_steps::Vectors Newton_steps::direction(Stretch_level<Energy>& level, cons
   typedef Eigen::Vector2d Vector;
   level.linearize();
   m_matrix = Stretch_matrix(); // before there is another one
+  Vectors().swap(m_step);
   Vectors its_own;
   m_matrix = stretch_matrix(level, its_own);
   const bool is_noted = pulled.empty() && m_rest == 0;
@@ -343,4 +350,4 @@ Newton_steps::Vectors Newton_steps::direction(Stretch_level<Energy>& level, cons
 } // namespace Surface_mesh_parameterization
 } // namespace CGAL
 
-#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_NEWTON_STEPS_H
+#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_DESCENT_NEWTON_STEPS_H

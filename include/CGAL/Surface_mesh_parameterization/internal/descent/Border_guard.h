@@ -1,10 +1,10 @@
 // Copyright (c) 2026  The HLSCM for CGAL authors.
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_BORDER_GUARD_H
-#define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_BORDER_GUARD_H
+#ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_DESCENT_BORDER_GUARD_H
+#define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_DESCENT_BORDER_GUARD_H
 
-#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Border_barrier.h>
+#include <CGAL/Surface_mesh_parameterization/internal/descent/Border_barrier.h>
 
 #include <algorithm>
 #include <array>
@@ -210,4 +210,4 @@ private:
 } // namespace Surface_mesh_parameterization
 } // namespace CGAL
 
-#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_LOW_STRETCH_BORDER_GUARD_H
+#endif // CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_DESCENT_BORDER_GUARD_H
