@@ -110,8 +110,9 @@ TEST(Turned_parts, only_what_is_near_them_moves)
       start[w] = before[w] - newton.last_step()[w];
     const double change = std::sqrt((alpha(before) - alpha(start)).squared_length()
                                     / alpha(before).squared_length());
-    if(std::abs(change - 0.1) > 1e-9)
+    if(std::abs(change - 0.1) > 1e-9) {
       EXPECT_EQ(change > 0.1, chosen.count(t) > 0) << "triangle " << t;
+    }
   }
   const std::set<Vertex_index> near = with_rings(level, triangles, 2);
   SMP_internal::relax_turned_parts(level, newton, 1e-3);
@@ -181,8 +182,9 @@ TEST(Turned_parts, parts_are_apart_and_have_all_triangles_at_what_moves)
     EXPECT_LE(*std::max_element(number.begin(), number.end()), 1);
     const std::size_t moving = std::size_t(std::count(number.begin(), number.end(), 1));
     EXPECT_GE(moving, 40u);
-    if(most == 40) // there are more in turned triangles alone, the last of which may have two more
+    if(most == 40) { // there are more in turned triangles alone, the last of which may have two more
       EXPECT_LE(moving, most + 2);
+    }
   }
 }
 

@@ -56,6 +56,65 @@ private:
   Blocked_execution::Uninitialized_vector<std::uint32_t> m_begin, m_corner;
 };
 
+/// \ingroup PkgHLSCMIndexedMesh
+/// Calls `use(w)` for the corners `w` of the triangles at `v`, `v` among them; most come twice.
+template <class Use>
+void for_each_corner_around(const std::vector<Triangle_indices>& triangles, const Triangles_at_vertices& at,
+                            Vertex_index v, const Use& use)
+{
+  for(const Halfedge* corner = at.begin(v); corner != at.end(v); ++corner)
+    for(const Vertex_index w : triangles[triangle_of(*corner)])
+      use(w);
+}
+
+/// \ingroup PkgHLSCMIndexedMesh
+/// Vertices of a mesh, and all triangles that have one of them.
+struct Vertex_patch
+{
+  std::vector<Vertex_index> vertices; ///< ascending
+  std::vector<Triangle_index> faces;  ///< ascending
+};
+
+/*!
+\ingroup PkgHLSCMIndexedMesh
+
+Returns the connected patches of those of the `vertices` for which `is_inside`, in their order. No triangle
+has vertices of two patches, so that these can be worked on in any order, and at the same time.
+
+Linear time in the size of the patches, but for sorting them.
+
+\param is_inside of each vertex of the mesh, true only for some of the `vertices`; false for all afterwards
+*/
+inline std::vector<Vertex_patch> connected_patches(const std::vector<Triangle_indices>& triangles,
+                                                   const Triangles_at_vertices& at,
+                                                   const std::vector<Vertex_index>& vertices,
+                                                   std::vector<bool>& is_inside)
+{
+  std::vector<Vertex_patch> patches;
+  for(const Vertex_index first : vertices) {
+    if(!is_inside[first])
+      continue;
+    Vertex_patch patch;
+    patch.vertices.push_back(first);
+    is_inside[first] = false;
+    for(std::size_t i = 0; i < patch.vertices.size(); ++i) {
+      const Vertex_index v = patch.vertices[i];
+      for_each_corner_around(triangles, at, v, [&](Vertex_index w) {
+        if(is_inside[w])
+          patch.vertices.push_back(w);
+        is_inside[w] = false;
+      });
+      for(const Halfedge* corner = at.begin(v); corner != at.end(v); ++corner)
+        patch.faces.push_back(triangle_of(*corner));
+    }
+    std::sort(patch.vertices.begin(), patch.vertices.end());
+    std::sort(patch.faces.begin(), patch.faces.end());
+    patch.faces.erase(std::unique(patch.faces.begin(), patch.faces.end()), patch.faces.end());
+    patches.push_back(std::move(patch));
+  }
+  return patches;
+}
+
 /*!
 \ingroup PkgHLSCMIndexedMesh
 

@@ -128,9 +128,7 @@ public:
   template <class Use>
   void for_each_corner_around(Vertex_index v, const Use& use) const
   {
-    for(const Halfedge* c = m_corners.begin(v); c != m_corners.end(v); ++c)
-      for(const Vertex_index w : m_triangles[triangle_of(*c)])
-        use(w);
+    Indexed_mesh::for_each_corner_around(m_triangles, m_corners, v, use);
   }
   const Energy& energy() const { return m_energy; }
   const Reference_triangle<double>& reference(std::size_t t) const { return m_references[t]; }
@@ -181,7 +179,7 @@ private:
     return {z[v[0]], z[v[1]], z[v[2]]};
   }
 
-  // Of numbers that are not negative.
+  // Infinity once a term is.
   template <class Term>
   double sum_over_triangles(const Term& term) const
   {

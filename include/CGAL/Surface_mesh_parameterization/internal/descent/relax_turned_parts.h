@@ -16,6 +16,8 @@ namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
 
+using Indexed_mesh::Vertex_patch;
+
 // A part of a level whose vertices move while all others stay.
 struct Level_part
 {
@@ -56,6 +58,28 @@ std::vector<std::uint32_t> turned_triangles(const Stretch_level<Energy>& level,
   return result;
 }
 
+// The part whose moving vertices are those of a patch.
+template <class Energy>
+Level_part part_of(const Stretch_level<Energy>& level, Vertex_patch patch)
+{
+  Level_part part;
+  for(const std::uint32_t t : patch.faces)
+    part.vertices.insert(part.vertices.end(), level.triangles()[t].begin(), level.triangles()[t].end());
+  std::sort(part.vertices.begin(), part.vertices.end());
+  part.vertices.erase(std::unique(part.vertices.begin(), part.vertices.end()), part.vertices.end());
+  for(const Vertex_index v : part.vertices)
+    part.is_fixed.push_back(!std::binary_search(patch.vertices.begin(), patch.vertices.end(), v));
+  const auto place_of = [&part](Vertex_index v) {
+    return Vertex_index(std::lower_bound(part.vertices.begin(), part.vertices.end(), v) - part.vertices.begin());
+  };
+  for(const std::uint32_t t : patch.faces) {
+    const Triangle_indices& v = level.triangles()[t];
+    part.triangles.push_back({place_of(v[0]), place_of(v[1]), place_of(v[2])});
+  }
+  part.faces = std::move(patch.faces);
+  return part;
+}
+
 // The connected parts with the vertices of these triangles and some rings around them, of about `most`
 // vertices in all; those of the first triangles come first.
 template <class Energy>
@@ -63,12 +87,11 @@ std::vector<Level_part> parts_around(const Stretch_level<Energy>& level,
                                      const std::vector<std::uint32_t>& triangles, std::size_t most)
 {
   constexpr int rings = 2; // more take longer, and gain no more
-  enum State : std::uint8_t { STAYS, MOVES, IS_IN_PART };
-  std::vector<State> state(level.size(), STAYS);
+  std::vector<bool> moves(level.size(), false);
   std::vector<Vertex_index> moving;
   const auto add = [&](Vertex_index v) {
-    if(state[v] == STAYS && !level.is_fixed(v)) {
-      state[v] = MOVES;
+    if(!moves[v] && !level.is_fixed(v)) {
+      moves[v] = true;
       moving.push_back(v);
     }
   };
@@ -79,41 +102,9 @@ std::vector<Level_part> parts_around(const Stretch_level<Energy>& level,
     for(std::size_t i = 0, end = moving.size(); i < end; ++i)
       level.for_each_corner_around(moving[i], add);
   std::vector<Level_part> parts;
-  std::vector<std::uint32_t> place(level.size()); // in the part
-  for(const Vertex_index first : moving) {
-    if(state[first] == IS_IN_PART)
-      continue;
-    state[first] = IS_IN_PART;
-    std::vector<Vertex_index> inside(1, first);
-    for(std::size_t i = 0; i < inside.size(); ++i)
-      level.for_each_corner_around(inside[i], [&](Vertex_index w) {
-        if(state[w] == MOVES) {
-          state[w] = IS_IN_PART;
-          inside.push_back(w);
-        }
-      });
-    const auto make_unique = [](auto& indices) {
-      std::sort(indices.begin(), indices.end());
-      indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
-    };
-    Level_part part;
-    for(const Vertex_index v : inside) {
-      for(const Halfedge* c = level.corners().begin(v); c != level.corners().end(v); ++c)
-        part.faces.push_back(std::uint32_t(triangle_of(*c)));
-      level.for_each_corner_around(v, [&part](Vertex_index w) { part.vertices.push_back(w); });
-    }
-    make_unique(part.faces);
-    make_unique(part.vertices);
-    for(std::uint32_t i = 0; i < part.vertices.size(); ++i) {
-      place[part.vertices[i]] = i;
-      part.is_fixed.push_back(state[part.vertices[i]] == STAYS);
-    }
-    for(const std::uint32_t t : part.faces) {
-      const Triangle_indices& v = level.triangles()[t];
-      part.triangles.push_back({place[v[0]], place[v[1]], place[v[2]]});
-    }
-    parts.push_back(std::move(part));
-  }
+  for(Vertex_patch& patch :
+      Indexed_mesh::connected_patches(level.triangles(), level.corners(), moving, moves))
+    parts.push_back(part_of(level, std::move(patch)));
   return parts;
 }
 
@@ -161,11 +152,13 @@ double relax_turned_parts(Stretch_level<Energy>& level, const Newton_steps& newt
   Blocked_execution::blocked_for(parts.size(), 1, [&](std::size_t i, std::size_t) {
     places[i] = relaxed(level, parts[i], least);
   });
+  if(parts.empty())
+    return 0.;
   std::vector<Plane_point> all = level.places();
   for(std::size_t i = 0; i < parts.size(); ++i)
     for(std::size_t k = 0; k < parts[i].vertices.size(); ++k) // what stays in one part moves in none
       all[parts[i].vertices[k]] = places[i][k];
-  return parts.empty() ? 0. : level.put(std::move(all));
+  return level.put(std::move(all));
 }
 
 } // namespace internal

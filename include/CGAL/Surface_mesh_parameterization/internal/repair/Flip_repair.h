@@ -60,10 +60,10 @@ private:
   Faces bad_faces(const Faces& among) const;
   std::size_t number_of_flipped(const Faces& bad) const;
   int winding_at(std::uint32_t v, std::uint32_t a, std::uint32_t b) const;
-  std::size_t number_of_branches(const Flip_patch& patch) const;
+  std::size_t number_of_branches(const Vertex_patch& patch) const;
   bool is_too_small(std::uint32_t t) const;
-  Mending mend(const Flip_patch& patch, double barrier, Branches choice);
-  std::vector<Mending> mend_patches(const std::vector<Flip_patch>& patches, Branches choice,
+  Mending mend(const Vertex_patch& patch, double barrier, Branches choice);
+  std::vector<Mending> mend_patches(const std::vector<Vertex_patch>& patches, Branches choice,
                                     const Flip_repair_options& options,
                                     Flip_repair_report& report);
   void mend_all(Faces bad, const Flip_repair_options& options, Flip_repair_report& report);
@@ -109,7 +109,7 @@ struct Patch_vertices
   std::vector<std::uint32_t> all;
   std::size_t number_free;
 
-  Patch_vertices(const Flip_patch& patch, const Flip_repair::Triangles& triangles,
+  Patch_vertices(const Vertex_patch& patch, const Flip_repair::Triangles& triangles,
                  const Flip_repair::Values& z)
     : all(patch.vertices), number_free(patch.vertices.size())
   {
@@ -134,7 +134,7 @@ struct Patch_vertices
 // The triangles of the patch, with the places of their corners among `vertices`; the mean weight of
 // their energies is 1. `unit` is what it was.
 inline std::vector<Patch_triangle>
-patch_triangles(const Flip_patch& patch, const Flip_repair::Triangles& triangles,
+patch_triangles(const Vertex_patch& patch, const Flip_repair::Triangles& triangles,
                 const std::vector<std::uint32_t>& vertices,
                 const Flip_repair::Shape_of_face& shape_of_face, double& unit)
 {
@@ -177,7 +177,7 @@ inline int Flip_repair::winding_at(std::uint32_t v, std::uint32_t a, std::uint32
 
 // The number of vertices around which the faces of the patch wind more than once: there the map
 // covers the plane twice though no face is flipped.
-inline std::size_t Flip_repair::number_of_branches(const Flip_patch& patch) const
+inline std::size_t Flip_repair::number_of_branches(const Vertex_patch& patch) const
 {
   std::vector<std::pair<std::uint32_t, int>> parts;
   for(const std::uint32_t t : patch.faces)
@@ -212,7 +212,7 @@ inline bool Flip_repair::is_too_small(std::uint32_t t) const
 }
 
 // Unless the patch is mended it stays as it was.
-inline Flip_repair::Mending Flip_repair::mend(const Flip_patch& patch, double barrier,
+inline Flip_repair::Mending Flip_repair::mend(const Vertex_patch& patch, double barrier,
                                               Branches choice)
 {
   constexpr std::size_t largest_branched = 2000; // vertices; larger ones are hardly better
@@ -274,7 +274,7 @@ inline Flip_repair::Mending Flip_repair::mend(const Flip_patch& patch, double ba
 
 // Patches from `begin` on are worked on together until they have so many vertices: some hundredths
 // of a second, in which nobody is asked whether to go on.
-inline std::size_t end_of_group(const std::vector<Flip_patch>& patches, std::size_t begin)
+inline std::size_t end_of_group(const std::vector<Vertex_patch>& patches, std::size_t begin)
 {
   constexpr std::size_t enough = 2000;
   std::size_t end = begin;
@@ -284,7 +284,7 @@ inline std::size_t end_of_group(const std::vector<Flip_patch>& patches, std::siz
 }
 
 inline std::vector<Flip_repair::Mending>
-Flip_repair::mend_patches(const std::vector<Flip_patch>& patches, Branches choice,
+Flip_repair::mend_patches(const std::vector<Vertex_patch>& patches, Branches choice,
                           const Flip_repair_options& options, Flip_repair_report& report)
 {
   std::vector<Mending> mendings(patches.size(), {Outcome::GIVE_UP});
@@ -324,7 +324,7 @@ inline void Flip_repair::mend_all(Faces bad, const Flip_repair_options& options,
   std::size_t last_size = 0;
   for(int rings = options.first_rings; !growing.empty() && rings <= options.last_rings;
       rings *= 2) {
-    const std::vector<Flip_patch> patches = finder.patches_around(growing, rings);
+    const std::vector<Vertex_patch> patches = finder.patches_around(growing, rings);
     const std::vector<Mending> mendings
       = mend_patches(patches, Branches::REFUSE, options, report);
     Faces hopeful;

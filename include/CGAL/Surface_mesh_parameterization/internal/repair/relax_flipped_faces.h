@@ -24,12 +24,7 @@ namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
 
-// What may move together: free vertices, and all faces that have one of them.
-struct Flip_patch
-{
-  std::vector<std::uint32_t> vertices; // ascending
-  std::vector<std::uint32_t> faces;    // ascending
-};
+using Indexed_mesh::Vertex_patch;
 
 // The vertices within `rings` edges of the corners of the faces, ascending.
 // `for_each_neighbor(v, use)` calls use(w) for the neighbours w of v, and maybe for v.
@@ -61,8 +56,7 @@ std::vector<std::uint32_t> vertices_around(const Triangles& triangles,
   return result;
 }
 
-// Finds patches around faces. No face has free vertices of two patches, so that patches can be
-// worked on in any order, and at the same time.
+// Finds patches around faces.
 class Flip_patch_finder
 {
 public:
@@ -75,48 +69,16 @@ public:
 
   // The patches of the vertices within `rings` edges of the faces, by their least vertices. Faces
   // of fixed vertices alone get none.
-  std::vector<Flip_patch> patches_around(const std::vector<std::uint32_t>& faces, int rings);
+  std::vector<Vertex_patch> patches_around(const std::vector<std::uint32_t>& faces, int rings);
 
 private:
-  template <class Use>
-  void for_each_neighbor(std::uint32_t v, const Use& use) const
-  {
-    for(const std::uint32_t* corner = m_at.begin(v); corner != m_at.end(v); ++corner)
-      for(const std::uint32_t w : m_triangles[Indexed_mesh::triangle_of(*corner)])
-        use(w);
-  }
-
-  Flip_patch take_component(std::uint32_t seed);
-
   const Triangles& m_triangles;
   const std::vector<bool>& m_is_fixed;
   const Indexed_mesh::Triangles_at_vertices m_at;
   std::vector<bool> m_is_inside; // of each vertex; all `false` between calls
 };
 
-// The patch of the vertices that are connected with `seed`; they are no longer inside.
-inline Flip_patch Flip_patch_finder::take_component(std::uint32_t seed)
-{
-  Flip_patch patch;
-  patch.vertices.push_back(seed);
-  m_is_inside[seed] = false;
-  for(std::size_t i = 0; i < patch.vertices.size(); ++i) {
-    const std::uint32_t v = patch.vertices[i];
-    for_each_neighbor(v, [&](std::uint32_t w) {
-      if(m_is_inside[w])
-        patch.vertices.push_back(w);
-      m_is_inside[w] = false;
-    });
-    for(const std::uint32_t* corner = m_at.begin(v); corner != m_at.end(v); ++corner)
-      patch.faces.push_back(Indexed_mesh::triangle_of(*corner));
-  }
-  std::sort(patch.vertices.begin(), patch.vertices.end());
-  std::sort(patch.faces.begin(), patch.faces.end());
-  patch.faces.erase(std::unique(patch.faces.begin(), patch.faces.end()), patch.faces.end());
-  return patch;
-}
-
-inline std::vector<Flip_patch>
+inline std::vector<Vertex_patch>
 Flip_patch_finder::patches_around(const std::vector<std::uint32_t>& faces, int rings)
 {
   std::vector<std::uint32_t> movable;
@@ -126,15 +88,11 @@ Flip_patch_finder::patches_around(const std::vector<std::uint32_t>& faces, int r
       movable.push_back(t);
   const std::vector<std::uint32_t> vertices
     = vertices_around(m_triangles, movable, rings, [this](std::uint32_t v, const auto& use) {
-        for_each_neighbor(v, use);
+        Indexed_mesh::for_each_corner_around(m_triangles, m_at, v, use);
       });
   for(const std::uint32_t v : vertices)
     m_is_inside[v] = !m_is_fixed[v];
-  std::vector<Flip_patch> patches;
-  for(const std::uint32_t v : vertices)
-    if(m_is_inside[v])
-      patches.push_back(take_component(v));
-  return patches;
+  return Indexed_mesh::connected_patches(m_triangles, m_at, vertices, m_is_inside);
 }
 
 // The faces whose images do not have a positive area. Here and below, matrix, triangles and map may

@@ -24,7 +24,7 @@ namespace internal {
 // The edges of the faces of a patch that have no opposite among them, by their first vertices; with
 // the number of edges. Empty if two begin at one vertex.
 inline std::vector<std::array<std::uint32_t, 2>>
-border_of_patch(const Flip_patch& patch,
+border_of_patch(const Vertex_patch& patch,
                 const std::vector<Indexed_mesh::Triangle_indices>& triangles)
 {
   typedef std::array<std::uint32_t, 2> Edge;
@@ -48,7 +48,7 @@ border_of_patch(const Flip_patch& patch,
 // For a map without flips the exterior angles of the border have the sum 2 pi (1 + b), b the number
 // of times that faces wind around vertices more than once, whatever the values inside are.
 inline std::optional<long>
-turns_of_border(const Flip_patch& patch,
+turns_of_border(const Vertex_patch& patch,
                 const std::vector<Indexed_mesh::Triangle_indices>& triangles,
                 const std::vector<std::complex<double>>& z)
 {
