@@ -4,26 +4,23 @@
 #ifndef CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_DESCENT_NEWTON_STEPS_H
 #define CGAL_SURFACE_MESH_PARAMETERIZATION_INTERNAL_DESCENT_NEWTON_STEPS_H
 
-#include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Multigrid/Block_values.h>
 #include <CGAL/Multigrid/Conjugate_gradient.h>
 #include <CGAL/Multigrid/Multigrid_levels.h>
 #include <CGAL/Multigrid/Schedule.h>
 #include <CGAL/Multigrid/Sparse_cholesky.h>
 #include <CGAL/Multigrid/Sparse_rows.h>
-#include <CGAL/Multigrid/Split_matrix.h>
 #include <CGAL/Surface_mesh_multigrid/galerkin_rows.h>
 #include <CGAL/Surface_mesh_multiresolution/Prolongation.h>
 #include <CGAL/Surface_mesh_parameterization/internal/descent/Past_steps.h>
-#include <CGAL/Surface_mesh_parameterization/internal/descent/Stretch_level.h>
+#include <CGAL/Surface_mesh_parameterization/internal/descent/stretch_matrix.h>
 
 #include <Eigen/Core>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -31,122 +28,6 @@
 namespace CGAL {
 namespace Surface_mesh_parameterization {
 namespace internal {
-
-// The row of a vertex while it is put together: sums of blocks by their columns.
-class Stretch_row
-{
-public:
-  // A place for up to `length` columns.
-  explicit Stretch_row(std::size_t length)
-    : m_many_columns(length > few ? length : 0), m_many_values(m_many_columns.size())
-  {
-    m_columns = m_many_columns.empty() ? m_few_columns.data() : m_many_columns.data();
-    m_values = m_many_values.empty() ? m_few_values.data() : m_many_values.data();
-  }
-
-  void add_diagonal(const Plane_matrix<double>& b) { m_diagonal += matrix(b); }
-  void add(std::uint32_t w, const Plane_matrix<double>& b)
-  {
-    const std::size_t at = std::find(m_columns, m_columns + m_count, w) - m_columns;
-    if(at < m_count)
-      m_values[at] += matrix(b);
-    else {
-      m_columns[m_count] = w;
-      m_values[m_count++] = matrix(b);
-    }
-  }
-
-  template <class Row>
-  void write(Row& row) const
-  {
-    row.set(m_diagonal, m_count, m_columns, m_values);
-  }
-
-private:
-  static constexpr std::size_t few = 16;
-
-  static Eigen::Matrix2d matrix(const Plane_matrix<double>& b)
-  {
-    return (Eigen::Matrix2d() << b.xx, b.xy, b.yx, b.yy).finished();
-  }
-
-  Eigen::Matrix2d m_diagonal = Eigen::Matrix2d::Zero();
-  std::array<std::uint32_t, few> m_few_columns;
-  std::array<Eigen::Matrix2d, few> m_few_values;
-  std::vector<std::uint32_t> m_many_columns;
-  std::vector<Eigen::Matrix2d> m_many_values;
-  std::uint32_t* m_columns;
-  Eigen::Matrix2d* m_values;
-  std::size_t m_count = 0;
-};
-
-// As many as there are vertices around v, or one more.
-template <class Energy>
-std::uint32_t most_neighbours(const Stretch_level<Energy>& level, Vertex_index v)
-{
-  constexpr std::uint32_t few = 16;
-  const Indexed_mesh::Triangles_at_vertices& corners = level.corners();
-  const std::uint32_t number = corners.number(v);
-  if(number > few)
-    return number + 1;
-  std::array<Vertex_index, few> next;
-  const auto end = std::transform(corners.begin(v), corners.end(v), next.begin(), [&](Halfedge h) {
-    const Indexed_mesh::Triangle_corner corner(h);
-    return level.triangles()[corner.triangle][corner.next];
-  });
-  const bool is_inside = std::all_of(corners.begin(v), corners.end(v), [&](Halfedge h) {
-    const Indexed_mesh::Triangle_corner corner(h);
-    return std::find(next.begin(), end, level.triangles()[corner.triangle][corner.last]) != end;
-  });
-  return is_inside ? number : number + 1;
-}
-
-// A few very stiff triangles hide all others from single precision.
-typedef Multigrid::Split_matrix<Eigen::Matrix2d, std::int16_t> Stretch_matrix;
-
-// The projected second derivative of a level after `linearize()`, without rows for fixed vertices. Sets `gradient` to the first one; 0
-// at fixed vertices.
-template <class Energy>
-Stretch_matrix stretch_matrix(const Stretch_level<Energy>& level, std::vector<Plane_point>& gradient)
-{
-  constexpr std::size_t block_size = 16384;
-  const Indexed_mesh::Triangles_at_vertices& corners = level.corners();
-  std::vector<std::uint32_t> lengths(level.size());
-  Blocked_execution::blocked_for(level.size(), block_size, [&](std::size_t begin, std::size_t end) {
-    for(std::size_t v = begin; v < end; ++v) {
-      lengths[v] = level.is_fixed(v) ? 0 : most_neighbours(level, Vertex_index(v));
-      if(lengths[v] > 0)
-        level.for_each_contact_of(Vertex_index(v), [&](const auto&, int) { lengths[v] += 2; });
-    }
-  });
-  gradient.resize(level.size());
-  const auto fill = [&](std::uint32_t v, auto& result) {
-    Stretch_row row(lengths[v]);
-    Plane_point sum;
-    if(!level.is_fixed(v)) {
-      for(const Halfedge* c = corners.begin(v); c != corners.end(v); ++c) {
-        const std::size_t t = triangle_of(*c);
-        const int corner = int(corner_of(*c));
-        const Stretch_element<double> element = level.element(t);
-        sum = sum + element.gradient(level.reference(t), corner);
-        row.add_diagonal(element.block(level.reference(t), corner, corner));
-        for(int k = 1; k < 3; ++k) {
-          const int other = (corner + k) % 3;
-          row.add(level.triangles()[t][other], element.block(level.reference(t), corner, other));
-        }
-      }
-      level.for_each_contact_of(v, [&](const Border_barrier::Contact& contact, int corner) {
-        sum = sum + contact.gradient(corner);
-        row.add_diagonal(contact.block(corner, corner));
-        for(int k = 1; k < 3; ++k)
-          row.add(contact.corner[(corner + k) % 3], contact.block(corner, (corner + k) % 3));
-      });
-    }
-    row.write(result);
-    gradient[v] = sum;
-  };
-  return Stretch_matrix(lengths, fill);
-}
 
 // Where the cycles get the matrices of coarser levels from.
 enum class Coarse_matrices
@@ -183,13 +64,12 @@ public:
   // Steps made so far say nothing of those to come: what is fixed is elsewhere.
   void forget_past() { m_past.forget(); }
 
-  // Makes one step on the finest level so far, by at most `iterations` iterations, fewer if the
-  // residual is below `residual` of that at first.
+  // Makes one step on the finest level so far, by at most `iterations` iterations.
   template <class Energy>
-  void operator()(Stretch_level<Energy>& level, std::size_t iterations, double residual)
+  void operator()(Stretch_level<Energy>& level, std::size_t iterations)
   {
     double slope = 0.;
-    Vectors step = direction(level, Vectors(), iterations, residual, slope);
+    Vectors step = direction(level, Vectors(), iterations, slope);
     const Descent descent = slope < 0. ? level.go(step, slope) : Descent();
     Multigrid::for_each_index(step.size(), [&](std::size_t v) { step[v] = step[v] * descent.length; });
     m_step = std::move(step);
@@ -219,6 +99,13 @@ public:
   // the energy falls by more than that.
   bool is_stuck(double energy) const { return !(m_gain > 0.) && !(m_solved <= energy); }
 
+  // By how much the energy should have fallen in all, up to the second order, which is known of the last steps.
+  double decrement() const { return m_decrement; }
+  // That of the next step, as far as the matrix of this one tells: most of that step is spared. Infinity after
+  // a short one.
+  template <class Energy>
+  double next_decrement(Stretch_level<Energy>& level);
+
   // The way of each vertex in it; none if there was nowhere to go.
   const Vectors& last_step() const { return m_step; }
 
@@ -226,8 +113,7 @@ public:
   // `pulled`, if it is not empty, and all others as the energy, up to the second order, is least then.
   // Empty if there is nowhere to go.
   template <class Energy>
-  Vectors direction(Stretch_level<Energy>& level, const Vectors& pulled, std::size_t iterations,
-                    double residual, double& slope);
+  Vectors direction(Stretch_level<Energy>& level, const Vectors& pulled, std::size_t iterations, double& slope);
 
   std::size_t iterations() const { return m_iterations; } // of all steps
 
@@ -239,6 +125,8 @@ private:
   // The coarsest matrix is made definite: translations and the rotation change no energy.
   static constexpr double shift = 1e-6;
 
+  static constexpr double residual = 1e-3; // that ends iterations, of that before them
+
   // A few iterations say little of their rate: so many more as good as the last ones are the most that
   // an energy has still to fall.
   static constexpr double tail = 20.;
@@ -249,6 +137,20 @@ private:
   static constexpr std::size_t longest_rest = 16;
 
   static double norm(const Vectors& vectors) { return std::sqrt(Past_steps::product(vectors, vectors)); }
+
+  // Of a linear system: where its energy is least, as far as the iterations got, by how much it fell until then, and
+  // by how much it will fall.
+  struct Solution
+  {
+    Vectors way;
+    double gain = 0., unsolved = 0.;
+    bool is_half_way = true; // surely
+  };
+
+  // For a gradient, or for the way of fixed vertices, see `direction()`.
+  template <class Energy>
+  Solution solve(Vectors gradient, const Stretch_level<Energy>& level, const Vectors& pulled,
+                 std::size_t iterations);
 
   // Products of the matrix on coarser levels; the coarsest may be itself.
   void set_coarser()
@@ -276,16 +178,15 @@ private:
   Past_steps m_past;
   Vectors m_step;
   std::size_t m_rest = 0, m_next_rest = 1; // steps without the past
-  double m_solved = 0., m_unsolved = 0., m_gain = 0.;
+  double m_solved = 0., m_unsolved = 0., m_decrement = 0., m_gain = 0.;
   bool m_is_solved = true, m_is_full = true;
   std::size_t m_iterations = 0;
 };
 
 template <class Energy>
 Newton_steps::Vectors Newton_steps::direction(Stretch_level<Energy>& level, const Vectors& pulled,
-                                              std::size_t iterations, double residual, double& slope)
+                                              std::size_t iterations, double& slope)
 {
-  typedef Eigen::Vector2d Vector;
   level.linearize();
   m_matrix = Stretch_matrix(); // before there is another one
   Vectors().swap(m_step);
@@ -296,25 +197,63 @@ Newton_steps::Vectors Newton_steps::direction(Stretch_level<Energy>& level, cons
     m_past.add(level.places(), std::move(its_own));
   const Vectors& gradient = is_noted ? m_past.gradient() : its_own;
   Vectors rest = m_past.rest_of(gradient);
-  m_solved = m_unsolved = 0.;
+  m_solved = m_unsolved = m_decrement = 0.;
   m_is_solved = true;
   if(m_coarse == Coarse_matrices::GALERKIN || m_coarser.empty())
     set_coarser();
+  Solution found = solve(std::move(rest), level, pulled, iterations);
+  if(found.way.empty())
+    return {};
+  m_solved = found.gain;
+  m_unsolved = found.unsolved;
+  m_is_solved = found.is_half_way;
+  if(is_noted)
+    m_past.leave(level.places());
+  if(pulled.empty())
+    m_past.complete(found.way);
+  slope = Past_steps::product(found.way, gradient);
+  m_decrement = -0.5 * slope + m_unsolved;
+  if(!(slope < 0.))
+    m_past.forget();
+  return std::move(found.way);
+}
+
+template <class Energy>
+double Newton_steps::next_decrement(Stretch_level<Energy>& level)
+{
+  constexpr std::size_t few_iterations = 3; // with fewer no one knows what they leave
+  if(!m_is_full || m_rest > 0)
+    return (std::numeric_limits<double>::infinity)();
+  level.linearize();
+  m_past.add(level.places(), stretch_gradient(level));
+  Solution found = solve(m_past.rest_of(m_past.gradient()), level, Vectors(), few_iterations);
+  m_past.leave(level.places());
+  if(found.way.empty())
+    return (std::numeric_limits<double>::infinity)();
+  m_past.complete(found.way);
+  return found.unsolved - 0.5 * Past_steps::product(found.way, m_past.gradient());
+}
+
+template <class Energy>
+Newton_steps::Solution Newton_steps::solve(Vectors gradient, const Stretch_level<Energy>& level,
+                                           const Vectors& pulled, std::size_t iterations)
+{
+  typedef Eigen::Vector2d Vector;
   Levels levels;
   for(std::size_t l = 0; l < m_coarser.size(); ++l)
     levels.add_level(*m_coarser[l], m_transfers[l]);
   levels.add_level(m_matrix.single(), m_transfers.back());
   if(!levels.coarsest_solver().factorize(m_coarsest))
     return {};
-  double size = norm(rest);
+  double size = norm(gradient);
   if(!pulled.empty() && !(size > 0.))
     size = norm(pulled);
   if(!(size > 0.))
     return {};
-  std::vector<Vector> f(rest.size()), x(rest.size(), Vector::Zero());
+  std::vector<Vector> f(gradient.size()), x(gradient.size(), Vector::Zero());
   for(std::size_t v = 0; v < f.size(); ++v)
-    f[v] = Vector(-rest[v].x / size, -rest[v].y / size);
-  Vectors().swap(rest);
+    f[v] = Vector(-gradient[v].x / size, -gradient[v].y / size);
+  Vectors().swap(gradient);
   for(std::size_t v = 0; v < pulled.size(); ++v)
     if(level.is_fixed(v))
       x[v] = Vector(pulled[v].x / size, pulled[v].y / size);
@@ -329,21 +268,13 @@ Newton_steps::Vectors Newton_steps::direction(Stretch_level<Energy>& level, cons
   const Multigrid::Iteration_report report
     = Multigrid::minimize_energy(m_matrix, std::move(f), x, cycle, stop, [](double) { return true; });
   m_iterations += report.iterations;
-  m_solved = -report.energy * size * size;
-  m_is_solved = report.converged || report.energy_gap <= -report.energy;
-  m_unsolved = report.converged ? 0.
-             : (std::min)(report.energy_gap, tail * report.decrease) * size * size;
-  if(is_noted)
-    m_past.leave(level.places());
-  Vectors direction(x.size());
+  Solution result = {Vectors(x.size()), -report.energy * size * size, 0.,
+                     report.converged || report.energy_gap <= -report.energy};
+  if(!report.converged)
+    result.unsolved = (std::min)(report.energy_gap, tail * report.decrease) * size * size;
   for(std::size_t v = 0; v < x.size(); ++v)
-    direction[v] = Plane_point{x[v].x(), x[v].y()} * size;
-  if(pulled.empty())
-    m_past.complete(direction);
-  slope = Past_steps::product(direction, gradient);
-  if(!(slope < 0.))
-    m_past.forget();
-  return direction;
+    result.way[v] = Plane_point{x[v].x(), x[v].y()} * size;
+  return result;
 }
 
 } // namespace internal

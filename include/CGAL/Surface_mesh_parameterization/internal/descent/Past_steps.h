@@ -118,61 +118,6 @@ private:
   Vectors m_places, m_gradient;
 };
 
-// How much an iteration has still to gain, by what its steps gained: the last gain goes on as a
-// geometric series.
-class Remaining_gain
-{
-public:
-  // Takes note of what a step gained, which was off from what the second order foretold by a part
-  // `surprise` of that, and whether it was not made short.
-  void add(double gain, double surprise, bool is_full)
-  {
-    m_gains.push_back(gain);
-    m_surprise = surprise;
-    m_was_full = m_is_full;
-    m_is_full = is_full;
-  }
-
-  // Whether there was one step only.
-  bool is_first() const { return m_gains.size() == 1; }
-
-  // The slowest mean rate over the last one, two, four, eight and sixteen steps counts. A small gain after a
-  // large one may be luck: an eighth of that counts. Less is left where the iteration is known to be
-  // fast: by how well the first gain was foretold, and how small the last one is beside that before.
-  double value() const
-  {
-    const std::size_t n = m_gains.size();
-    if(n == 0)
-      return 0.;
-    const double last = m_gains[n - 1], before = gain_before();
-    double rate = before > 0. ? (std::max)(usual_rate, last / before) : usual_rate;
-    for(std::size_t span = 1; span <= 16 && span + 1 < n; span *= 2)
-      if(larger_of_two(n - 1 - span) > 0.)
-        rate = (std::max)(rate, std::pow(larger_of_two(n - 1) / larger_of_two(n - 1 - span),
-                                         1. / double(span)));
-    rate = (std::min)(rate, largest_rate);
-    const double part = before > 0. ? last / before / fast : std::pow(m_surprise / fast, 2.);
-    return (std::max)(last, before / 8.) * rate / (1. - rate)
-         * (std::min)(1., (std::max)(least_part, part));
-  }
-
-private:
-  static constexpr double usual_rate = 0.8, largest_rate = 0.98, fast = 0.2, least_part = 0.1;
-
-  double larger_of_two(std::size_t i) const { return (std::max)(m_gains[i], m_gains[i - 1]); }
-
-  // That of a step that was made short says little.
-  double gain_before() const
-  {
-    const std::size_t n = m_gains.size();
-    return n > 2 && !m_was_full ? larger_of_two(n - 2) : n > 1 ? m_gains[n - 2] : 0.;
-  }
-
-  std::vector<double> m_gains;
-  double m_surprise = 0.;
-  bool m_is_full = true, m_was_full = true;
-};
-
 } // namespace internal
 } // namespace Surface_mesh_parameterization
 } // namespace CGAL

@@ -115,7 +115,7 @@ std::vector<Plane_point> relaxed(const Stretch_level<Energy>& level, const Level
 {
   constexpr int most_steps = 15;
   constexpr std::size_t iterations = 2; // of conjugate gradients, beside a factorization
-  constexpr double residual = 1e-3, little = 0.03;
+  constexpr double little = 0.03;
   std::vector<Plane_point> places;
   for(const Vertex_index v : part.vertices)
     places.push_back(level.places()[v]);
@@ -125,7 +125,7 @@ std::vector<Plane_point> relaxed(const Stretch_level<Energy>& level, const Level
   newton.add_level(nullptr);
   const double before = alone.value();
   for(int i = 0; i < most_steps; ++i) {
-    newton(alone, iterations, residual);
+    newton(alone, iterations);
     const double gain = newton.gain() + alone.sweep(0.);
     if(!(gain > (std::max)(least, little * (before - alone.value()))))
       break;

@@ -6,10 +6,12 @@
 
 #include <CGAL/Blocked_execution/Progress.h>
 #include <CGAL/Surface_mesh_parameterization/Low_stretch_options.h>
+#include <CGAL/Surface_mesh_parameterization/internal/descent/Remaining_gain.h>
 #include <CGAL/Surface_mesh_parameterization/internal/descent/relax_turned_parts.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Stretch_hierarchy.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/Vertex_insertion.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/circle_map.h>
+#include <CGAL/Surface_mesh_parameterization/internal/low_stretch/hold_pins.h>
 #include <CGAL/Surface_mesh_parameterization/internal/low_stretch/reach_pins.h>
 
 #include <algorithm>
@@ -84,7 +86,6 @@ private:
 
   static constexpr std::size_t iterations = 5;   // of conjugate gradients, a Newton step
   static constexpr std::size_t many_iterations = 20; // where these were too few
-  static constexpr double residual = 1e-3;       // that ends them, of that before them
   static constexpr double rounding = 1e-13;      // of an energy
   // Steps on the finest level after which the matrices of coarser ones are no longer trusted: on long
   // tubes and steep noise triangles are stretched otherwise there.
@@ -116,14 +117,16 @@ private:
   bool start(std::vector<Plane_point>& places);
   bool insert(std::size_t first, std::size_t last, std::vector<Plane_point>& places);
   template <class Level_energy>
-  bool hold_pins(const Level_energy& energy, std::vector<Plane_point>& z);
-  template <class Level_energy>
   void minimize(std::size_t l, const Level_energy& energy, std::vector<Plane_point>& places);
   template <class Level>
   void descend(Level& level, std::size_t l);
   std::size_t most_steps(std::size_t l) const;
   template <class Level>
   bool is_enough(const Level& level, std::size_t l, const Newton_steps& newton, double swept);
+  template <class Level>
+  bool is_enough_after_parts(Level& level);
+  template <class Level>
+  double tolerance(const Level& level) const;
 
   const Low_stretch_options& m_options;
   const Energy& m_energy;
@@ -273,77 +276,44 @@ std::size_t Low_stretch_solver<Energy>::most_steps(std::size_t l) const
   return std::size_t((std::min)(20., std::ceil(std::pow(m_levels.ratio_to_finest(l), 0.7))));
 }
 
-// Whether the energy that a level has still to lose is small enough: by what its steps gained and, on
-// the finest one, what the last linear system left. Steps that triangles made short say nothing of it; in
-// one-to-one maps, where borders do so, what they should have gained. Finer levels lose what is left, too.
+// Whether the energy that a level has still to lose is small enough. Finer levels lose what is left, too.
 template <class Energy> template <class Level>
 bool Low_stretch_solver<Energy>::is_enough(const Level& level, std::size_t l, const Newton_steps& newton,
                                            double swept)
 {
-  constexpr double tolerance_of_coarsest = 1e-7;
-  const double tolerance_of_coarse = m_levels.is_one_to_one() ? 1e-5 // or borders get stuck
+  const bool is_one_to_one = m_levels.is_one_to_one();
+  const double tolerance_of_coarse = is_one_to_one ? 1e-5 // or borders get stuck
                                    : (std::max)(1e-5, 0.3 * m_options.tolerance);
-  constexpr double doubt = 10., likely = 0.5; // where few stiff triangles hide all others; of what may be unsolved
-  m_gains.add(newton.gain() + swept, newton.surprise(), newton.is_full());
-  m_report.energy_gap = m_gains.value() / level.value();
-  if(l == 0 || l + 1 < m_levels.number_of_levels())
-    return m_report.energy_gap <= (l == 0 ? tolerance_of_coarsest : tolerance_of_coarse);
-  const bool is_doubtful = swept > newton.gain() || !(newton.is_solved() || m_gains.is_first());
-  const auto at_least = [&](double e) { return (std::max)(m_report.energy_gap, e / level.value()); };
-  if(!m_levels.is_one_to_one())
-    m_report.energy_gap = at_least(newton.unsolved()) * (is_doubtful ? doubt : 1.);
-  else if(!newton.is_full())
-    m_report.energy_gap = at_least(newton.foretold() + likely * newton.unsolved());
-  // Where all can be mapped with hardly any stretch, what there is counts more
-  const double stretch = 1. - m_energy.value(2., 1.) / level.mean();
-  const bool tells = m_levels.is_one_to_one() || newton.is_full();
-  return m_report.energy_gap
-      <= (std::max)(rounding, tells ? m_options.tolerance * (std::min)(1., 10. * stretch) : 0.);
+  m_gains.add(newton, swept);
+  if(l == 0 || l + 1 < m_levels.number_of_levels()) {
+    m_report.energy_gap = m_gains.value() / level.value();
+    return m_report.energy_gap <= (l == 0 ? Remaining_gain::tolerance_of_coarsest : tolerance_of_coarse);
+  }
+  m_report.energy_gap = m_gains.value_on_finest(newton, is_one_to_one) / level.value();
+  return m_report.energy_gap <= (is_one_to_one || newton.is_full() ? tolerance(level) : rounding);
 }
 
-// Brings the pins of the coarsest level, which has all of them, to their places: by Tutte's map if they
-// are a border that allows it, or else from a map without pins.
-template <class Energy> template <class Level_energy>
-bool Low_stretch_solver<Energy>::hold_pins(const Level_energy& energy, std::vector<Plane_point>& z)
+// The same on the finest level by what the next step should gain, after what turned is relaxed alone.
+template <class Energy> template <class Level>
+bool Low_stretch_solver<Energy>::is_enough_after_parts(Level& level)
 {
-  constexpr int steps = 100;
-  constexpr std::size_t soon_done = 1000; // vertices, with which there is no need to give up
-  const std::vector<Triangle_indices>& triangles = m_levels[0].mesh.triangles;
-  const auto reference = m_levels.triangles_of(0);
-  const std::vector<Held_vertex> held = m_levels.held_of(0);
-  const auto goes_on_here = [&](double) { return goes_on(0.) || m_levels[0].vertices.size() < soon_done; };
-  Circle_map tutte(m_levels[0].mesh);
-  const std::vector<Plane_point> border_map = tutte.run(held);
-  std::vector<Giving_way> ways = {Giving_way::AT_ONCE};
-  Newton_steps newton;
-  newton.add_level(nullptr);
-  if(is_valid(triangles, border_map) && tutte.goes_around_once(border_map))
-    z = border_map;
-  else {
-    Stretch_level<Level_energy> level(triangles, reference, std::move(z), {}, energy);
-    level.scale();
-    level.keep_apart(m_levels.borders_of(0));
-    m_gains = Remaining_gain();
-    for(int i = 0; i < steps; ++i) {
-      newton(level, iterations, residual);
-      if(is_enough(level, 0, newton, level.sweep(0.)))
-        break;
-    }
-    z = level.places();
-    align(held, z);
-    if(border_map.empty() && !m_levels.is_one_to_one())
-      ways.insert(ways.begin(), Giving_way::AFTERWARDS);
-  }
-  m_misses_pins = true;
-  for(std::size_t i = 0; m_misses_pins && i < ways.size(); ++i) {
-    Stretch_level<Level_energy> level(triangles, reference, z, m_levels.fixed_of(0), energy);
-    level.keep_apart(m_levels.borders_of(0));
-    m_misses_pins = !std::isfinite(level.value())
-                 || !reach_pins(level, newton, held, ways[i], goes_on_here);
-    if(!m_misses_pins)
-      z = level.places();
-  }
-  return !m_misses_pins;
+  constexpr double hopeful = 0.1; // part of what the last step should have gained
+  relax_turned_parts(level, m_newton, m_options.tolerance);
+  const double most = tolerance(level);
+  if(!m_newton.is_solved() || m_gains.is_doubtful(m_newton)
+     || m_gains.value(hopeful * m_newton.decrement()) > most * level.value())
+    return false;
+  const double gap = m_gains.value(m_newton.next_decrement(level)) / level.value();
+  m_report.energy_gap = (std::min)(m_report.energy_gap, gap);
+  return gap <= most;
+}
+
+// That of the finest level. Where all can be mapped with hardly any stretch, what there is counts more.
+template <class Energy> template <class Level>
+double Low_stretch_solver<Energy>::tolerance(const Level& level) const
+{
+  const double stretch = 1. - m_energy.value(2., 1.) / level.mean();
+  return (std::max)(rounding, m_options.tolerance * (std::min)(1., 10. * stretch));
 }
 
 template <class Energy> template <class Level_energy>
@@ -351,8 +321,11 @@ void Low_stretch_solver<Energy>::minimize(std::size_t l, const Level_energy& ene
                                           std::vector<Plane_point>& places)
 {
   std::vector<Plane_point> z = m_levels.take_places(l, places);
-  if(l == 0 && m_levels.has_held() && !hold_pins(energy, z))
-    return;
+  if(l == 0 && m_levels.has_held()) {
+    m_misses_pins = !hold_pins(m_levels, energy, z, [this] { return goes_on(0.); });
+    if(m_misses_pins)
+      return;
+  }
   Stretch_level<Level_energy> level(m_levels[l].mesh.triangles, m_levels.triangles_of(l), std::move(z),
                                     m_levels.fixed_of(l), energy);
   if(l == 0 && !m_levels.has_held())
@@ -378,13 +351,13 @@ void Low_stretch_solver<Energy>::descend(Level& level, std::size_t l)
       const bool is_hard = is_finest && !m_levels.is_one_to_one() && !m_newton.is_solved();
       if(is_hard || (is_finest && steps == patience))
         m_newton.use(Coarse_matrices::GALERKIN);
-      m_newton(level, is_hard ? many_iterations : iterations, residual);
+      m_newton(level, is_hard ? many_iterations : iterations);
       const bool is_stuck = m_newton.is_stuck((std::max)(rounding, m_options.tolerance) * level.value());
       const double swept = level.sweep(is_stuck ? share_of_queue : 0.);
       is_done = is_enough(level, l, m_newton, swept) && !is_stuck;
-      m_report.converged = is_done && is_finest;
       if(is_finest && !is_done && !m_levels.is_one_to_one())
-        relax_turned_parts(level, m_newton, m_options.tolerance);
+        is_done = is_enough_after_parts(level);
+      m_report.converged = is_done && is_finest;
     }
   }
   m_report.energy = m_mean = level.mean();

@@ -68,17 +68,16 @@ bool reach_pins(Stretch_level<Energy>& level, Newton_steps& newton, const std::v
   const int attempts = is_at_once ? 60 : 300;
   const std::size_t iterations = is_at_once ? 20 : 5;
   constexpr int steps = 3;
-  constexpr double residual = 1e-3;
   for(int i = 0; i < attempts && !are_there(held, level.places()) && goes_on(double(i) / attempts);
       ++i) {
     const std::vector<Plane_point> ways = ways_to(held, level.places());
     newton.forget_past();
     double slope = 0.;
     const std::vector<Plane_point> direction
-      = is_at_once ? newton.direction(level, ways, iterations, residual, slope) : ways;
+      = is_at_once ? newton.direction(level, ways, iterations, slope) : ways;
     if(!level.move_towards(held, direction.empty() ? ways : direction))
       for(int step = 0; step < steps; ++step)
-        newton(level, iterations, residual);
+        newton(level, iterations);
     level.sweep(1.);
   }
   return are_there(held, level.places());
