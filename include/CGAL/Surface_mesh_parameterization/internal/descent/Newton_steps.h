@@ -125,7 +125,9 @@ private:
   // The coarsest matrix is made definite: translations and the rotation change no energy.
   static constexpr double shift = 1e-6;
 
-  static constexpr double residual = 1e-3; // that ends iterations, of that before them
+  // What ends iterations: the residual, of that before them, or what the energy will still fall by, as far as can be
+  // estimated, of what it fell by; a better direction gains hardly more.
+  static constexpr double residual = 1e-3, part_left = 0.03;
 
   // A few iterations say little of their rate: so many more as good as the last ones are the most that
   // an energy has still to fall.
@@ -258,7 +260,7 @@ Newton_steps::Solution Newton_steps::solve(Vectors gradient, const Stretch_level
     if(level.is_fixed(v))
       x[v] = Vector(pulled[v].x / size, pulled[v].y / size);
   Multigrid::Energy_stop stop;
-  stop.tolerance = 0.;
+  stop.tolerance = part_left;
   stop.residual_tolerance = residual;
   stop.maximal_iterations = iterations;
   const auto schedule = Multigrid::Schedule::v_cycle(1, 1);
@@ -268,10 +270,10 @@ Newton_steps::Solution Newton_steps::solve(Vectors gradient, const Stretch_level
   const Multigrid::Iteration_report report
     = Multigrid::minimize_energy(m_matrix, std::move(f), x, cycle, stop, [](double) { return true; });
   m_iterations += report.iterations;
-  Solution result = {Vectors(x.size()), -report.energy * size * size, 0.,
+  const double most = report.converged ? -part_left * report.energy : tail * report.decrease;
+  Solution result = {Vectors(x.size()), -report.energy * size * size,
+                     (std::min)(report.energy_gap, most) * size * size,
                      report.converged || report.energy_gap <= -report.energy};
-  if(!report.converged)
-    result.unsolved = (std::min)(report.energy_gap, tail * report.decrease) * size * size;
   for(std::size_t v = 0; v < x.size(); ++v)
     result.way[v] = Plane_point{x[v].x(), x[v].y()} * size;
   return result;
