@@ -88,7 +88,7 @@ struct Known_steps
 // By the matrix of the last step, and three iterations, nearly as by its own one, and five.
 TEST(Newton_steps, foretell_the_next_one)
 {
-  const Indexed_triangle_mesh mesh = with_hills(irregular_grid(40, 40, seed), 4., seed);
+  const Indexed_triangle_mesh mesh = with_hills(irregular_grid(14, 14, seed), 2., seed);
   Level level = projected(mesh);
   Newton_steps newton = steps_on_one_level();
   std::size_t foretold = 0;
@@ -111,16 +111,16 @@ TEST(Newton_steps, foretell_the_next_one)
 // Near the minimum it is what is left, but for what the projection of the second derivative takes.
 TEST(Newton_steps, foretell_what_is_left_near_the_minimum)
 {
-  const Indexed_triangle_mesh mesh = with_hills(irregular_grid(40, 40, seed), 4., seed);
+  const Indexed_triangle_mesh mesh = with_hills(irregular_grid(14, 14, seed), 2., seed);
   Level level = projected(mesh);
   Newton_steps newton = steps_on_one_level();
   std::vector<double> energies, foretold;
-  for(int i = 0; i < 25; ++i) {
+  for(int i = 0; i < 12; ++i) {
     newton(level, 20);
     energies.push_back(level.value());
     foretold.push_back(newton.next_decrement(level));
   }
-  for(int i = 3; i < 25; ++i) {
+  for(int i = 3; i < 12; ++i) {
     const double left = energies[i] - energies.back();
     if(left > 1e-9 * energies.back()) {
       EXPECT_GT(left, 0.8 * foretold[i]) << "after step " << i;
@@ -131,7 +131,7 @@ TEST(Newton_steps, foretell_what_is_left_near_the_minimum)
 
 TEST(Newton_steps, to_ask_for_the_next_one_changes_nothing)
 {
-  const Indexed_triangle_mesh mesh = with_hills(irregular_grid(30, 30, seed), 4., seed);
+  const Indexed_triangle_mesh mesh = with_hills(irregular_grid(12, 12, seed), 2., seed);
   Level asked = projected(mesh), silent = projected(mesh);
   Newton_steps a = steps_on_one_level(), b = steps_on_one_level();
   for(int i = 0; i < 6; ++i) {
@@ -149,14 +149,14 @@ TEST(Newton_steps, to_ask_for_the_next_one_changes_nothing)
 TEST(Newton_steps, foretell_nothing_after_a_short_one)
 {
   std::size_t full = 0, is_short = 0;
-  for(double angle = 0.; angle < 3.; angle += 0.2) {
-    Indexed_triangle_mesh mesh = irregular_grid(20, 20, seed);
+  for(double angle = 0.; angle < 3.; angle += 0.3) {
+    Indexed_triangle_mesh mesh = irregular_grid(14, 14, seed);
     Level level = projected(mesh);
     std::vector<Plane_point> places = level.places();
     for(Plane_point& p : places) {
-      const Plane_point way = p - Plane_point{10., 10.};
-      const double turn = angle * std::exp(-0.05 * way.squared_length());
-      p = Plane_point{10., 10.} + way.times({std::cos(turn), std::sin(turn)});
+      const Plane_point way = p - Plane_point{7., 7.};
+      const double turn = angle * std::exp(-0.1 * way.squared_length());
+      p = Plane_point{7., 7.} + way.times({std::cos(turn), std::sin(turn)});
     }
     level.put(std::move(places));
     Newton_steps newton = steps_on_one_level();

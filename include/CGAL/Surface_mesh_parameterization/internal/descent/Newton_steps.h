@@ -229,7 +229,6 @@ double Newton_steps::next_decrement(Stretch_level<Energy>& level)
   level.linearize();
   m_past.add(level.places(), stretch_gradient(level));
   Solution found = solve(m_past.rest_of(m_past.gradient()), level, Vectors(), few_iterations);
-  m_past.leave(level.places());
   if(found.way.empty())
     return (std::numeric_limits<double>::infinity)();
   m_past.complete(found.way);
