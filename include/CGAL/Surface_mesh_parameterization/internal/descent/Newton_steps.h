@@ -101,8 +101,8 @@ public:
 
   // By how much the energy should have fallen in all, up to the second order, which is known of the last steps.
   double decrement() const { return m_decrement; }
-  // That of the next step, as far as the matrix of this one tells: most of that step is spared. Infinity after
-  // a short one.
+  // That of the next step, as far as the matrix of this one tells: most of that step is spared. Infinity if it is not
+  // known, as after a short one.
   template <class Energy>
   double next_decrement(Stretch_level<Energy>& level);
 
@@ -224,15 +224,17 @@ template <class Energy>
 double Newton_steps::next_decrement(Stretch_level<Energy>& level)
 {
   constexpr std::size_t few_iterations = 3; // with fewer no one knows what they leave
+  constexpr double infinity = (std::numeric_limits<double>::infinity)();
   if(!m_is_full || m_rest > 0)
-    return (std::numeric_limits<double>::infinity)();
+    return infinity;
   level.linearize();
   m_past.add(level.places(), stretch_gradient(level));
   Solution found = solve(m_past.rest_of(m_past.gradient()), level, Vectors(), few_iterations);
   if(found.way.empty())
-    return (std::numeric_limits<double>::infinity)();
+    return infinity;
   m_past.complete(found.way);
-  return found.unsolved - 0.5 * Past_steps::product(found.way, m_past.gradient());
+  const double slope = Past_steps::product(found.way, m_past.gradient());
+  return slope < 0. ? found.unsolved - 0.5 * slope : infinity;
 }
 
 template <class Energy>

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace CGAL {
@@ -82,13 +83,12 @@ public:
     std::vector<double> all = m_decrements;
     all.push_back(next_decrement);
     const double rate = slowest_rate(all.size() - 1, 0, [&all](std::size_t i) { return all[i]; });
-    const double slow = rate < 1. ? least / std::pow(1. - std::sqrt(rate), 2.) : 1. / rounding;
+    const double slow = rate < 1. ? least / std::pow(1. - std::sqrt(rate), 2.)
+                                  : (std::numeric_limits<double>::infinity)();
     return next_decrement * (m_gains.size() <= few_steps ? (std::min)(usual, slow) : slow);
   }
 
 private:
-  static constexpr double rounding = 1e-16;
-
   double larger_gain(std::size_t i) const { return (std::max)(m_gains[i], m_gains[i - 1]); }
 
   // That of a step that was made short says little.

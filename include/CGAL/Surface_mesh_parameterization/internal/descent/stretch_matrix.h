@@ -124,8 +124,8 @@ std::vector<Plane_point> stretch_gradient(const Stretch_level<Energy>& level)
 // A few very stiff triangles hide all others from single precision.
 typedef Multigrid::Split_matrix<Eigen::Matrix2d, std::int16_t> Stretch_matrix;
 
-// The projected second derivative of a level after `linearize()`, without rows for fixed vertices. Sets `gradient` to the first one; 0
-// at fixed vertices.
+// The projected second derivative of a level after `linearize()`, without rows for fixed vertices. Sets `gradient`
+// to the first one; 0 at fixed vertices.
 template <class Energy>
 Stretch_matrix stretch_matrix(const Stretch_level<Energy>& level, std::vector<Plane_point>& gradient)
 {
