@@ -4,6 +4,7 @@
 // Newton's method for maps with little stretch: what it foretells of the next step, and what may be left.
 
 #include <support/chart_generators.h>
+#include <support/stretch_levels.h>
 
 #include <CGAL/Surface_mesh_parameterization/internal/descent/Remaining_gain.h>
 
@@ -23,22 +24,11 @@ namespace SMP_internal = CGAL::Surface_mesh_parameterization::internal;
 using SMP_internal::Newton_steps;
 using SMP_internal::Plane_point;
 using SMP_internal::Remaining_gain;
-typedef SMP_internal::Stretch_level<Symmetric_dirichlet_energy> Level;
+typedef Dirichlet_level Level;
 
 constexpr std::uint64_t seed = 20261202;
 
-// The projection of hills.
-Level projected(const Indexed_triangle_mesh& mesh)
-{
-  std::vector<Plane_point> places;
-  for(const Point_3& p : mesh.points)
-    places.push_back({p.x(), p.y()});
-  const auto reference = [&mesh](std::size_t t) {
-    const auto& v = mesh.triangles[t];
-    return Reference_triangle<double>::of_points(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]);
-  };
-  return Level(mesh.triangles, reference, std::move(places), {}, Symmetric_dirichlet_energy());
-}
+Level projected(const Indexed_triangle_mesh& mesh) { return level_of(mesh, projection(mesh)); }
 
 Newton_steps steps_on_one_level()
 {

@@ -5,6 +5,7 @@
 // energy falls, and that threads change nothing.
 
 #include <support/chart_generators.h>
+#include <support/stretch_levels.h>
 
 #include <CGAL/Blocked_execution/blocked_for.h>
 #include <CGAL/Surface_mesh_parameterization/internal/descent/relax_turned_parts.h>
@@ -25,7 +26,7 @@ using namespace CGAL::Surface_mesh_parameterization;
 using namespace test_support;
 namespace SMP_internal = CGAL::Surface_mesh_parameterization::internal;
 using SMP_internal::Plane_point;
-typedef SMP_internal::Stretch_level<Symmetric_dirichlet_energy> Level;
+typedef Dirichlet_level Level;
 
 constexpr std::uint64_t seed = 20261201;
 constexpr Vertex_index side = 61;
@@ -36,15 +37,10 @@ struct Turned_map
   explicit Turned_map(double angle, std::vector<bool> is_fixed = {})
     : mesh(with_hills(irregular_grid(side - 1, side - 1, seed), 0.5, seed))
   {
-    std::vector<Plane_point> places;
-    for(const Point_3& p : mesh.points)
-      places.push_back({p.x(), p.y()});
+    std::vector<Plane_point> places = projection(mesh);
     for(const std::size_t middle : {15 * side + 15, 45 * side + 45})
       turn(places, places[middle], angle);
-    level.emplace(mesh.triangles, [this](std::size_t t) {
-      const auto& v = mesh.triangles[t];
-      return Reference_triangle<double>::of_points(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]);
-    }, std::move(places), std::move(is_fixed), Symmetric_dirichlet_energy());
+    level.emplace(level_of(mesh, std::move(places), std::move(is_fixed)));
   }
 
   // By less the further away.

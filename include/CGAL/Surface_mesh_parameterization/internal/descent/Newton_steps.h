@@ -43,6 +43,9 @@ class Newton_steps
 public:
   typedef std::vector<Plane_point> Vectors;
 
+  // Of conjugate gradients, a step, and where these are too few.
+  static constexpr std::size_t usual_iterations = 5, many_iterations = 20;
+
   explicit Newton_steps(Coarse_matrices coarse = Coarse_matrices::OF_LAST_STEPS) : m_coarse(coarse) {}
 
   // Begins with the next finer level; `from_coarser` is null for the first. It must live as long as

@@ -84,8 +84,6 @@ private:
   // Coarse levels need a barrier: where triangles collapse there is no place for more of them.
   typedef std::conditional_t<Has_barrier<Energy>::value, Energy, Barrier_energy<Energy>> Coarse_energy;
 
-  static constexpr std::size_t iterations = 5;   // of conjugate gradients, a Newton step
-  static constexpr std::size_t many_iterations = 20; // where these were too few
   static constexpr double rounding = 1e-13;      // of an energy
   // Steps on the finest level after which the matrices of coarser ones are no longer trusted: on long
   // tubes and steep noise triangles are stretched otherwise there.
@@ -351,7 +349,7 @@ void Low_stretch_solver<Energy>::descend(Level& level, std::size_t l)
       const bool is_hard = is_finest && !m_levels.is_one_to_one() && !m_newton.is_solved();
       if(is_hard || (is_finest && steps == patience))
         m_newton.use(Coarse_matrices::GALERKIN);
-      m_newton(level, is_hard ? many_iterations : iterations);
+      m_newton(level, is_hard ? Newton_steps::many_iterations : Newton_steps::usual_iterations);
       const bool is_stuck = m_newton.is_stuck((std::max)(rounding, m_options.tolerance) * level.value());
       const double swept = level.sweep(is_stuck ? share_of_queue : 0.);
       is_done = is_enough(level, l, m_newton, swept) && !is_stuck;

@@ -26,7 +26,6 @@ bool hold_pins(const Stretch_hierarchy& levels, const Energy& energy, std::vecto
                const Goes_on& goes_on)
 {
   constexpr int steps = 100;
-  constexpr std::size_t iterations = 5;
   constexpr std::size_t soon_done = 1000; // vertices, with which there is no need to give up
   const std::vector<Triangle_indices>& triangles = levels[0].mesh.triangles;
   const auto reference = levels.triangles_of(0);
@@ -45,7 +44,7 @@ bool hold_pins(const Stretch_hierarchy& levels, const Energy& energy, std::vecto
     level.keep_apart(levels.borders_of(0));
     Remaining_gain gains;
     for(int i = 0; i < steps; ++i) {
-      newton(level, iterations);
+      newton(level, Newton_steps::usual_iterations);
       gains.add(newton, level.sweep(0.));
       if(gains.value() <= Remaining_gain::tolerance_of_coarsest * level.value())
         break;

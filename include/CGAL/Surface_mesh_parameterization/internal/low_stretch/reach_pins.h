@@ -66,7 +66,7 @@ bool reach_pins(Stretch_level<Energy>& level, Newton_steps& newton, const std::v
 {
   const bool is_at_once = giving_way == Giving_way::AT_ONCE;
   const int attempts = is_at_once ? 60 : 300;
-  const std::size_t iterations = is_at_once ? 20 : 5;
+  const std::size_t iterations = is_at_once ? Newton_steps::many_iterations : Newton_steps::usual_iterations;
   constexpr int steps = 3;
   for(int i = 0; i < attempts && !are_there(held, level.places()) && goes_on(double(i) / attempts);
       ++i) {
